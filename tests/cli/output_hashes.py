@@ -52,7 +52,7 @@ MEMORY = 6 << 30
 
 SELFINTERSECT = """
 detect                 all     {f} --pairs pairs.csv --curves curves.obj -o marked.ply
-page                   small   {f} --touching --html page.html
+page                   small   {f} --touching --html page.html --png p.png --png-size 320x240
 touching               all     {f} --touching --pairs pairs.csv --curves curves.ply -o marked.glb
 vertices=file          all     {f} --vertices file --pairs pairs.csv
 vertices=equal         all     {f} --vertices equal --pairs pairs.csv
@@ -117,7 +117,8 @@ inside=odd             pairs   union {a} {b} --matrix 2:{m} --inside odd -o out.
 inside=positive        pairs   difference {a} {b} --matrix 2:{m} --inside positive -o out.ply \
                                --max-move 0
 check/pair             pairs   --check {a} {b} --matrix 2:{m}
-page                   pairs   union {a} {b} --matrix 2:{m} -n --html page.html
+page                   pairs   union {a} {b} --matrix 2:{m} -n --html page.html --png p.png --png-size \
+                               320x240 --view all
 dry                    pairs   xor {a} {b} -n
 self/stl               all     union {f} -o out.stl
 self/ply               small   union {f} -o out.ply --precision double
@@ -181,6 +182,7 @@ keep-manifold/chain    small   {f} -t 1% --rule chain --keep-manifold --borders 
 keep-degenerate        small   {f} -t 1% --keep-degenerate -o out.ply
 label                  small   {f} -t 1% --label group -o out.ply
 check                  all     {f} --check -t 0.1%
+picture                small   {f} -t 1% -n --html page.html --png p.png --png-size 320x240
 dry                    few     {f} -n -t 1% -v
 threads                few     {f} -t 1% -j 1 -o one.ply ; {f} -t 1% -j 5 -o five.ply
 in-place               few     {f} -o in.ply ; in.ply -t 1% --in-place
@@ -278,6 +280,10 @@ measure/clearance      pairs   measure {b} --start {m} --fixed {a} --clearance 5
 measure/there          pairs   measure {a} --fixed {b} -v
 measure/self           small   measure {f} --fixed {f} --start made/turn.txt -o out.glb
 measure/box            all     measure {f} --fixed made/box.obj --clearance 10%
+measure/picture        small   measure {f} --fixed made/box.obj --html page.html --png p.png \
+                               --png-size 320x240 --view iso,top
+clash/picture          pairs   clash {a} {b} --clearance 1% --html page.html --png p.png \
+                               --png-size 320x240
 fit                    pairs   fit {b} --start made/turn.txt --fixed {b} -o out.ply --matrix m.txt
 fit/scale              pairs   fit {b} --start {m} --fixed {a} --scale --overlap 0.5 -o out.obj
 fit/far                small   fit {f} --fixed {f} --start made/turn.txt --max-distance 20% -o \

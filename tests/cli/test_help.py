@@ -19,7 +19,7 @@ VALUES = {"X,Y,Z": "0,0,-1", "X,Y[,Z]": "9,9", "DIST": "1", "SEC": "1", "DEG": "
           "SIZE": "none", "DIR": "dir", "TEXT": "text", "A:B": "a:b", "RULE": "odd", "P": "p",
           "FACE|X,Y,Z": "1", "KIND": "plane", "EXT": "ply", "SET": "90", "EXPR": "a+b",
           "N:FILE": "1:m", "SHARE": "1%", "WHEN": "never", "V,...": "iso,top", "WxH": "90x60"}
-WORDS = {"--precision": "float", "--weights": "welsch", "--metric": "plane"}
+WORDS = {"--precision": "float", "--png": "p.png", "--weights": "welsch", "--metric": "plane"}
 # Options that are refused without others, or beside -o.
 WITH = {"--pick": ["--feature", "plane"], "--pick-fixed": ["--feature", "plane"],
         "--view": ["--png", "p.png"], "--png-size": ["--png", "p.png"],
@@ -66,6 +66,21 @@ class Help(ToolTest):
                 if mode not in ("clash", "check"):
                     self.assertLess(set(options_of(text)), set(whole))
                 self.assertNotRegex(text, r"(?m)^.{26}(\w+, )*(" + "|".join(modes) + "): ")
+
+    def test_a_mode_says_nothing_of_others_and_its_lines_are_full(self):
+        output = {mode: " ".join(re.search(r"-o, --output FILE ((?s:.*?))\n +--", self.help_of("place", mode))
+                                 .group(1).split()) for mode in MODES["place"] if mode != "check"}
+        self.assertEqual(output["lay"], "MOVING at its new place")
+        self.assertEqual(output["slide"],
+                         "MOVING at its new place; PLY, GLB: faces that penetrate --fixed are red, touching "
+                         "yellow, closer than --clearance or stopped at it cyan (if they had no colors)")
+        self.assertTrue(output["measure"].startswith("MOVING where it is; PLY, GLB: "))
+        for mode in MODES["place"]:
+            if mode != "drop":
+                self.assertNotIn("drop with", self.help_of("place", mode))
+        self.assertIn("drop with --fixed has none", self.help_of("place", "drop"))
+        self.assertIn("Translate along --direction until contact (less --clearance).\n",
+                      self.help_of("place", "slide"))
 
     def try_option(self, tool, mode, name, value):
         words = [name]

@@ -4,6 +4,7 @@ With --keep, writes the pictures that are kept in pictures/ again."""
 
 from support import *
 
+import json
 import zlib
 
 KEPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "pictures")
@@ -74,6 +75,7 @@ class Pictures(ToolTest):
                                  (PLACE, "drop", one, "-n"),
                                  (PLACE, "slide", one, "--fixed", other, "-n"),
                                  (PLACE, "measure", one, "--fixed", other),
+                                 (PLACE, "clash", one, other, "-n"),
                                  (PLACE, "arrange", one, other, "--size", "9,9", "-n")):
             with self.subTest(tool=tool, arguments=arguments):
                 self.tool = tool
@@ -122,6 +124,88 @@ class Pictures(ToolTest):
         self.assertGreater(self.count(rows[:60], lambda *c: max(c) < 120), 40)
         self.assertGreater(self.count(rows[:60], lambda r, g, b: r > 150 and g < 90), 200)
         self.assertGreaterEqual(self.count(rows[-60:], lambda *c: c == (0xE0, 0x20, 0x20)), 36)
+
+    def scene_in(self, page):
+        text = self.read(page)
+        return json.loads(text[text.index("{", text.index('id="scene"')):].split("</script>")[0])
+
+    def legend(self, *arguments, size="800x600"):
+        """The colors of swatches, from left to right."""
+        rows = self.picture(*arguments, size=size)[-60:]
+        ink = (0x1C, 0x1F, 0x26)
+        colors = []
+        for row in rows:
+            for first, *others in zip(*(row[i:] for i in range(6))):
+                if set(others) == {first} and min(first) < 225 and first not in (ink, *colors):
+                    colors.append(first)
+        return colors
+
+    def test_an_input_is_in_the_legend_once_and_in_a_color_of_its_own(self):
+        self.tool = BOOLEAN
+        parts = [write(self.path(f"{i}.obj"), cube((2 * i, 0, 0))) for i in range(14)]
+        colors = self.legend("union", *parts[:2], "-n")
+        self.assertEqual(colors, [(0x4E, 0x79, 0xA7), (0xF2, 0x8E, 0x2B)])
+        self.run_tool("union", *parts, "-n", "--html", "p.html", status=0)
+        of_sources = [c["color"] for c in self.scene_in("p.html")["classes"] if c["name"].startswith("from ")]
+        self.assertEqual(len(set(of_sources)), 14)
+
+    def test_what_the_map_colors_has_its_colors_in_the_legend(self):
+        self.tool = WELD
+        points = [(i, 0, 0) for i in range(9)] + [(0.1, 0, 0), (5.05, 0, 0)]
+        cloud = self.put("p.xyz", "".join("%g %g %g\n" % p for p in points + [(float("nan"), 1, 1)]))
+        self.run_tool(cloud, "-t", "0.2", "-n", "--html", "p.html", status=0)
+        scene = self.scene_in("p.html")
+        counts = {c["name"]: (c["count"], c["mapped"]) for c in scene["classes"]}
+        self.assertEqual(counts["merged with none"], ("7 points", False))  # what is drawn
+        self.assertEqual(counts["dropped"], ("2 points", True))
+        self.assertNotIn((0xE0, 0x20, 0x20), self.legend(cloud, "-t", "0.2", "-n"))
+
+    def test_no_folder_is_in_a_picture(self):
+        for folder in ("deep/er", "other"):
+            os.makedirs(self.path(folder))
+        for tool, *arguments in ((TOOL, "deep/er/a.obj"), (MEND, "deep/er/a.obj", "-n"),
+                                 (BOOLEAN, "union", "deep/er/a.obj", "other/b.obj", "-n"),
+                                 (PLACE, "measure", "deep/er/a.obj", "--fixed", "other/b.obj"),
+                                 (PLACE, "clash", "deep/er/a.obj", "other/b.obj")):
+            self.tool = tool
+            with self.subTest(tool=tool, arguments=arguments):
+                for name in ("deep/er/a.obj", "other/b.obj"):
+                    write(self.path(name), cube((0, 0, 3 if name < "f" else 0)))
+                self.run_tool(*arguments, "--html", "p.html", "-f", status=0)
+                page, scene = self.read("p.html"), self.scene_in("p.html")
+                facts = scene.pop("facts")
+                self.assertNotIn("deep/", json.dumps(scene) + page[:page.index('id="scene"')])
+                self.assertNotIn("other/", json.dumps(scene))
+                if BOOLEAN != tool and "clash" not in arguments:
+                    self.assertIn("deep/er/a.obj", facts[0][1])
+        self.tool = BOOLEAN
+        for name in ("deep/er/a.obj", "other/a.obj"):
+            write(self.path(name), CLEAN)
+        self.run_tool("union", "deep/er/a.obj", "other/a.obj", "-n", "--html", "p.html", "-f", status=0)
+        self.assertIn("from deep/er/a.obj", self.read("p.html"))  # which else
+
+    def test_a_clash_has_a_color_for_each_pair(self):
+        self.tool = PLACE
+        parts = [write(self.path(f"{name}.obj"), cube(at)) for name, at in
+                 (("a", (0, 0, 0)), ("b", (0.5, 0.5, 0.5)), ("c", (5, 0, 0)), ("d", (6, 0, 0)),
+                  ("e", (9, 0, 0)), ("f", (10.1, 0, 0)))]
+        self.run_tool("clash", *parts, "--clearance", "0.2", "--html", "p.html", "-r", "r.json", status=1)
+        scene = self.scene_in("p.html")
+        self.assertEqual([c["name"] for c in scene["classes"]],
+                         ["parts", "a and b, penetrating", "e and f, closer-than-clearance",
+                          "c and d, touching"])
+        with open(self.path("r.json")) as file:
+            pairs = json.load(file)["files"][0]["pairs"]
+        rows = {(row["cells"][0], row["cells"][1]): row for row in scene["tables"][0]["rows"]}
+        for pair in pairs:
+            row = rows.pop((pair["a"], pair["b"]))
+            self.assertEqual((row["cells"][2], row["cells"][7]), (pair["status"], pair["face_pairs"]))
+            self.assertIn("box", row)
+        self.assertEqual(rows, {})
+        self.assertEqual(scene["lines"][0]["text"], "0.1")
+        blue, orange, green = (0x4E, 0x79, 0xA7), (0xF2, 0x8E, 0x2B), (0x59, 0xA1, 0x4F)
+        self.assertEqual(self.legend("clash", *parts, "--clearance", "0.2"),
+                         [(0xC9, 0xCE, 0xD6), blue, orange, green])
 
     def test_several_views_are_one_file(self):
         part = write(self.path("part.obj"), together(cube(), cube((0, 0, 3), 0.5)))
@@ -175,13 +259,17 @@ class Pictures(ToolTest):
         for arguments, words in ((("--view", "top"), "--view needs --png"),
                                  (("--png-size", "90x90"), "--png-size needs --png"),
                                  (("--png", "p.png", "--view", "above"), "above"),
+                                 (("--png", "p.png", "--view", "above"), "right, all"),
+                                 (("--png", "p.jpg"), "p.jpg: a picture can be written as png"),
                                  (("--png", "p.png", "--view", "top,"), "--view"),
                                  (("--png", "p.png", "--png-size", "1600"), "1600x1200"),
                                  (("--png", "p.png", "--png-size", "0x9"), "16 to"),
                                  (("--png", "p.png", "--png-size", "99999x9"), "16 to")):
             self.assertIn(words, self.run_tool(part, *arguments, status=2).err)
         self.tool = PLACE
-        self.assertIn("--png", self.run_tool("clash", part, "--png", "p.png", status=2).err)
+        for words in (("--png", "p.png"), ("--html", "p.html")):
+            self.assertIn(words[0] + " is of clash, which shows parts as they stand; check looks at",
+                          self.run_tool("check", part, "--poses", "q", *words, status=2).err)
         self.tool = WELD
         points = self.put("p.xyz", "0 0 0\n1 0 0\n")
         self.assertIn("--png needs the whole cloud in memory",

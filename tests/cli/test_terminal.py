@@ -86,6 +86,18 @@ class Terminal(ToolTest):
         for line in (clean, two, missing, total):
             self.assertEqual((line[end - 1] == " ", line[end]), (False, " "), msg=line)
 
+    def test_columns_of_a_table_end_below_each_other_whatever_the_letters(self):
+        names = ("clean.obj", "größe.obj", "e\u0301.obj", "部品.obj")
+        for name in names[1:]:
+            write(self.path(name), CLEAN)
+        shown = self.on_terminal(*names, "--color", "never")[1]
+        rows = shown[shown.index("\nfile "):].splitlines()[2:6]
+        ends = []
+        for name, row, more in zip(names, rows, (0, 0, -1, 2)):
+            self.assertTrue(row.startswith(name + " "), msg=row)
+            ends.append(row.index(" 12 ") + more)
+        self.assertEqual(len(set(ends)), 1, msg=rows)
+
     def test_no_table_of_one_file_or_in_a_pipe(self):
         self.assertNotIn("file ", self.on_terminal("two.obj")[1])
         run = self.run_tool("clean.obj", "two.obj", status=1)

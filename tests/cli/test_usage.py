@@ -73,9 +73,10 @@ class Usage(ToolTest):
         before = self.listing()
         for one, other in (("m.ply", "./m.ply"), ("m.ply", self.path("m.ply")),
                            ("m.ply", "sub/../m.ply"), ("sub/m.ply", "link/m.ply")):
-            for option in ("-r", "--html", "--png", "--pairs", "--log"):
+            for option in ("-r", "--html", "--pairs", "--log"):
                 err = self.refused("part.obj", "-o", one, option, other, "-f")
                 self.assertIn("two outputs", err)
+        self.assertIn("two outputs", self.refused("part.obj", "--html", "m.png", "--png", "./m.png"))
         self.assertIn("two outputs", self.refused("part.obj", "--output-dir", "sub", "--suffix", "",
                                                   "-r", "link/part.ply"))
         self.assertEqual(self.listing(), before)

@@ -11,7 +11,8 @@ std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
         {"difference @other @in -o @out.stl --precision float -r @report.json",
          kept_promise::solid},
         {"xor @in @other -o @out.ply --inside odd --no-attributes", kept_promise::solid},
-        {"split @in @other -o @out.glb --html @page.html", kept_promise::clean},
+        {"split @in @other -o @out.glb --html @page.html --png @p.png --png-size 64x48",
+         kept_promise::clean},
         {"intersection @in @other --accept-open -o @out.ply -r @report.json"},
         {"union @in -o @out.ply --inside positive --precision float", kept_promise::solid},
     }};

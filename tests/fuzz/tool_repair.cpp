@@ -13,7 +13,8 @@ std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
         {"@in -o @out.glb --inside odd --no-join --holes 10", kept_promise::solid},
         {"@in -o @out.ply --source from --no-orient --no-detach", kept_promise::solid},
         {"@in --wrap 15% -o @out.stl -r @report.json", kept_promise::solid},
-        {"@in --check --html @page.html --curves @curves.ply"},
+        {"@in --check --html @page.html --png @p.png --png-size 64x48 --view all --curves "
+         "@curves.ply"},
     }};
     return all;
 }

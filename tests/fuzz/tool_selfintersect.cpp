@@ -6,7 +6,7 @@
 std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
     static constexpr std::array<tool_command, 9> all{{
         {"@in -r @report.json --pairs @pairs.csv --curves @curves.obj --touching"},
-        {"@in -o @out.ply --html @page.html --within"},
+        {"@in -o @out.ply --html @page.html --png @p.png --png-size 320x240 --within"},
         {"@in --tile-faces 9 --work @tiles -r @report.json --pairs @pairs.csv"},
         {"@in -o @out.glb --vertices equal --curves @curves.ply"},
         {"@in --repair=outer -o @out.ply -r @report.json --curves @curves.obj",

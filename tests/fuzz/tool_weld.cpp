@@ -5,7 +5,7 @@
 
 std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
     static constexpr std::array<tool_command, 8> all{{
-        {"@in -o @out.obj --html @page.html"},
+        {"@in -o @out.obj --html @page.html --png @p.png --png-size 64x48"},
         {"@in -t 0.01% -o @out.ply --removed @removed.csv --map @map.csv -r @report.json"},
         {"@in -t 1% --rule chain --keep mean -o @out.ply --html @page.html"},
         {"@in -t 0.1 --label group -o @out.ply --map @map.bin"},

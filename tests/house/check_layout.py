@@ -15,10 +15,10 @@ FILE_LINES = 500
 FUNCTION_LINES = 60   # from the opening brace to the closing one
 TOOL_LINES = 900      # of C++ in the folder of a tool: what more it needs belongs in the library
 PAGE_LINES = 330      # of the page of a tool, page.cpp, which counts apart
-MORE_TOOL_LINES = {"tf-weld": 1500, "tf-selfintersect": 1150, "tf-boolean": 1000, "tf-place": 950,
-                   "common": 3900, "picture": 2000, "assembly": 1200,
+MORE_TOOL_LINES = {"tf-weld": 1550, "tf-selfintersect": 1150, "tf-boolean": 1000, "tf-place": 950,
+                   "common": 4000, "picture": 2000, "assembly": 1200,
                    "c": 7500,  # a function for each of the library's, and its docstring
-                   "python": 3000}  # every verb once
+                   "python": 3600}  # every verb once
 
 # Rooms of libmesh, top down; an include points down this list, and not across a line of it.
 FLOORS = [
@@ -246,7 +246,8 @@ def check_lengths(root):
 def check_tools(root):
     for folder in sorted(path for path in (root / "tools").iterdir() if path.is_dir()):
         lines = {path.name: len(lines_of(path)) for path in sources(root, folder.relative_to(root))}
-        if folder.name.startswith("tf-") and (page := lines.pop("page.cpp", 0)) > PAGE_LINES:
+        has_page = folder.name.startswith("tf-") or folder.name == "assembly"
+        if has_page and (page := lines.pop("page.cpp", 0)) > PAGE_LINES:
             yield folder / "page.cpp", page, f"{page} lines of a page, {PAGE_LINES} at most"
         count = sum(lines.values())
         if count > (most := MORE_TOOL_LINES.get(folder.name, TOOL_LINES)):

@@ -40,6 +40,7 @@ PAGES = {
     "band": (PLACE, ["measure", SPHERE, "--fixed", CUBE, "--tolerance-band=-0.1,0.2"]),
     "arrange": (PLACE, ["arrange", "{high}", CUBE, "--count", CUBE + ":6", "--size", "5,5", "--spacing",
                         "0.2", "-n"]),
+    "clash": (PLACE, ["clash", SPHERES, CUBE, "{high}", "--clearance", "3.9"]),
     "no_place": (PLACE, ["slide", SPHERE, "--fixed", CUBE, "-n"]),
 }
 
@@ -202,6 +203,16 @@ class Pages(PageTest):
                 self.run_js("document.querySelector('[data-map]').click()")
                 found = self.run_js(f"drawn({kind})")
                 self.assertGreater(found["own"], 0.9 * found["opaque"])
+
+    def test_what_the_map_colors_has_its_colors_in_the_legend_until_it_is_switched_off(self):
+        for name, mapped in (("weld_cloud", "dropped"), ("measure", "high.ply")):
+            self.show(name)
+            kind = self.run_js(f"viewer.scene.classes.findIndex((c) => c.name === '{mapped}')")
+            swatch = f"getComputedStyle(document.querySelector('[data-class=\"{kind}\"]').parentNode" \
+                     ".querySelector('.swatch')).backgroundImage"
+            self.assertIn("gradient", self.run_js(swatch))
+            self.run_js("document.querySelector('[data-map]').click()")
+            self.assertEqual(self.run_js(swatch), "none")
 
     def test_the_band_is_green_until_it_is_switched_off(self):
         self.show("band")

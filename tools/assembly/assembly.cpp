@@ -110,11 +110,14 @@ assembly_command::assembly_command(const std::string& mode)
     line_.group("Common options");
     common_features features;
     features.one_result = true;
-    features.page = false;
+    features.page = clash_;
     if (clash_) features.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"};
     add_common_options(line_, options_, features);
     for (const char* name : {"--html", "--png", "--view", "--png-size"})
-        line_.refuse(name, true, "makes no sense here");
+        if (!clash_)
+            line_.refuse(name, true,
+                         "is of clash, which shows parts as they stand; check looks at "
+                         "many poses, and shows none");
     line_.epilogue(clash_ ? clash_epilogue : check_epilogue);
 }
 

@@ -56,6 +56,13 @@ class assembly_command {
 [[nodiscard]] std::vector<tf::part_pair> ignored_pairs(job& work, const assembly_settings& settings,
                                                        const std::vector<std::string>& names);
 
+/// The pairs that are not clear: those that penetrate first, the deepest ahead.
+[[nodiscard]] std::vector<const tf::part_clash*> gravest_first(const tf::clash_result& r);
+
+/// Page and picture of clashes, where they are asked for: a color for each pair.
+void write_page(job& work, const named_assembly& all, const tf::clash_result& r,
+                const std::string& verdict);
+
 [[nodiscard]] exit_status clash_all(job& work, const assembly_settings& settings);
 [[nodiscard]] exit_status check_all(job& work, const assembly_settings& settings);
 

@@ -66,25 +66,9 @@ std::string sentence(const named_assembly& all, const tf::part_clash& one) {
     return text;
 }
 
-void say(job& work, const named_assembly& all, const tf::clash_result& r) {
+/// "12 parts: 1 pair penetrates, 3 touch"
+std::string totals(const named_assembly& all, const tf::clash_result& r) {
     const auto number = [&](standing how) { return r.counts[static_cast<std::size_t>(how)]; };
-    std::vector<const tf::part_clash*> worst;
-    for (const tf::part_clash& one : r.pairs) worst.push_back(&one);
-    // Those that penetrate first, the deepest ahead.
-    const auto rank = [](const tf::part_clash* one) {
-        return std::pair(one->how == standing::penetrating             ? 0
-                         : one->how == standing::closer_than_clearance ? 1
-                                                                       : 2,
-                         -one->depth.value_or(0.0));
-    };
-    std::stable_sort(worst.begin(), worst.end(),
-                     [&](const auto* x, const auto* y) { return rank(x) < rank(y); });
-    const std::size_t shown = work.out.shows(level::info) ? worst.size() : most_lines;
-    for (std::size_t i = 0; i < std::min(worst.size(), shown); ++i)
-        work.out.result(work.name + ": " + sentence(all, *worst[i]));
-    if (worst.size() > shown)
-        work.out.result(work.name + ": and " + counted(worst.size() - shown, "pair", "pairs") +
-                        " more; -v names all");
     std::string text =
         counted(all.names.size(), "part", "parts") + ": " +
         counted(number(standing::penetrating), "pair penetrates", "pairs penetrate") + ", " +
@@ -92,7 +76,18 @@ void say(job& work, const named_assembly& all, const tf::clash_result& r) {
     if (number(standing::closer_than_clearance) + number(standing::clear) > 0)
         text +=
             ", " + grouped(number(standing::closer_than_clearance)) + " closer than the clearance";
-    work.out.result(work.name + ": " + text);
+    return text;
+}
+
+void say(job& work, const named_assembly& all, const tf::clash_result& r) {
+    const std::vector<const tf::part_clash*> worst = gravest_first(r);
+    const std::size_t shown = work.out.shows(level::info) ? worst.size() : most_lines;
+    for (std::size_t i = 0; i < std::min(worst.size(), shown); ++i)
+        work.out.result(work.name + ": " + sentence(all, *worst[i]));
+    if (worst.size() > shown)
+        work.out.result(work.name + ": and " + counted(worst.size() - shown, "pair", "pairs") +
+                        " more; -v names all");
+    work.out.result(work.name + ": " + totals(all, r));
 }
 
 /// A class for each face of each part, that of its gravest pair.
@@ -115,7 +110,7 @@ std::vector<std::vector<tf::contact_class>> classes_of(const named_assembly& all
     return classes;
 }
 
-void write_picture(job& work, const named_assembly& all, const tf::clash_result& r) {
+void write_parts(job& work, const named_assembly& all, const tf::clash_result& r) {
     const auto path = mesh_output(work.options, work.path);
     if (!path || work.options.dry_run) return;
     const auto timing = work.time("write");
@@ -141,6 +136,20 @@ void write_picture(job& work, const named_assembly& all, const tf::clash_result&
 }
 
 }  // namespace
+
+std::vector<const tf::part_clash*> gravest_first(const tf::clash_result& r) {
+    std::vector<const tf::part_clash*> worst;
+    for (const tf::part_clash& one : r.pairs) worst.push_back(&one);
+    const auto rank = [](const tf::part_clash* one) {
+        return std::pair(one->how == standing::penetrating             ? 0
+                         : one->how == standing::closer_than_clearance ? 1
+                                                                       : 2,
+                         -one->depth.value_or(0.0));
+    };
+    std::stable_sort(worst.begin(), worst.end(),
+                     [&](const auto* x, const auto* y) { return rank(x) < rank(y); });
+    return worst;
+}
 
 exit_status clash_all(job& work, const assembly_settings& settings) {
     work.entry.update({{"mode", "clash"},
@@ -179,7 +188,8 @@ exit_status clash_all(job& work, const assembly_settings& settings) {
                              {"pairs_culled_by_box", found.boxes_apart},
                              {"parts_not_indexed", all.names.size() - found.parts_indexed}});
     say(work, all, found);
-    write_picture(work, all, found);
+    write_parts(work, all, found);
+    write_page(work, all, found, totals(all, found));
     return found.clashes > 0 ? tools::found : done;
 }
 

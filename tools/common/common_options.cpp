@@ -58,14 +58,23 @@ void add_format_options(command_line& line, common_options& o, const common_feat
                 {"float", "double", "keep"});
 }
 
+/// What --view takes: the views, and all of a drawing.
+std::vector<const char*> view_words() {
+    std::vector<const char*> words(view_names.begin(), view_names.end());
+    words.push_back("all");
+    return words;
+}
+
 /// "iso,top": all is iso and the three of a drawing.
 std::vector<view> parse_views(std::string_view text) {
-    if (text == "all") return {view::iso, view::top, view::front, view::right};
     std::vector<view> views;
     while (true) {
         const std::size_t comma = text.find(',');
-        views.push_back(
-            static_cast<view>(parse_choice("--view", text.substr(0, comma), view_names)));
+        const std::size_t word = parse_choice("--view", text.substr(0, comma), view_words());
+        if (word < view_names.size())
+            views.push_back(static_cast<view>(word));
+        else
+            views.insert(views.end(), {view::iso, view::top, view::front, view::right});
         if (views.size() > 16) refuse("--view: at most 16");
         if (comma == std::string_view::npos) return views;
         text.remove_prefix(comma + 1);
@@ -221,6 +230,9 @@ void add_common_options(command_line& line, common_options& target,
     line.offer("--output", features.output_formats);
     line.offer("--report", {"json"});
     line.offer("--html", {"html"});
+    line.offer("--png", {"png"});
+    const std::vector<const char*> views = view_words();
+    line.offer("--view", {views.begin(), views.end()});
     line.offer("--curves", {"obj", "ply"});
     line.offer("--pairs", {"csv"});
     line.offer("--map", {"csv"});
@@ -249,6 +261,8 @@ void check_common_options(const command_line& line, const common_options& option
     if (!options.output.empty()) static_cast<void>(mesh_format(options, options.output));
     for (const char* name : {"--view", "--png-size"})
         if (options.png.empty() && line.given(name)) refuse(std::string(name) + " needs --png");
+    if (const std::string format = extension_of(options.png); !format.empty() && format != "png")
+        refuse(options.png.string() + ": a picture can be written as png");
     check_format(options);
     check_outputs(line, options);
     check_output_folder(options);

@@ -29,11 +29,37 @@ std::string verdict(const json& entry) {
     return status == 1 ? "found, or not done" : entry["error"]["code"].get<std::string>();
 }
 
+/// Columns of a terminal, by the code points of UTF-8: an ideograph takes two, an accent that is put
+/// on the letter before it none.
+std::size_t shown_width(const std::string& text) {
+    static constexpr std::array<std::array<char32_t, 2>, 8> wide{{{0x1100, 0x115f},
+                                                                  {0x2e80, 0xa4cf},
+                                                                  {0xac00, 0xd7a3},
+                                                                  {0xf900, 0xfaff},
+                                                                  {0xff00, 0xff60},
+                                                                  {0xffe0, 0xffe6},
+                                                                  {0x1f300, 0x1faff},
+                                                                  {0x20000, 0x3fffd}}};
+    std::size_t width = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto first = static_cast<unsigned char>(text[at++]);
+        char32_t code = first < 0xc0 ? first : first < 0xe0 ? first & 0x1fU : first & 0x0fU;
+        for (; at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U; ++at)
+            code = code << 6U | (static_cast<unsigned char>(text[at]) & 0x3fU);
+        if (code >= 0x300 && code <= 0x36f) continue;
+        width += std::ranges::any_of(
+                     wide, [&](const auto& range) { return code >= range[0] && code <= range[1]; })
+                     ? 2
+                     : 1;
+    }
+    return width;
+}
+
 /// Names to the left, numbers to the right; the last column as it is.
 std::string line_of(const row& cells, const std::vector<std::size_t>& widths) {
     std::string line;
     for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
-        const std::string gap(widths[i] - cells[i].size(), ' ');
+        const std::string gap(widths[i] - shown_width(cells[i]), ' ');
         line += i == 0 ? cells[i] + gap : gap + cells[i];
         line += "  ";
     }
@@ -78,7 +104,8 @@ std::string table_of(const json& files, const std::vector<table_column>& columns
     rows.push_back(totals(files, columns));
     std::vector<std::size_t> widths(rows[0].size(), 0);
     for (const row& one : rows)
-        for (std::size_t i = 0; i < one.size(); ++i) widths[i] = std::max(widths[i], one[i].size());
+        for (std::size_t i = 0; i < one.size(); ++i)
+            widths[i] = std::max(widths[i], shown_width(one[i]));
     std::string text;
     for (const row& one : rows) {
         text += (text.empty() ? "" : "\n") + line_of(one, widths);

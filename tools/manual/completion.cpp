@@ -131,7 +131,9 @@ std::string bash_completion(const command_text& command) {
     text += "    esac\n    if [[ $cur == -* ]]; then\n";
     for (const offered_option& one : options) {
         const bool all = one.modes.empty();
-        if (!all)
+        if (one.without_mode)
+            text += "        [[ -z $mode ]] &&\n    ";
+        else if (!all)
             text += "        [[ -z $mode || $mode == @(" + joined(one.modes, "|") + ") ]] &&\n    ";
         text += "        options+=\" " + bash_names(one) + "\"\n";
     }
@@ -203,7 +205,9 @@ std::string zsh_completion(const command_text& command) {
     if (!modes.empty())
         text += "    mode=${${words[2,CURRENT-1]}[(r)(" + joined(modes, "|") + ")]}\n";
     for (const offered_option& one : options_of(command)) {
-        if (!one.modes.empty())
+        if (one.without_mode)
+            text += "    [[ -z $mode ]] &&\n    ";
+        else if (!one.modes.empty())
             text += "    [[ -z $mode || $mode == (" + joined(one.modes, "|") + ") ]] &&\n    ";
         text += "    specs+=(\n" + zsh_specs(one) + "    )\n";
     }
@@ -230,9 +234,12 @@ std::string fish_endings(const std::vector<std::string>& extensions) {
     return "\"(__fish_complete_suffix" + list + ")\"";
 }
 
-std::string fish_option(const std::string& tool, const offered_option& one) {
+std::string fish_option(const std::string& tool, const std::vector<std::string>& modes,
+                        const offered_option& one) {
     std::string line = "complete -c " + tool;
-    if (!one.modes.empty())
+    if (one.without_mode)
+        line += " -n 'not __fish_seen_subcommand_from " + joined(modes, " ") + "'";
+    else if (!one.modes.empty())
         line += " -n '__fish_seen_subcommand_from " + joined(one.modes, " ") + "'";
     for (const std::string& name : one.names)
         line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
@@ -258,7 +265,8 @@ std::string fish_completion(const command_text& command) {
         for (const std::string& name : words_of(mode.names))
             text += start + " -f -n " + before + " -a " + name + " -d " +
                     quoted(summary(mode.text), "\\'") + "\n";
-    for (const offered_option& one : options_of(command)) text += fish_option(command.name, one);
+    for (const offered_option& one : options_of(command))
+        text += fish_option(command.name, mode_names(command), one);
     text += start + " -k";
     if (command.needs_mode) text += " -n 'not " + before.substr(5);
     if (command.needs_mode) text.replace(text.rfind("'not "), 5, "'");

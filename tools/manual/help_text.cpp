@@ -41,12 +41,80 @@ std::string lay_out(const option_text& option) {
     return out + '\n';
 }
 
+/// The words of a text, as many a line as fit; the first line has less room, by `taken`.
+std::string wrapped(const std::string& text, std::size_t room, std::size_t taken = 0) {
+    std::string out;
+    std::size_t line_start = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
+        const bool first = out.size() == line_start;
+        const std::size_t used = out.size() - line_start + (line_start == 0 ? taken : 0);
+        if (!first && used + 1 + end - at > room) {
+            out += '\n';
+            line_start = out.size();
+        } else if (!first) {
+            out += ' ';
+        }
+        out.append(text, at, end - at);
+        at = end + 1;
+    }
+    return out;
+}
+
+/// What a text says to one mode. Its first clause is for all. Of the others, one that begins with the
+/// name of another mode or names an option that the mode has not is left out, and "of measure, ..."
+/// is what measure has instead of the first.
+std::string said_to(const mode_text& mode, const std::string& text,
+                    const std::vector<mode_text>& modes) {
+    std::vector<std::string> clauses;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find(';', at), text.size());
+        clauses.push_back(text.substr(at, end - at));
+        at = end + 1 + (end + 1 < text.size() ? 1 : 0);
+    }
+    std::string out;
+    for (const std::string& clause : clauses) {
+        const bool later = &clause != &clauses.front();
+        const std::string of = clause.starts_with("of ") ? clause.substr(3) : clause;
+        const std::size_t end = std::min(of.find_first_of(", "), of.size());
+        const bool of_some = later && std::ranges::any_of(modes, [&](const mode_text& one) {
+                                 return is_named(one, of.substr(0, end));
+                             });
+        if (later && std::ranges::any_of(mode.without, [&](const std::string& option) {
+                return clause.find(option + ' ') != std::string::npos;
+            }))
+            continue;
+        const bool own = of_some && is_named(mode, of.substr(0, end));
+        if (of_some && !own) continue;
+        if (own && of.size() < clause.size())
+            out = of.substr(end + 2);
+        else
+            out += (out.empty() ? "" : "; ") + clause;
+    }
+    return out;
+}
+
 std::string page(const command_text& command, const std::string& usage, const std::string& purpose,
                  const std::vector<option_group>& groups) {
     std::string text = "Usage: " + command.name + " " + usage + "\n\n" + purpose + "\n\n";
     text += lay_out(option_text{.names = command.inputs_name + "...", .text = command.inputs_text});
     for (const option_group& group : groups) text += tools::lay_out(group);
     return text + "\n";
+}
+
+/// The text of an option in the help of a mode.
+std::string told(const mode_text& mode, const option_text& option,
+                 const std::vector<mode_text>& modes) {
+    std::string text = option.text;
+    if (const auto only = modes_of(option, modes); !only.empty()) text.erase(0, only.size() + 2);
+    const std::string own = said_to(mode, text, modes);
+    const auto blanks = [](std::string one) {
+        std::ranges::replace(one, '\n', ' ');
+        return one;
+    };
+    const bool as_written = blanks(own) == blanks(option.text);
+    return as_written ? option.text
+                      : wrapped(own, width - text_column, left_column(option).size() - text_column);
 }
 
 }  // namespace
@@ -92,9 +160,7 @@ std::vector<option_group> groups_for(const mode_text& mode, const std::vector<op
     std::vector<option_group> kept;
     for (option_group group : groups) {
         std::erase_if(group.options, left_out);
-        for (option_text& option : group.options)
-            if (const auto only = modes_of(option, modes); !only.empty())
-                option.text.erase(0, only.size() + 2);
+        for (option_text& option : group.options) option.text = told(mode, option, modes);
         if (!group.options.empty()) kept.push_back(std::move(group));
     }
     return kept;
@@ -112,7 +178,7 @@ std::string help_of(const command_text& c, std::string_view word) {
         if (std::ranges::count(words_of(names), word) > 0) return help_of(*own);
     const auto at = std::ranges::find_if(c.modes, [&](auto& mode) { return is_named(mode, word); });
     if (at == c.modes.end()) return page(c, c.usage, c.purpose, c.groups) + c.epilogue;
-    std::string purpose = at->text + ".";
+    std::string purpose = wrapped(at->text + ".", width);
     purpose[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(purpose[0])));
     return page(c, at->usage, purpose, groups_for(*at, c.groups, c.modes)) + at->more + "\n" +
            c.epilogue.substr(std::min(c.epilogue.find("Exit status:"), c.epilogue.size()));

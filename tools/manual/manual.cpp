@@ -21,6 +21,7 @@ void add_options(const command_text& command, const std::vector<std::string>& ow
                 if (kept.empty() || mode.usage.empty()) continue;  // or not of this line
                 for (std::string& name : words_of(mode.names)) one.modes.push_back(std::move(name));
             }
+            one.without_mode = own.empty() && one.modes.empty() && !mode_names(command).empty();
             const auto prefix = modes_of(text, command.modes);
             if (!prefix.empty()) one.text.text.erase(0, prefix.size() + 2);
             all.push_back(std::move(one));

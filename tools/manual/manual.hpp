@@ -17,7 +17,8 @@ struct offered_option {
     std::vector<std::string> names{};  ///< "-o", "--output", aliases left out
     std::vector<std::string> modes{};  ///< with their other names; none: for all
     bool repeatable = false;
-    bool own = false;  ///< of a mode with a command line of its own
+    bool own = false;           ///< of a mode with a command line of its own
+    bool without_mode = false;  ///< instead of a mode
 
     [[nodiscard]] bool takes_file() const { return text.value == "FILE"; }
     [[nodiscard]] bool takes_folder() const { return text.value == "DIR"; }

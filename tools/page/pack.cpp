@@ -143,7 +143,7 @@ thinned thin_out(const scene& shown, const scene_mesh& m, std::span<const steps3
 class packer {
   public:
     packer(const scene& shown, const scene_limits& limits)
-        : shown_(shown), limits_(limits), box_(box_of(shown)), grid_(box_) {
+        : shown_(shown), limits_(limits), box_(box_of(shown, false)), grid_(box_) {
         for (const scene_mesh& m : shown.meshes)
             for (std::size_t f = 0; f < m.mesh.faces.size(); ++f)
                 if (m.value.empty() && is_context(shown, m.kind, f)) ++context_faces_;
@@ -157,7 +157,6 @@ class packer {
     void finish(packed_scene& packed);
 
   private:
-    static tf::box3 box_of(const scene& shown);
     void put_point(const steps3& point, steps3& last) {
         for (std::size_t axis = 0; axis < 3; ++axis)
             stream_.put(std::int64_t{point[axis]} - std::int64_t{last[axis]});
@@ -191,20 +190,6 @@ class packer {
     std::size_t faces_left_out_ = 0;
     std::size_t dots_left_out_ = 0;
 };
-
-tf::box3 packer::box_of(const scene& shown) {
-    std::vector<tf::point3> ends;
-    const auto add = [&](tf::points_view points) {
-        if (const auto box = tf::bounding_box(points))
-            ends.insert(ends.end(), {box->min, box->max});
-    };
-    for (const scene_mesh& m : shown.meshes) add(m.mesh.points);
-    for (const scene_dots& d : shown.dots) add(d.points);
-    for (const scene_lines& l : shown.lines)
-        for (const auto& segment : l.ends) add(segment);
-    for (const scene_arrow& a : shown.arrows) add(std::array{a.from, a.to});
-    return tf::bounding_box(ends).value_or(tf::box3{});
-}
 
 json packer::mesh(const scene_mesh& m) {
     std::vector<steps3> points;
@@ -271,8 +256,7 @@ json packer::dots(const scene_dots& d) {
     std::int64_t last_number = 0;
     for (std::size_t i = 0; i < d.points.size(); ++i) {
         const tf::point3& p = d.points[i];
-        const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-        if (!finite || (stride > 1 && i % stride != 0 && is_context(shown_, d.kind, i))) {
+        if (!is_finite(p) || (stride > 1 && i % stride != 0 && is_context(shown_, d.kind, i))) {
             ++dots_left_out_;
             continue;
         }
@@ -354,12 +338,16 @@ packed_scene pack(const scene& shown, const scene_limits& limits) {
     for (const char* list : {"classes", "meshes", "lines", "dots", "arrows", "labels", "histograms",
                              "tables", "facts"})
         header[list] = json::array();
-    for (const scene_class& c : shown.classes)
+    const std::vector<bool> mapped = mapped_classes(shown);
+    for (std::size_t k = 0; k < shown.classes.size(); ++k) {
+        const scene_class& c = shown.classes[k];
         header["classes"].push_back({{"name", c.name},
                                      {"color", c.color},
                                      {"count", c.count},
                                      {"context", c.context},
+                                     {"mapped", bool{mapped[k]}},
                                      {"shown", c.shown}});
+    }
     packer to(shown, limits);
     for (const scene_mesh& m : shown.meshes) header["meshes"].push_back(to.mesh(m));
     for (const scene_lines& l : shown.lines) header["lines"].push_back(to.lines(l));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -30,10 +31,8 @@ struct scene_class {
     bool shown = true;  ///< at first
 };
 
-/// Colors for things of one sort, such as inputs; beyond the last they begin again.
-inline constexpr std::array<const char*, 10> scene_colors{
-    "#4e79a7", "#f28e2b", "#59a14f", "#b07aa1", "#edc948",
-    "#76b7b2", "#ff9da7", "#9c755f", "#e15759", "#3d5a80"};
+/// "#rrggbb" for the `number`th of things of one sort, such as inputs. All of 250 differ.
+[[nodiscard]] std::string scene_color(std::size_t number);
 
 /// Shown when a face or point is clicked that is in no file.
 inline constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
@@ -140,5 +139,16 @@ struct scene {
     std::vector<scene_table> tables{};
     std::vector<std::pair<std::string, std::string>> facts{};
 };
+
+[[nodiscard]] bool is_finite(const tf::point3& p);
+
+/// The box of faces, lines, dots and arrows, all or `shown_alone`; at 0 where that is nothing.
+[[nodiscard]] tf::box3 box_of(const scene& shown, bool shown_alone);
+
+/// Of each class, whether something has it.
+[[nodiscard]] std::vector<bool> used_classes(const scene& shown);
+
+/// Of each class, whether all that has it is colored by values instead.
+[[nodiscard]] std::vector<bool> mapped_classes(const scene& shown);
 
 }  // namespace tools

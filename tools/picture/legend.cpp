@@ -13,21 +13,17 @@ constexpr rgb good{0x14, 0x7a, 0x3c};
 constexpr rgb bad{0xb3, 0x16, 0x1b};
 constexpr std::size_t most_rows = 4;
 
-/// Whether something of a scene has each class.
-std::vector<bool> used_classes(const scene& shown) {
-    std::vector<bool> used(shown.classes.size(), false);
-    const auto use = [&](const std::vector<std::uint8_t>& kind, std::size_t count) {
-        for (std::size_t i = 0; i < std::min(kind.size(), count); ++i) used[kind[i]] = true;
-    };
-    for (const scene_mesh& m : shown.meshes) use(m.kind, m.mesh.faces.size());
-    for (const scene_dots& d : shown.dots) use(d.kind, d.points.size());
-    for (const scene_lines& l : shown.lines)
-        if (!l.ends.empty()) used[l.kind] = true;
-    for (const scene_label& l : shown.labels) used[l.kind] = true;
-    for (const scene_arrow& a : shown.arrows) used[a.kind] = true;
-    for (std::size_t i = 0; i < used.size(); ++i)
-        if (!shown.classes[i].shown) used[i] = false;
-    return used;
+/// Of each class, whether it is listed. A ghost in the color of another class says nothing more.
+std::vector<bool> listed_classes(const scene& shown) {
+    std::vector<bool> listed = used_classes(shown), ghosts(listed.size(), false);
+    for (const scene_mesh& m : shown.meshes)
+        for (const std::uint8_t kind : m.kind) ghosts[kind] = m.ghost;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        if (!shown.classes[i].shown) listed[i] = false;
+        for (std::size_t k = 0; k < i && ghosts[i]; ++k)
+            if (listed[k] && shown.classes[k].color == shown.classes[i].color) listed[i] = false;
+    }
+    return listed;
 }
 
 /// An entry of the legend, where it stands.
@@ -44,11 +40,11 @@ struct layout {
 
 layout lay_out(const scene& shown, const lettering& letters, double width) {
     layout made;
-    const std::vector<bool> used = used_classes(shown);
+    const std::vector<bool> listed = listed_classes(shown);
     const double right = width - letters.margin, indent = 1.8 * letters.size;
     place at{letters.margin, 0.0};
-    for (std::size_t k = 0; k < used.size(); ++k) {
-        if (!used[k]) continue;
+    for (std::size_t k = 0; k < listed.size(); ++k) {
+        if (!listed[k]) continue;
         const scene_class& c = shown.classes[k];
         const std::string text = shortened(c.name + (c.count.empty() ? "" : ": " + c.count),
                                            letters.size, right - letters.margin - indent);
@@ -71,6 +67,19 @@ double round_length(double most) {
     while (power > most && power > 1e-300) power /= 10.0;
     while (power * 10.0 <= most && power < 1e300) power *= 10.0;
     return power * (5.0 * power <= most ? 5.0 : 2.0 * power <= most ? 2.0 : 1.0);
+}
+
+/// The colors of the map, from left to right.
+void fill(picture& on, const area& box, const scene_map& map) {
+    const std::size_t steps = map.colors.size() - 1;
+    const auto columns = static_cast<std::size_t>(std::max(box.width, 1.0));
+    for (std::size_t i = 0; i < columns; ++i) {
+        const std::size_t share = 256 * steps * i / columns;
+        const rgb color = blended(color_of(map.colors[share / 256]),
+                                  color_of(map.colors[std::min(share / 256 + 1, steps)]),
+                                  static_cast<unsigned>(share % 256));
+        fill(on, {box.x + static_cast<double>(i), box.y, 1.0, box.height}, color);
+    }
 }
 
 void draw_scale(picture& on, const lettering& letters, double y, double pixels,
@@ -101,15 +110,7 @@ void draw_map(picture& on, const scene_map& map, const lettering& letters, doubl
     write(map.name);
     write(with_unit(map.low, unit));
     const double width = 0.2 * static_cast<double>(on.width);
-    const std::size_t steps = map.colors.size() - 1;
-    const auto columns = static_cast<std::size_t>(width);
-    for (std::size_t i = 0; i < columns; ++i) {
-        const std::size_t share = 256 * steps * i / columns;
-        const rgb color = blended(color_of(map.colors[share / 256]),
-                                  color_of(map.colors[std::min(share / 256 + 1, steps)]),
-                                  static_cast<unsigned>(share % 256));
-        fill(on, {at.x + static_cast<double>(i), y - 0.5 * letters.size, 1.0, letters.size}, color);
-    }
+    fill(on, {at.x, y - 0.5 * letters.size, width, letters.size}, map);
     at.x += width + letters.size;
     write(with_unit(map.high, unit));
     if (!map.band) return;
@@ -157,11 +158,15 @@ void draw_legend(picture& on, const scene& shown, const lettering& letters, doub
     const auto width = static_cast<double>(on.width);
     const double top = static_cast<double>(on.height) - legend_height(shown, letters, width);
     const layout made = lay_out(shown, letters, width);
+    const std::vector<bool> mapped = mapped_classes(shown);
     const auto row = [&](double r) { return top + letters.line * (r + 0.5); };
     for (const entry& e : made.entries) {
         const double y = row(e.at.y);
-        fill(on, {e.at.x, y - 0.55 * letters.size, 1.1 * letters.size, 1.1 * letters.size},
-             color_of(shown.classes[e.kind].color));
+        const area swatch{e.at.x, y - 0.55 * letters.size, 1.1 * letters.size, 1.1 * letters.size};
+        if (mapped[e.kind])
+            fill(on, swatch, *shown.map);
+        else
+            fill(on, swatch, color_of(shown.classes[e.kind].color));
         draw_text(on, {e.at.x + 1.8 * letters.size, y + 0.5 * letters.size}, e.text, letters.size,
                   ink);
     }

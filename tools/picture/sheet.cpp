@@ -132,7 +132,7 @@ picture draw(const scene& shown, const picture_options& options) {
     const double top = std::floor(title_height(shown, letters));
     const double below = std::ceil(legend_height(shown, letters, width));
     const area room{0.0, top, width, std::max(1.0, height - top - below)};
-    const tf::box3 all = box_of(shown);
+    const tf::box3 all = box_of(shown, true);
     std::vector<pane> panes = panes_of(options, room, variants_of(shown));
     fit(panes, shown, all);
     for (const pane& at : panes) {

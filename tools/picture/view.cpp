@@ -87,10 +87,6 @@ extents extents_of(const scene& shown, double share) {
 
 }  // namespace
 
-bool is_finite(const tf::point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 eye::eye(view from, bool y_is_up, const tf::box3& box) : rows_(rows_of(from)), low_(box.min) {
     if (y_is_up)  // y and -z stand where z and y do
         for (auto& row : rows_) row = {row[0], row[2], -row[1]};
@@ -111,24 +107,6 @@ std::array<double, 3> eye::turned(const tf::point3& v) const {
     for (std::size_t i = 0; i < 3; ++i)
         result[i] = rows_[i][0] * v.x + rows_[i][1] * v.y + rows_[i][2] * v.z;
     return result;
-}
-
-tf::box3 box_of(const scene& shown) {
-    growing all;
-    for (const scene_mesh& m : shown.meshes)
-        for (std::size_t f = 0; f < m.mesh.faces.size(); ++f)
-            if (class_of(shown, m.kind, f).shown)
-                for (const std::uint32_t corner : m.mesh.faces[f]) all.add(m.mesh.points[corner]);
-    for (const scene_lines& l : shown.lines)
-        for (const auto& ends : l.ends)
-            for (const tf::point3& p : ends)
-                if (shown.classes[l.kind].shown) all.add(p);
-    for (const scene_dots& d : shown.dots)
-        for (std::size_t i = 0; i < d.points.size(); ++i)
-            if (class_of(shown, d.kind, i).shown && is_finite(d.points[i])) all.add(d.points[i]);
-    for (const scene_arrow& a : shown.arrows)
-        for (const tf::point3& p : {a.from, a.to}) all.add(p);
-    return all.empty() ? tf::box3{} : all.box;
 }
 
 tf::box3 box_that_matters(const scene& shown, const tf::box3& all) {

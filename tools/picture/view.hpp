@@ -29,9 +29,6 @@ class eye {
     double quarter_ = 1.0;  ///< of the longest side
 };
 
-/// The box of what is shown of a scene; at 0 where that is nothing.
-[[nodiscard]] tf::box3 box_of(const scene& shown);
-
 /// What to fit into the picture: all, unless that is so thin, as with two long rods, that it would
 /// be lines; then what was found, with some of what is around it.
 [[nodiscard]] tf::box3 box_that_matters(const scene& shown, const tf::box3& all);
@@ -42,7 +39,5 @@ class eye {
                                                  std::size_t at) {
     return shown.classes[kind[kind.size() == 1 ? 0 : at]];
 }
-
-[[nodiscard]] bool is_finite(const tf::point3& p);
 
 }  // namespace tools

@@ -8,8 +8,12 @@
 #include <treeform/tree/version.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +37,48 @@ bool y_is_up_in(const json& entry) {
     });
 }
 
+/// Paths of the job that have folders, and what to say instead: the name of the file, where no other
+/// one has it. Long ones come first.
+std::vector<std::array<std::string, 2>> file_names_of(const job& work) {
+    std::map<std::string, std::set<std::string>> paths_of;
+    for (const auto* list : {&work.options.inputs, &work.options.also_read})
+        for (const std::string& path : *list)
+            paths_of[std::filesystem::path(path).filename().string()].insert(path);
+    std::vector<std::array<std::string, 2>> names;
+    for (const auto& [name, paths] : paths_of)
+        if (paths.size() == 1 && *paths.begin() != name && !name.empty())
+            names.push_back({*paths.begin(), name});
+    std::ranges::sort(names,
+                      [](const auto& a, const auto& b) { return a[0].size() > b[0].size(); });
+    return names;
+}
+
+/// Replaces paths that stand alone in a text.
+void shorten(std::string& text, const std::vector<std::array<std::string, 2>>& names) {
+    for (const auto& [path, name] : names)
+        for (std::size_t at = 0; (at = text.find(path, at)) != std::string::npos;) {
+            const bool starts = at == 0 || text[at - 1] == ' ';
+            if (starts) text.replace(at, path.size(), name);
+            at += starts ? name.size() : 1;
+        }
+}
+
+/// Whoever looks at it wants no folders of whoever made it; the first of the facts names them.
+void leave_folders_out(scene& shown, const job& work) {
+    const auto names = file_names_of(work);
+    if (names.empty()) return;
+    shorten(shown.title, names);
+    shorten(shown.verdict, names);
+    for (scene_class& c : shown.classes) shorten(c.name, names);
+    for (scene_mesh& m : shown.meshes) shorten(m.name, names);
+    for (scene_label& l : shown.labels) shorten(l.text, names);
+    for (scene_arrow& a : shown.arrows) shorten(a.text, names);
+    for (scene_table& t : shown.tables)
+        for (scene_row& row : t.rows)
+            for (auto& cell : row.cells)
+                if (cell.is_string()) shorten(cell.get_ref<std::string&>(), names);
+}
+
 }  // namespace
 
 scene scene_of(const job& work, const char* tool) {
@@ -54,7 +100,8 @@ scene scene_of(const job& work, const char* tool) {
     return shown;
 }
 
-void write_page(job& work, const scene& shown) {
+void write_page(job& work, scene shown) {
+    leave_folders_out(shown, work);
     const common_options& o = work.options;
     const auto add = [&](const std::filesystem::path& path, const auto& bytes) {
         if (path.empty()) return;

@@ -89,13 +89,11 @@ void write_page(job& work, const std::vector<solid>& solids, const std::string& 
     const numbering kinds{std::min(solids.size(), most_inputs)};
     const bool ghosts = made != nullptr && !made->mesh.faces.empty();
     for (std::size_t i = 0; i < kinds.inputs; ++i)
-        shown.classes.push_back({(ghosts ? "from " : "") + name_of(solids[i]),
-                                 scene_colors[i % scene_colors.size()],
-                                 {},
-                                 true});
+        shown.classes.push_back(
+            {(ghosts ? "from " : "") + name_of(solids[i]), scene_color(i), {}, true});
     for (std::size_t i = 0; i < kinds.inputs; ++i)
         shown.classes.push_back({"input " + name_of(solids[i]),
-                                 scene_colors[i % scene_colors.size()],
+                                 scene_color(i),
                                  {},
                                  true,
                                  solids.size() <= most_ghosts});
@@ -112,7 +110,7 @@ void write_page(job& work, const std::vector<solid>& solids, const std::string& 
     }
     if (made != nullptr) add_curves(shown, work, kinds, solids);
     add_tables(shown, work.entry);
-    write_page(work, shown);
+    write_page(work, std::move(shown));
 }
 
 }  // namespace tools

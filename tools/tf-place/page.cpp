@@ -295,7 +295,7 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
             {.mesh = floor, .kind = {mark::bed}, .name = "the bed", .ghost = true});
     add_travel(shown, work, p, from, to);
     add_contacts(shown, p);
-    write_page(work, shown);
+    write_page(work, std::move(shown));
 }
 
 void write_page(job& work, const place_settings& settings, const tf::body_set& parts,
@@ -313,7 +313,7 @@ void write_page(job& work, const place_settings& settings, const tf::body_set& p
         if (std::ranges::find(labels, file.label) == labels.end() && labels.size() < most)
             labels.push_back(file.label);
     for (std::size_t i = 0; i < labels.size(); ++i)
-        shown.classes.push_back({labels[i], scene_colors[i % scene_colors.size()], {}, true});
+        shown.classes.push_back({labels[i], scene_color(i), {}, true});
     const auto no_place = static_cast<std::uint8_t>(labels.size());
     const auto plate = static_cast<std::uint8_t>(labels.size() + 1);
     shown.classes.push_back({"without a place", "#7d8590", {}, true});
@@ -321,7 +321,7 @@ void write_page(job& work, const place_settings& settings, const tf::body_set& p
     add_parts(shown, parts, found, labels, no_place);
     add_plates(shown, pack_options_of(settings.arrange), found, plate);
     shown.place_word = "part";
-    write_page(work, shown);
+    write_page(work, std::move(shown));
 }
 
 }  // namespace tools

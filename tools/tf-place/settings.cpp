@@ -60,8 +60,8 @@ void add_options(command_line& line, place_settings& s, common_options& options)
                  "matrix applied to MOVING first: 4x4 numbers, or a\nreport of tf-place with one"});
     line.group("What to give back");
     line.output(options.output, {"-o, --output", "FILE",
-                                 "MOVING at its new place; of measure, where it is;\n"
-                                 "PLY, GLB: faces that penetrate --fixed are red,\n"
+                                 "MOVING at its new place; of measure, MOVING where it\n"
+                                 "is; PLY, GLB: faces that penetrate --fixed are red,\n"
                                  "touching yellow, closer than --clearance or\n"
                                  "stopped at it cyan (if they had no colors)"});
     line.flag(s.scene, {"--scene", "",

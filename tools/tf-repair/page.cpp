@@ -191,7 +191,7 @@ void write_page(job& work, const dirty_mesh& input, const std::string& verdict, 
     add_open_edges(shown, before, after ? "before" : "", mark::open_now);
     if (after) add_open_edges(shown, made, "after", mark::open_still);
     add_tables(shown, work);
-    write_page(work, shown);
+    write_page(work, std::move(shown));
 }
 
 }  // namespace tools

@@ -123,7 +123,7 @@ void write_page(job& work, const findings& result, const search_settings& settin
     if (!result.regions.regions.empty())
         shown.tables.push_back(regions_of(result, places_of(result, segments)));
     add_facts(shown, result, settings);
-    write_page(work, shown);
+    write_page(work, std::move(shown));
 }
 
 }  // namespace tools

@@ -36,9 +36,9 @@ void add_points(scene& shown, const tf::mesh_file& file, const welding& w) {
     for (std::size_t k = mark::of_two; k <= mark::dropped; ++k) shown.classes[k].context = many;
     scene_dots kept{.points = places, .number = w.result.point_of_group};
     std::array<std::uint64_t, mark::way> counts{};
-    for (const std::uint32_t n : size) {
-        kept.kind.push_back(mark_of(n));
-        ++counts[mark_of(n)];
+    for (std::size_t g = 0; g < size.size(); ++g) {
+        kept.kind.push_back(mark_of(size[g]));
+        if (is_finite(places[g])) ++counts[kept.kind.back()];
     }
     kept.group_word = "merged of";
     kept.group = std::move(size);
@@ -76,8 +76,7 @@ void add_distances(scene& shown, const tf::mesh_file& file, const welding& w) {
     constexpr std::size_t most = 100'000, bins = 60;
     std::vector<std::array<double, 3>> places;
     for (const std::uint32_t p : tf::find_equal_points(file.mesh.points).first_of_new)
-        if (const tf::point3& at = file.mesh.points[p];
-            std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z))
+        if (const tf::point3& at = file.mesh.points[p]; is_finite(at))
             places.push_back({at.x, at.y, at.z});
     if (places.size() < 2) return;
     const tf::point_search<3> search(places);
@@ -130,10 +129,7 @@ void write_page(job& work, const tf::mesh_file& file, const welding& w,
                      {"ways", "#10131a"}};
     if (w.triangles > 0) {
         scene_mesh mesh{.mesh = file.mesh, .kind = {mark::faces}, .number = file.stored_face};
-        const auto finite = [&](std::uint32_t p) {
-            const tf::point3& at = file.mesh.points[p];
-            return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
-        };
+        const auto finite = [&](std::uint32_t p) { return is_finite(file.mesh.points[p]); };
         const bool all = std::ranges::all_of(
             file.mesh.faces, [&](const tf::face& f) { return std::ranges::all_of(f, finite); });
         if (all) shown.meshes.push_back(std::move(mesh));
@@ -144,7 +140,7 @@ void write_page(job& work, const tf::mesh_file& file, const welding& w,
                        {{"tolerance", request.settings.tolerance.given + " (" + brief(w.tolerance) +
                                           " in file units)"},
                         {"rule", name_of(request.settings.options.rule)}});
-    write_page(work, shown);
+    write_page(work, std::move(shown));
 }
 
 }  // namespace tools

@@ -15,13 +15,21 @@ const used = (scene) => {
 const legend = (scene) => {
     const there = used(scene);
     return scene.classes.map((c, i) => there.has(i) ? check(c.name + (c.count ? ` (${c.count})` : ''), c.shown, { class: i },
-        make('span', { className: 'swatch', style: `background:${c.color}` })) : null);
+        make('span', { className: 'swatch', style: `background:${c.mapped ? `var(--map,${c.color})` : c.color}` })) : null);
 };
+
+/// Swatches of what the map colors have its colors, too.
+export const markMapped = (box, { map }, on) => {
+    if (map && on) box.style.setProperty('--map', rampOfScale(map));
+    else box.style.removeProperty('--map');
+};
+
+const rampOfScale = (map) => `linear-gradient(90deg,${map.colors.join()})`;
 
 const scaleOf = ({ map }, unit) => {
     if (!map) return null;
     const place = (value) => 100 * (value - map.low) / (map.high - map.low || 1);
-    const bar = make('div', { className: 'scale', style: `background:linear-gradient(90deg,${map.colors.join()})` });
+    const bar = make('div', { className: 'scale', style: `background:${rampOfScale(map)}` });
     if (map.band) {
         const [low, high] = map.band.map((v) => Math.min(Math.max(place(v), 0), 100));
         bar.append(make('span', { className: 'band', style: `left:${low}%;width:${high - low}%` }));
@@ -65,6 +73,7 @@ export const addControls = (box, scene, rows) => {
             make('button', { type: 'button', title: 'keys (?)', data: { help: '' } }, '?')),
         section());
     const variants = variantsOf(scene);
+    markMapped(box, scene, true);
     box.append(bar, tools, make('div', { className: 'picked' }));
     if (!variants.length) return;
     box.append(make('div', { className: 'variants' }, buttons(variants, 'variant', 'after')),

@@ -3,7 +3,7 @@
 import { readScene, hitOfFace, valueAt, labelsOf, noValue } from './data.js';
 import { Camera, boxThatMatters, views } from './camera.js';
 import { Renderer } from './renderer.js';
-import { addControls, rampOfMap, variantsOf, leftOut, keys } from './panel.js';
+import { addControls, markMapped, rampOfMap, variantsOf, leftOut, keys } from './panel.js';
 import { showBelow } from './below.js';
 import { listen } from './hands.js';
 import { make, rgbOf, rounded } from './dom.js';
@@ -207,6 +207,7 @@ const show = (canvas, renderer) => {
     };
     box.addEventListener('change', ({ target }) => {
         if (target.dataset.class) scene.classes[target.dataset.class].shown = target.checked;
+        if ('map' in target.dataset) markMapped(box, scene, target.checked);
         if ('up' in target.dataset) camera.yIsUp = target.checked;
         if ('section' in target.dataset) setSection(Number(target.value));
         redraw();
