@@ -254,13 +254,29 @@ class alignment {
         const auto starts =
             detail::place::starts_along(detail::place::freedoms_of(last.partners, best_.map.shift),
                                         little_held, best_.map, frame_.diagonal);
+        const search_task near = without_outliers(last.partners);
         const auto tried = try_starts(
-            task_, few_, starts, [&](std::size_t i) { return work_.step(0.75, 0.78, i, 10.0); });
+            near, few_, starts, [&](std::size_t i) { return work_.step(0.75, 0.78, i, 10.0); });
         if (tried.empty() || work_.cancelled()) return;
+        const auto cost_at = [&](const similarity& map) {
+            return quality_at(near, few_, map, endless, last).cost;
+        };
         const similarity& there = tried[0].end.map;
-        if (quality_at(task_, few_, there, best_.width, last).cost <
-            better_of(few_.size()) * here.cost)
+        if (cost_at(there) < better_of(few_.size()) * cost_at(best_.map))
             take_if_better(there, 0.78, 0.8);
+    }
+
+    /// The task without what the last weights leave out, to compare places close by: what belongs to
+    /// nothing costs more than they differ by.
+    [[nodiscard]] search_task without_outliers(const std::vector<partner>& partners) const {
+        search_task task = task_;
+        const auto within = std::count_if(partners.begin(), partners.end(), [&](const partner& p) {
+            return p.distance <= best_.width;
+        });
+        if (within > 0)
+            task.overlap = std::min(
+                task.overlap, static_cast<double>(within) / static_cast<double>(partners.size()));
+        return task;
     }
 
     /// By what factor the cost of so many points has to be lower at another place: by more than chance.
