@@ -40,6 +40,7 @@ def needed_by(library):
 def bundle(extension):
     """Puts what `extension` needs into _libs/ beside it."""
     if not shutil.which("patchelf"):
+        print("no patchelf: the libraries that the extension needs are not put beside it")
         return
     folder = extension.parent / "_libs"
     shutil.rmtree(folder, ignore_errors=True)
@@ -62,7 +63,8 @@ class BuildByCMake(build_ext):
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         subprocess.run(["cmake", "-S", str(TREE), "-B", str(build), *generator,
                         "-DCMAKE_BUILD_TYPE=Release", "-DTREEFORM_BUILD_TOOLS=OFF",
-                        "-DTREEFORM_INSTALL=OFF", "-DTREEFORM_BUILD_PYTHON=ON",
+                        "-DTREEFORM_BUILD_C=OFF", "-DTREEFORM_INSTALL=OFF",
+                        "-DTREEFORM_BUILD_PYTHON=ON",
                         f"-DTREEFORM_PYTHON={sys.executable}",
                         *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or str(os.cpu_count() or 1)

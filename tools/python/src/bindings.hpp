@@ -9,6 +9,7 @@ namespace binding {
 void add_assembly(pybind11::module_& module);
 void add_booleans(pybind11::module_& module);
 void add_boxes(pybind11::module_& module);
+void add_carrying(pybind11::module_& module);
 void add_certificates(pybind11::module_& module);
 void add_clouds(pybind11::module_& module);
 void add_files(pybind11::module_& module);

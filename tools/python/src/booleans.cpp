@@ -1,4 +1,5 @@
 #include "bindings.hpp"
+#include "carrying.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
 #include "words.hpp"
@@ -54,8 +55,10 @@ py::dict statistics_of(const tf::boolean_result& result) {
     return made;
 }
 
-py::dict as_dict(tf::boolean_result&& result) {
+py::dict as_dict(tf::boolean_result&& result, const carrying& attributes) {
     py::dict made;
+    made["data"] = attributes.to(
+        result.mesh, {result.face_source, result.vertex_source, result.face_of_cut_vertex});
     made["face_source"] = sources(result.face_source);
     made["vertex_source"] = sources(result.vertex_source);
     made["volumes"] = py::none();
@@ -97,11 +100,16 @@ py::dict boolean(const held_meshes& meshes, const std::string& operation,
     tf::boolean_options options = options_of(inside, precision, simplify, max_displacement);
     options.volumes = volumes;
     require_faces(meshes, names);
+    const carrying attributes(meshes);
+    const std::vector<std::uint32_t> groups =
+        simplify ? attributes.face_groups() : std::vector<std::uint32_t>();
+    options.face_groups = groups;
     const std::vector<tf::mesh_operand> operands = operands_of(meshes);
     return as_dict(run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::boolean(operands, expression, options);
-    }));
+                       options.progress = report;
+                       return tf::boolean(operands, expression, options);
+                   }),
+                   attributes);
 }
 
 py::dict clip(const held_meshes& meshes, std::uint32_t sheet, const std::string& operation,
@@ -112,19 +120,23 @@ py::dict clip(const held_meshes& meshes, std::uint32_t sheet, const std::string&
     tf::boolean_options options = options_of(inside, precision, false, max_displacement);
     require_faces(meshes, names);
     const std::vector<tf::mesh_view> operands = views_of(meshes);
+    const carrying attributes(meshes);
     return as_dict(run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::clip(operands, sheet, expression, options);
-    }));
+                       options.progress = report;
+                       return tf::clip(operands, sheet, expression, options);
+                   }),
+                   attributes);
 }
 
 py::dict split(const held_meshes& meshes, const std::string& precision, double max_displacement) {
     tf::boolean_options options = options_of("nonzero", precision, false, max_displacement);
     const std::vector<tf::mesh_view> operands = views_of(meshes);
+    const carrying attributes(meshes);
     return as_dict(run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::split(operands, options);
-    }));
+                       options.progress = report;
+                       return tf::split(operands, options);
+                   }),
+                   attributes);
 }
 
 tf::certificate check_solid(const held_mesh& mesh) {

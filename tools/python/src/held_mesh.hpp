@@ -34,6 +34,9 @@ class held_mesh {
 
     [[nodiscard]] const points_array& points() const { return points_; }
     [[nodiscard]] const faces_array& faces() const { return faces_; }
+    /// The `file_data` of the mesh, or None.
+    [[nodiscard]] const py::object& data() const { return data_; }
+    void set_data(py::object data) { data_ = std::move(data); }
     [[nodiscard]] tf::mesh_view view() const { return view_; }
     [[nodiscard]] const tf::prepared_mesh& prepared() const { return prepared_; }
     [[nodiscard]] bool keep() const { return keep_; }
@@ -48,6 +51,7 @@ class held_mesh {
   private:
     points_array points_;
     faces_array faces_;
+    py::object data_ = py::none();
     bool keep_;
     tf::mesh_view view_;
     tf::prepared_mesh prepared_;

@@ -55,6 +55,7 @@ void add_meshes(py::module_& module) {
         .def(py::init<points_array>())
         .def_property_readonly("vertices", &held_mesh::points)
         .def_property_readonly("faces", &held_mesh::faces)
+        .def_property("data", &held_mesh::data, &held_mesh::set_data)
         .def_property_readonly("is_cloud",
                                [](const held_mesh& m) { return m.prepared().is_cloud(); })
         .def_property_readonly("indexes_built",
@@ -140,6 +141,7 @@ PYBIND11_MODULE(_core, module) {
     using namespace binding;
     py::register_exception_translator(translate);
     add_meshes(module);
+    add_carrying(module);
     add_certificates(module);
     add_files(module);
     add_intersections(module);

@@ -1,4 +1,5 @@
 #include "bindings.hpp"
+#include "carrying.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
 #include "words.hpp"
@@ -10,6 +11,7 @@
 
 #include <pybind11/stl.h>
 
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,8 +25,11 @@ constexpr words<4> rule_words{"automatic", "nonzero", "odd", "positive"};
 
 /// Mesh, sources and certificate of a result.
 template <class Result>
-py::dict made_of(Result&& result) {
+py::dict made_of(Result&& result, const held_mesh& input) {
     py::dict made;
+    made["data"] = py::none();
+    if constexpr (requires { result.face_source; })
+        made["data"] = carrying({&input}).to(result.mesh, result.face_source, result.vertex_source);
     made["points"] = as_array(std::move(result.mesh.points));
     made["faces"] = as_array(std::move(result.mesh.faces));
     if constexpr (requires { result.face_source; }) {
@@ -56,7 +61,7 @@ py::dict resolve(const held_mesh& mesh, const std::string& mode, const std::stri
     statistics["exact_faces"] = result.statistics.exact_faces;
     statistics["split_vertices"] = result.statistics.split_vertices;
     statistics["vanished_components"] = result.vanished_components;
-    py::dict made = made_of(std::move(result));
+    py::dict made = made_of(std::move(result), mesh);
     made["statistics"] = statistics;
     return made;
 }
@@ -126,7 +131,7 @@ py::dict repair(const held_mesh& mesh, const std::vector<std::string>& steps,
         return tf::repair(mesh.view(), options);
     });
     const py::dict done = steps_of(result.statistics);
-    py::dict made = made_of(std::move(result));
+    py::dict made = made_of(std::move(result), mesh);
     made["steps"] = done;
     return made;
 }
@@ -145,7 +150,7 @@ py::dict wrap(const held_mesh& mesh, double size, std::optional<double> offset,
     statistics["points"] = result.statistics.points;
     statistics["tetrahedra"] = result.statistics.tetrahedra;
     statistics["filled"] = result.statistics.filled;
-    py::dict made = made_of(std::move(result));
+    py::dict made = made_of(std::move(result), mesh);
     made["statistics"] = statistics;
     return made;
 }
@@ -180,9 +185,16 @@ py::tuple find_rounding_defects(const held_mesh& mesh, const points_array& place
 }
 
 py::tuple join_equal_points(const held_mesh& mesh) {
-    tf::mesh joined =
-        run([&](const tf::progress_callback&) { return tf::join_equal_points(mesh.view()); });
-    return py::make_tuple(as_array(std::move(joined.points)), as_array(std::move(joined.faces)));
+    const carrying attributes({&mesh});
+    std::vector<std::uint32_t> first, faces(mesh.view().faces.size());
+    tf::mesh joined = run([&](const tf::progress_callback&) {
+        if (!mesh.data().is_none()) first = tf::find_equal_points(mesh.view().points).first_of_new;
+        return tf::join_equal_points(mesh.view());
+    });
+    std::iota(faces.begin(), faces.end(), 0U);
+    const py::object data = attributes.to(joined, faces, first);
+    return py::make_tuple(as_array(std::move(joined.points)), as_array(std::move(joined.faces)),
+                          data);
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ def _result(made: dict[str, Any], check: bool, *also: str) -> BooleanResult:
     certificate = made["certificate"]
     if check:
         require(certificate, *also)
-    return BooleanResult(mesh=Mesh._of(made.pop("points"), made.pop("faces"), certificate), **made)
+    mesh = Mesh._of(made.pop("points"), made.pop("faces"), certificate, made.pop("data"))
+    return BooleanResult(mesh=mesh, **made)
 
 
 def _operands(meshes: tuple[Any, ...]) -> list[_core.HeldMesh]:
@@ -55,8 +56,8 @@ def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: st
              volumes: bool, max_displacement: float, check: bool,
              progress: Progress) -> BooleanResult:
     return _result(_core.boolean(_operands(meshes), operation, "", [],
-                                 inside, precision, simplify,
-                                 volumes, max_displacement, progress=progress), check)
+                                 inside, precision, simplify, volumes, max_displacement,
+                                 progress=progress), check)
 
 
 def union(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
@@ -135,6 +136,10 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     The surface is decided exactly on the coordinates as given. Then points on cuts are rounded, and
     the rounded surface is checked: it is closed, manifold, outward, and no two faces meet but in a
     corner or an edge. Operands may overlap themselves, touch, be equal, be inside out or empty.
+
+    Attributes of operands are carried over: a face has the values of the face that it lies in, a new
+    vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. With `simplify`,
+    only faces of equal values are merged.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result cannot be
     certified, ValueError naming the face that is out of range or not finite, or the operand that has

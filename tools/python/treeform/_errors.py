@@ -76,7 +76,7 @@ def require(certificate: Certificate, *also: str) -> None:
 #: What annotations ask for, and how that is said.
 _KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "float": (lambda value: isinstance(value, Real), "a number"),
-    "int": (lambda value: isinstance(value, (int, np.integer)) and value >= 0,
+    "int": (lambda value: isinstance(value, (int, np.integer)) and bool(value >= 0),
             "a whole number, not negative,"),
     "bool": (lambda value: isinstance(value, (bool, np.bool_)), "True or False"),
     "str": (lambda value: isinstance(value, str), "a word"),

@@ -43,7 +43,8 @@ class Attributes:
 
     Columns of numbers for vertices and faces (colors, normals, qualities), names of parts, texture
     coordinates and normals of corners, comments, and the format that the file had. `write` puts
-    back what the format of the output can hold.
+    back what the format of the output can hold. What operations make of a mesh has its columns,
+    corners and parts, too; lists and other kinds of rows are left out.
 
     >>> import numpy as np
     >>> import treeform
@@ -174,12 +175,15 @@ class Mesh:
         self._attributes = attributes
         self._certificate = certificate
         self._held = _core.HeldMesh(vertices, faces, True)
+        self._held.data = None if attributes is None else attributes._data
         self._solid: Certificate | None = None
 
     @classmethod
     def _of(cls, vertices: Floats, faces: Ids, certificate: Certificate | None = None,
-            attributes: Attributes | None = None) -> Mesh:
+            attributes: Attributes | _core.FileData | None = None) -> Mesh:
         """Of arrays that the library has made."""
+        if isinstance(attributes, _core.FileData):
+            attributes = Attributes(attributes)
         made = cls.__new__(cls)
         made._formula = None
         made._set(vertices, faces, attributes, certificate)
@@ -189,7 +193,7 @@ class Mesh:
         """Computes what operators have collected."""
         if self._formula is not None:
             made = self._formula.result().mesh
-            self._set(made._vertices, made._faces, None, made._certificate)
+            self._set(made._vertices, made._faces, made._attributes, made._certificate)
             self._formula = None
         return self
 

@@ -107,12 +107,19 @@ def _bodies(fixed: Any) -> list[_core.HeldMesh]:
     return [held_body(fixed)]
 
 
+def _placed(points: Floats, body: _core.HeldMesh, matrix: Floats,
+            certificate: Certificate | None = None) -> Mesh:
+    """`body` where it goes, with its attributes."""
+    data = body.data
+    return Mesh._of(points, body.faces, certificate, data and _core.turned(data, matrix))
+
+
 def _moved(moving: _core.HeldMesh, made: dict[str, Any]) -> Placement:
     points = made.pop("points")
     if len(points) == 0:
         points = moving.vertices
-    made["mesh"] = Mesh._of(points, moving.faces,
-                            made["certificate"] if made["certificate"] else None)
+    made["mesh"] = _placed(points, moving, made["matrix"],
+                           made["certificate"] if made["certificate"] else None)
     made["contacts"] = Contacts(*made["contacts"])
     if made["nearest"] is not None:
         number, how = made["nearest"]
@@ -284,7 +291,7 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
                           overhang_angle, precision, progress=progress)
     if made is None:
         raise ValueError("lay_flat: no side: fewer than three points, or all on a line")
-    made["mesh"] = Mesh._of(made.pop("points"), body.faces, made["certificate"])
+    made["mesh"] = _placed(made.pop("points"), body, made["matrix"], made["certificate"])
     return LaidFlat(**made)
 
 
@@ -348,7 +355,7 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     made = _core.align(body, held_body(onto), method, overlap, weights, max_distance, scale,
                        max_iterations, tolerance, starts, samples, _arrays.matrix(start, "start"),
                        precision, progress=progress)
-    made["mesh"] = Mesh._of(made.pop("points"), body.faces)
+    made["mesh"] = _placed(made.pop("points"), body, made["matrix"])
     return Alignment(**made)
 
 
@@ -409,7 +416,7 @@ def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0
                       spacing, turns, stack, plates, _arrays.vector(plate_step, "plate_step"), seed,
                       tries, seconds, precision, progress=progress)
     made["parts"] = [
-        PackedPart(placed, plate, matrix, Mesh._of(points, body.faces))
+        PackedPart(placed, plate, matrix, _placed(points, body, matrix))
         for (placed, plate, matrix, points), body in zip(made["parts"], bodies)]
     return Packing(**made)
 

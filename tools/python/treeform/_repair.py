@@ -62,7 +62,7 @@ def _mesh_of(made: dict[str, Any], check: bool, *also: str) -> dict[str, Any]:
     certificate = made["certificate"]
     if check:
         require(certificate, *also)
-    made["mesh"] = Mesh._of(made.pop("points"), made.pop("faces"), certificate)
+    made["mesh"] = Mesh._of(made.pop("points"), made.pop("faces"), certificate, made.pop("data"))
     return made
 
 
@@ -208,4 +208,5 @@ def join_equal_points(mesh: MeshLike, *, progress: Progress = None) -> Mesh:
     >>> soup, treeform.join_equal_points(soup)
     (Mesh(36 vertices, 12 faces), Mesh(8 vertices, 12 faces))
     """
-    return Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))
+    points, faces, data = _core.join_equal_points(held(mesh), progress=progress)
+    return Mesh._of(points, faces, None, data)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._files import Path, path_of
-from ._mesh import Attributes, Mesh, MeshLike, MeshResult, as_mesh, cloud_of
+from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
 from ._results import Result
 
@@ -88,9 +88,7 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
         else:
             made = _core.weld_cloud(mesh._vertices, data, settings, progress=progress)
             made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
-    extra = made.pop("data")
-    welded = Mesh._of(made.pop("points"), made.pop("faces"), None,
-                      None if extra is None else Attributes(extra))
+    welded = Mesh._of(made.pop("points"), made.pop("faces"), None, made.pop("data"))
     return WeldResult(mesh=welded, **made)
 
 

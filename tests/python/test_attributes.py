@@ -1,0 +1,137 @@
+"""What meshes have besides points and faces is carried over to what is made of them."""
+
+import numpy as np
+import pytest
+
+import treeform as tf
+from support import CUBE, SPHERES, moved, run_tool
+
+
+def painted(mesh, seed=0, number=np.uint8):
+    """The mesh with a color for each face, and a number for each vertex."""
+    rng = np.random.default_rng(seed)
+    extra = tf.Attributes()
+    for channel in ("red", "green", "blue"):
+        extra.set_face(channel, rng.integers(0, 255, len(mesh.faces)).astype(number))
+    extra.set_vertex("quality", rng.random(len(mesh.vertices)))
+    return tf.Mesh(mesh.vertices, mesh.faces, extra)
+
+
+A, B = painted(CUBE, 1), painted(moved(CUBE, 0.5, 0.25, 0.125), 2)
+
+
+def columns(mesh):
+    extra = mesh.attributes
+    return {**{("vertex", k): v for k, v in extra.vertex.items()},
+            **{("face", k): v for k, v in extra.face.items()}}
+
+
+@pytest.mark.parametrize("verb, letters", [
+    (lambda a, b: tf.union(a, b), "union"), (lambda a, b: tf.difference(a, b), "difference"),
+    (lambda a, b: tf.intersection(a, b, simplify=True), "intersection"),
+    (lambda a, b: a ^ b, "xor")])
+def test_set_operations_carry_what_the_tool_does(tmp_path, verb, letters):
+    paths = [tmp_path / f"{name}.ply" for name in ("a", "b", "out")]
+    tf.write(paths[0], A)
+    tf.write(paths[1], B)
+    simplify = ["--simplify"] if letters == "intersection" else []
+    run_tool("tf-boolean", letters, paths[0], paths[1], "-o", paths[2], *simplify)
+    theirs = tf.read(paths[2])
+    made = verb(A, B)
+    mine = getattr(made, "mesh", made)
+    assert np.array_equal(mine.vertices, theirs.vertices)
+    assert np.array_equal(mine.faces, theirs.faces)
+    there = {key: values for key, values in columns(theirs).items()
+             if not key[1].startswith("source_")}
+    assert there.keys() == columns(mine).keys() and len(there) == 4
+    for key, values in columns(mine).items():
+        assert values.dtype == there[key].dtype
+        assert np.array_equal(values, there[key], equal_nan=True), key
+
+
+def test_an_operand_without_values_gives_none():
+    made = tf.union(CUBE, moved(CUBE, 0, 0.75, 0), B)
+    lacks = made.face_source[:, 0] != 2
+    assert lacks.any() and not lacks.all()
+    assert (made.mesh.attributes.face["red"][lacks] == 0).all()
+    taken = B.attributes.face["red"][made.face_source[~lacks, 1]]
+    assert np.array_equal(made.mesh.attributes.face["red"][~lacks], taken)
+    assert tf.union(CUBE, moved(CUBE, 0.5, 0, 0)).mesh.attributes is None
+
+
+@pytest.mark.parametrize("verb", [
+    lambda m: tf.resolve_self_intersections(m), lambda m: tf.resolve_self_intersections(m, "split"),
+    lambda m: tf.repair(m), lambda m: tf.repair(m, sheet=True)])
+def test_mended_meshes_keep_values_of_faces_and_vertices(verb):
+    mesh = painted(SPHERES)
+    made = verb(mesh)
+    known = made.face_source != tf.NONE
+    assert known.any()
+    for name, values in made.mesh.attributes.face.items():
+        assert np.array_equal(values[known], mesh.attributes.face[name][made.face_source[known]])
+    known = made.vertex_source != tf.NONE
+    assert np.array_equal(made.mesh.attributes.vertex["quality"][known],
+                          mesh.attributes.vertex["quality"][made.vertex_source[known]])
+
+
+def test_clipped_and_split_meshes_keep_theirs():
+    for made in (tf.clip(A, moved(CUBE, 0.5, 0.5, 0.5)), tf.split(A, moved(B, 0, 0, 0))):
+        of_a = made.face_source[:, 0] == 0
+        assert np.array_equal(made.mesh.attributes.face["red"][of_a],
+                              A.attributes.face["red"][made.face_source[of_a, 1]])
+
+
+def test_joined_points_have_the_value_of_the_first():
+    soup = painted(tf.Mesh(CUBE.vertices[CUBE.faces].reshape(-1, 3),
+                           np.arange(36, dtype=np.uint32).reshape(-1, 3)))
+    made = tf.join_equal_points(soup)
+    first = [int(np.flatnonzero((soup.vertices == p).all(axis=1))[0]) for p in made.vertices]
+    assert np.array_equal(made.attributes.vertex["quality"],
+                          soup.attributes.vertex["quality"][first])
+    assert np.array_equal(made.attributes.face["red"], soup.attributes.face["red"])
+
+
+def test_moved_meshes_keep_theirs_and_normals_turn():
+    mesh = painted(moved(CUBE, 0, 0, 3))
+    for name, value in zip(("nx", "ny", "nz"), (0.0, 0.0, 1.0)):
+        mesh.attributes.set_vertex(name, np.full(8, value))
+    slid = tf.slide(mesh, CUBE, [0, 0, -1]).mesh
+    assert columns(slid).keys() == columns(mesh).keys()
+    assert all(np.array_equal(columns(slid)[key], value) for key, value in columns(mesh).items())
+    laid = tf.lay_flat(mesh, choose="nearest_normal", toward=[1, 0, 0])
+    normals = np.column_stack([laid.mesh.attributes.vertex[name] for name in ("nx", "ny", "nz")])
+    assert np.allclose(normals, laid.matrix[:3, :3] @ [0, 0, 1]) and abs(normals[0, 2]) < 1e-9
+    assert np.array_equal(mesh.attributes.vertex["nz"], np.ones(8))
+    packed = tf.pack([mesh, CUBE], [4, 4], spacing=0.5)
+    assert np.array_equal(columns(packed.parts[0].mesh)[("face", "red")],
+                          mesh.attributes.face["red"])
+    assert packed.parts[1].mesh.attributes is None or not columns(packed.parts[1].mesh)
+
+
+def test_textures_of_corners_are_carried(tmp_path):
+    lines = [f"v {x} {y} {z}" for x, y, z in CUBE.vertices]
+    lines += [f"vt {i / 36} {1 - i / 36}" for i in range(36)]
+    lines += ["f " + " ".join(f"{v + 1}/{3 * f + c + 1}" for c, v in enumerate(face))
+              for f, face in enumerate(CUBE.faces)]
+    (tmp_path / "cube.obj").write_text("\n".join(lines) + "\n")
+    mesh = tf.read(tmp_path / "cube.obj")
+    made = tf.difference(mesh, moved(CUBE, 0.5, 0.5, 0.5))
+    corners = made.mesh.attributes.corners
+    for f in np.flatnonzero(made.face_source[:, 0] == 0):
+        source = made.face_source[f, 1]
+        a, b, c = CUBE.vertices[CUBE.faces[source]]
+        for corner in range(3):
+            p = made.vertices[made.faces[f, corner]]
+            share = np.linalg.lstsq(np.column_stack([b - a, c - a]), p - a, rcond=None)[0]
+            u = np.array([1 - share.sum(), *share]) @ (3 * source + np.arange(3)) / 36
+            at = corners["texture"][corners["texture_of_corner"][f, corner]]
+            assert abs(at[0] - u) < 1e-12 and abs(at[1] - (1 - u)) < 1e-12
+
+
+def test_attributes_of_another_mesh_are_refused():
+    wrong = tf.Mesh(SPHERES.vertices, SPHERES.faces, A.attributes)
+    for verb in (lambda: tf.union(CUBE, wrong), lambda: tf.split(CUBE, wrong)):
+        with pytest.raises(ValueError, match="operand 1: attributes: face has 12 rows; .* 640"):
+            verb()
+    with pytest.raises(ValueError, match="operand 0: attributes"):
+        tf.repair(wrong)

@@ -1,0 +1,109 @@
+#include "carrying.hpp"
+
+#include "bindings.hpp"
+#include "file_data.hpp"
+#include "job.hpp"
+#include "words.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace binding {
+namespace {
+
+/// Names of parts are carried where there is a single operand.
+bool has_values(const tf::attributes& all, bool single) {
+    return (single && !all.parts.empty()) || !all.corners.texture_of_corner.empty() ||
+           !all.corners.normal_of_corner.empty() ||
+           std::ranges::any_of(all.elements, [](const tf::element& e) {
+               return (e.name == "vertex" || e.name == "face") &&
+                      std::ranges::any_of(e.columns, [](const tf::column& c) {
+                          return c.role == tf::column_role::data;
+                      });
+           });
+}
+
+const file_data* data_of(const held_mesh& mesh, bool single) {
+    if (mesh.data().is_none()) return nullptr;
+    const auto& data = mesh.data().cast<const file_data&>();
+    return has_values(data.file.attributes, single) ? &data : nullptr;
+}
+
+void require_rows(const tf::mesh_file& file, std::size_t operand) {
+    const std::size_t triangles = file.mesh.faces.size();
+    const auto refuse = [&](const std::string& what) {
+        throw std::invalid_argument("operand " + std::to_string(operand) + ": attributes: " + what);
+    };
+    if (!file.stored_face.empty() && file.stored_face.size() != triangles)
+        refuse("stored_face is for " + std::to_string(file.stored_face.size()) +
+               " faces; there are " + std::to_string(triangles));
+    const std::size_t faces =
+        file.stored_face.empty() ? triangles : std::size_t{file.stored_face.back()} + 1;
+    for (const tf::element& e : file.attributes.elements) {
+        if (e.name != "vertex" && e.name != "face") continue;
+        const std::size_t rows = e.name == "face" ? faces : file.mesh.points.size();
+        if (e.rows != rows)
+            refuse(e.name + " has " + std::to_string(e.rows) + " rows; there are " +
+                   std::to_string(rows));
+    }
+    if (const std::string fault = tf::fault_of(file.attributes.corners, triangles); !fault.empty())
+        refuse(fault);
+}
+
+/// A copy of what a mesh has, with normals turned as `matrix` turns the mesh.
+py::object turned(const file_data& data, const array_of<double>& matrix) {
+    file_data copy = data;
+    tf::transform_normals(copy.file, transform_of(matrix));
+    return py::cast(std::move(copy));
+}
+
+}  // namespace
+
+carrying::carrying(const held_meshes& operands) {
+    const bool single = operands.size() == 1;
+    if (std::ranges::all_of(operands,
+                            [=](const held_mesh* m) { return data_of(*m, single) == nullptr; }))
+        return;
+    for (const held_mesh* one : operands) {
+        tf::mesh_file& file = files_.emplace_back();
+        if (const file_data* data = data_of(*one, single)) file = data->file;
+        const auto [points, faces] = one->view();
+        file.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
+        require_rows(file, files_.size() - 1);
+    }
+    for (const tf::mesh_file& file : files_) sources_.push_back({&file, {}});
+}
+
+std::vector<std::uint32_t> carrying::face_groups() const {
+    return sources_.empty() ? std::vector<std::uint32_t>() : tf::face_groups(sources_, true, false);
+}
+
+template <class Carry>
+py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
+    if (sources_.empty()) return py::none();
+    file_data result;
+    without_lock([&] {
+        result.file.mesh = made;
+        carry(result.file);
+        result.file.mesh = {};
+    });
+    return py::cast(std::move(result));
+}
+
+py::object carrying::to(const tf::mesh& made, const tf::carried_elements& elements) const {
+    return carried(made, [&](tf::mesh_file& file) { tf::carry(file, sources_, elements); });
+}
+
+py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
+                        std::span<const std::uint32_t> vertex_source) const {
+    return carried(made, [&](tf::mesh_file& file) {
+        tf::carry(file, sources_.front(), face_source, vertex_source);
+    });
+}
+
+void add_carrying(py::module_& module) { module.def("turned", &turned); }
+
+}  // namespace binding

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Gives results what their operands have besides points and faces.
+
+#include "held_mesh.hpp"
+#include <treeform/mesh/carry.hpp>
+
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace binding {
+
+/// The operands of an operation, with their attributes as they are now.
+class carrying {
+  public:
+    /// \throws std::invalid_argument where attributes are not those of the mesh that has them
+    explicit carrying(const held_meshes& operands);
+
+    /// `boolean_options::face_groups` for merging coplanar faces: only those of equal values.
+    [[nodiscard]] std::vector<std::uint32_t> face_groups() const;
+
+    /// The attributes of what was made of the operands; None where these have none.
+    [[nodiscard]] py::object to(const tf::mesh& made, const tf::carried_elements& elements) const;
+    [[nodiscard]] py::object to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
+                                std::span<const std::uint32_t> vertex_source) const;
+
+  private:
+    template <class Carry>
+    py::object carried(const tf::mesh& made, Carry&& carry) const;
+
+    std::vector<tf::mesh_file> files_;
+    std::vector<tf::carry_source> sources_;  ///< empty: there is nothing to carry
+};
+
+}  // namespace binding
