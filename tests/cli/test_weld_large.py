@@ -325,8 +325,9 @@ class Large(WeldTest):
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_what_tiles_cannot_do_is_refused_where_memory_is_limited(self):
         self.binary("in.ply", [(i % 100, i // 100 % 100, i // 10000) for i in range(400000)])
-        run = self.run_tool("in.ply", "-o", "out.las", "--memory", "40M", status=5)
-        self.assertRegex(run.err, "LAS of what is in another format needs .* in memory, about")
+        run = self.run_tool("in.ply", "-o", "out.ply", "--removed", "gone.las", "--memory", "40M",
+                            status=5)
+        self.assertRegex(run.err, "--removed in LAS, .* needs .* in memory, about")
         self.assertEqual(self.listing(), ["in.ply"])
 
 

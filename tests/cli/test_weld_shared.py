@@ -93,6 +93,34 @@ class Shared(WeldTest):
         self.run_tool(*work, "--finish", "-o", "out.ply", status=0)
         self.assertEqual(self.written(), expected)
 
+    def test_las_of_another_format_is_that_of_one_also_after_a_kill(self):
+        finite = [p for p in cloud(self.rng, 1500) if p[0] == p[0]]
+        text = "".join("%.3f %.4f %r\n" % p for p in sorted(finite))
+        self.write("in.xyz", text.encode())
+        names = ("out.las", "gone.las")
+        gives = ["-o", "out.las", "--removed", "gone.las"]
+        self.run_tool("in.xyz", "-t", "0.02", *gives, status=0)
+        expected = self.written(names)
+        work = ["in.xyz", "-t", "0.02", "--work", "tiles"]
+        share = [*work, "--output-format", "las"]
+        run = self.run_tool(*share, "--plan", "--tile-points", 300, "--stop-at", 1)
+        self.assertEqual(run.status, -signal.SIGKILL)
+        for t in range(int(self.run_tool(*share, "--plan", status=0).text.split()[1])):
+            self.run_tool(*share, "--tile", t, status=0)
+        self.run_tool(*share, "--finish", *gives, status=0)
+        self.assertEqual(self.written(names), expected)
+        shutil.rmtree(self.path("tiles"))
+        for stop in (1, 3, 5):
+            run = self.run_tool(*work, *gives, "--tile-points", 300, "--stop-at", stop)
+            self.assertEqual(run.status, -signal.SIGKILL)
+            run = self.run_tool(*work, *gives, "--tile-points", 300, "-v", status=0)
+            self.assertIn("finished before", run.err)
+            self.assertEqual(self.written(names), expected)
+        for size in (2, 5) if MPIRUN and not SANITIZED else ():
+            self.mpi(size, *work, *gives, "--tile-points", 300)
+            self.assertEqual(self.written(names), expected)
+        self.assertEqual(self.listing(), ["in.ply", "in.xyz"])
+
     def test_who_puts_together_has_the_folder_alone(self):
         self.write("in.ply", ply(cloud(self.rng, 40000), self.rng))
         keep = ["-t", "0.002", "--keep", "mean"]

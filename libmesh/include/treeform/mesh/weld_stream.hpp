@@ -66,8 +66,8 @@ struct weld_stream_options {
     std::string keep_by{};
     weld_order order = weld_order::given;
     std::string order_by{};
-    /// Coordinates, and means of them, are rounded to the steps of the first file, which is LAS,
-    /// before anything is decided of them.
+    /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS, else
+    /// to those of `round_to_las`, before anything is decided of them.
     bool as_las = false;
     std::uint64_t memory = 0;           ///< bytes that the process may take; 0: `default_memory`
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
@@ -99,8 +99,8 @@ struct cloud_survey {
     std::size_t tiles = 0;
     std::size_t finished_tiles = 0;         ///< by an earlier run
     std::vector<std::size_t> unfinished{};  ///< the others
-    bool continued = false;          ///< this run goes on from what an earlier one has left
-    bool started_anew = false;       ///< what was left is of another job, or incomplete
+    bool continued = false;                 ///< this run goes on from what an earlier one has left
+    bool started_anew = false;              ///< what was left is of another job, or incomplete
     std::vector<std::filesystem::path> damaged{};  ///< files left by it that have changed since
     std::uint64_t disk_bytes = 0;  ///< about what the tiles will take; 0 when they are there
     std::optional<std::uint64_t> disk_bytes_free{};
