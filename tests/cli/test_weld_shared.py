@@ -270,7 +270,10 @@ class Shared(WeldTest):
             self.assertEqual(run.err.count(words), 1, msg=run.err)
             self.assertEqual(self.listing(), ["in.ply", "there.ply"])
         self.assertEqual(self.read_bytes("there.ply"), b"mine")
-        self.mpi(2, "in.ply", "-t", "0.1", "--check", status=1)
+        for more in ([], ["-r", "report.json"]):
+            self.mpi(2, "in.ply", "-t", "0.1", "--check", *more, status=1)
+        self.assertEqual(json.loads(self.read_bytes("report.json"))["exit"], 1)
+        os.remove(self.path("report.json"))
         os.symlink("/dev/full", self.path("full.ply"))
         for arguments, status, words in (
                 (["--help"], 0, "Exit status:"),

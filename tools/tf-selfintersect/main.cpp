@@ -171,7 +171,7 @@ exit_status look_at(tools::job& work, const request& r) {
             return tools::done;
         }
         const auto folder = r.tiles.folder_for(work, "tf-selfintersect",
-                                               {r.pairs, r.curves, o.html, o.png, o.report});
+                                               {r.pairs, r.curves, o.html, o.png, r.tiles.report});
         result = tools::work_in(work, folder, r.tiles, [&] {
             return tools::search_in_tiles(work, r.search, r.tiles, folder);
         });
@@ -226,6 +226,10 @@ int main(int argc, char** argv) {
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "tree", "pairs", "regions", "repair", "write"}, argc,
-        argv, [&] { check_request(line, r, options); },
+        argv,
+        [&] {
+            r.tiles.report = options.report;
+            check_request(line, r, options);
+        },
         [&](tools::job& work) { return look_at(work, r); });
 }

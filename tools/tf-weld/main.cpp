@@ -197,6 +197,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     return tools::run(
         line, options, {"read", "weld", "write"}, argc, argv,
         [&] {
+            tiles.report = options.report;
             if (me.team.rank > 0) {  // the first one speaks for all
                 options.report.clear();
                 options.log.clear();

@@ -26,8 +26,9 @@ struct tile_options {
     bool plan = false;
     std::optional<std::uint64_t> tile{};
     bool finish = false;
-    tf::weld_team team{};       ///< of mpirun
-    std::uint64_t stop_at = 0;  ///< for tests: the process kills itself after so many steps
+    tf::weld_team team{};            ///< of mpirun
+    std::filesystem::path report{};  ///< as asked for, also where another process writes it
+    std::uint64_t stop_at = 0;       ///< for tests: the process kills itself after so many steps
 
     /// Whether there are other processes.
     [[nodiscard]] bool is_shared() const { return plan || tile || finish; }
