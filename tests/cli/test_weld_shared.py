@@ -7,9 +7,6 @@ import shutil
 import signal
 import time
 
-MPIRUN = os.environ.get("TREEFORM_MPIRUN", "")
-NO_MPI = ("what MPI leaves behind is not ours" if SANITIZED else
-          "built without MPI (libopenmpi-dev)" if not MPIRUN else "")
 NAN = float("nan")
 
 
@@ -201,16 +198,6 @@ class Shared(WeldTest):
         self.assertIn("is no cloud",
                       self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
 
-    def mpi(self, size, *arguments, status=0, last=()):
-        """As so many ranks, the last of which has further options."""
-        run = lambda count, *more: ["-n", str(count), WELD, *map(str, arguments), *map(str, more)]
-        command = run(size) if not last else run(size - 1) + [":"] + run(1, *last)
-        done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command],
-                              cwd=self.folder, capture_output=True, timeout=300)
-        if status is not None:
-            self.assertEqual(done.returncode, status, msg=f"{arguments}\n{done.stderr.decode()}")
-        return Run(done)
-
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_ranks_of_mpi_give_what_one_gives(self):
         sizes = [(2, 7), (1, 4)]
@@ -306,7 +293,7 @@ class Shared(WeldTest):
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_tools_that_share_nothing_say_so(self):
         self.write("cube.obj", obj_bytes(cube()))
-        for tool in (TOOL, MEND):
+        for tool in (PLACE, MEND):
             done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "3", tool,
                                    "cube.obj"], cwd=self.folder, capture_output=True, timeout=300)
             self.assertEqual(done.returncode, 2)

@@ -197,11 +197,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     return tools::run(
         line, options, {"read", "weld", "write"}, argc, argv,
         [&] {
-            tiles.report = options.report;
-            if (me.team.rank > 0) {  // the first one speaks for all
-                options.report.clear();
-                options.log.clear();
-            }
+            tools::leave_reports_to_first(tiles, options);
             check_request(line, r, tiles, options);
         },
         [&](tools::job& work) { return tools::weld_somewhere(work, r, tiles); });

@@ -56,6 +56,13 @@ void add_sharing_options(command_line& line, tile_options& target) {
     line.flag(target.finish, {"--finish", "", "only put together what all tiles gave; DIR stays"});
 }
 
+void leave_reports_to_first(tile_options& tiles, common_options& options) {
+    tiles.report = options.report;
+    if (tiles.team.rank == 0) return;
+    options.report.clear();
+    options.log.clear();
+}
+
 void check_tile_options(const tile_options& tiles, const command_line& line,
                         const common_options& options) {
     if (tiles.is_shared() && tiles.team.size > 1)
