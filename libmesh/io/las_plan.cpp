@@ -1,4 +1,5 @@
 #include <libmesh/base/byte_order.hpp>
+#include <libmesh/io/las_grid_choice.hpp>
 #include <libmesh/io/las_plan.hpp>
 #include <treeform/tree/version.hpp>
 
@@ -60,54 +61,12 @@ void append_number(std::vector<std::byte>& to, T value) {
     return r;
 }
 
-/// Coordinates as multiples of `unit` from `offset` on, on one axis.
-[[nodiscard]] bool holds(std::span<const point3> points, std::size_t axis, double unit,
-                         double offset, double within) {
-    const las_grid grid{{unit, unit, unit}, {offset, offset, offset}};
-    return std::all_of(points.begin(), points.end(), [&](const point3& p) {
-        const double x = std::nearbyint((p[axis] - offset) / unit);
-        return std::abs(x) <= std::numeric_limits<std::int32_t>::max() &&
-               std::abs(grid.coordinate(axis, static_cast<std::int32_t>(x)) - p[axis]) <= within;
-    });
-}
-
-void choose_axis(las_header& h, std::span<const point3> points, std::size_t axis) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const point3& p : points) {
-        low = std::min(low, p[axis]);
-        high = std::max(high, p[axis]);
-    }
-    if (!std::isfinite(low) || !std::isfinite(high)) return;  // refused, or there is nothing
-    const double largest = std::max(std::abs(low), std::abs(high));
-    const double within = 2 * largest * std::numeric_limits<double>::epsilon();
-    const double half = 0.5 * high - 0.5 * low;
-    const double reach = 2147483000.0;
-    // From the middle, so that both halves have 31 bits.
-    const double middle = std::nearbyint(low + half);
-    double finest = 0.0;
-    for (int digits = 0; digits <= 12; ++digits) {
-        const double unit = 1.0 / std::pow(10.0, digits);
-        const bool near = largest / unit <= reach;
-        const double offset = near ? 0.0 : middle;
-        if (std::max(high - offset, offset - low) / unit > reach) break;
-        finest = unit;
-        h.scale[axis] = unit;
-        h.offset[axis] = offset;
-        if (holds(points, axis, unit, offset, within)) return;
-    }
-    if (finest != 0.0) return;
-    h.scale[axis] = std::max(half / reach * (1 + 1e-9), std::numeric_limits<double>::min());
-    h.offset[axis] = low + half;
-}
-
 class las_planner {
   public:
     las_planner(const write_job& job, std::optional<std::span<const point3>> points)
-        : job_(job), points_(points) {
-        const element* vertices = find_element(job.file.attributes, "vertex");
-        if (vertices == nullptr) return;
-        for (const column& c : vertices->columns) {
+        : job_(job), points_(points), vertices_(find_element(job.file.attributes, "vertex")) {
+        if (vertices_ == nullptr) return;
+        for (const column& c : vertices_->columns) {
             if (c.role != column_role::data) continue;
             if (c.list_length)
                 job.result.warnings.push_back(
@@ -158,13 +117,6 @@ class las_planner {
         return std::any_of(columns_.begin(), columns_.end(),
                            [&](const column* c) { return c->name == name; });
     }
-    [[nodiscard]] bool has_above(std::string_view name, double most) const {
-        for (const column* c : columns_)
-            if (c->name == name)
-                for (std::size_t i = 0; i < value_count(*c); ++i)
-                    if (number_at(*c, i) > most) return true;
-        return false;
-    }
 
     [[nodiscard]] las_features features() const {
         las_features f;
@@ -174,8 +126,7 @@ class las_planner {
         f.infrared = f.infrared || has("nir");
         f.wave_packet = f.wave_packet || has("wave_packet_index");
         f.extended = f.extended || has("overlap") || has("scanner_channel") ||
-                     has_above("return_number", 7) || has_above("number_of_returns", 7) ||
-                     has_above("classification", 31);
+                     (vertices_ != nullptr && has_extended_values(*vertices_));
         return f;
     }
 
@@ -273,6 +224,7 @@ class las_planner {
 
     const write_job& job_;
     std::optional<std::span<const point3>> points_;
+    const element* vertices_;
     std::vector<const column*> columns_{};
     std::vector<bool> used_{};
     las_plan plan_{};
@@ -281,7 +233,30 @@ class las_planner {
 }  // namespace
 
 void choose_las_grid(las_header& header, std::span<const point3> points) {
-    for (std::size_t axis = 0; axis < 3; ++axis) choose_axis(header, points, axis);
+    las_grid_choice choice;
+    choice.look(points);
+    choice.try_on(points);
+    choice.put(header);
+}
+
+bool has_extended_values(const element& vertices) {
+    const auto has_above = [&](std::string_view name, double most) {
+        const column* const c = find_column(vertices, name);
+        if (c == nullptr || c->role != column_role::data || c->list_length) return false;
+        for (std::size_t i = 0; i < value_count(*c); ++i)
+            if (number_at(*c, i) > most) return true;
+        return false;
+    };
+    return has_above("return_number", 7) || has_above("number_of_returns", 7) ||
+           has_above("classification", 31);
+}
+
+bool is_extended(const las_header& header) { return features_of(header.point_format).extended; }
+
+void extend(las_header& header) {
+    las_features f = features_of(header.point_format);
+    f.extended = true;
+    header.point_format = static_cast<std::uint8_t>(las_format_of(f));
 }
 
 double nearest_step(const las_grid& grid, std::size_t axis, double x) {

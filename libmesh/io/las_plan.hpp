@@ -49,13 +49,17 @@ void choose_las_grid(las_header& header, std::span<const point3> points);
            step <= std::numeric_limits<std::int32_t>::max();
 }
 
+/// Whether there are values of points that only formats from 6 on hold.
+[[nodiscard]] bool has_extended_values(const element& vertices);
+[[nodiscard]] bool is_extended(const las_header& header);
+/// Makes the format one of these, with all that it has.
+void extend(las_header& header);
+
 /// The plan for the job's file. `points` are all of them; none when they will come by runs: then the
 /// file must have been LAS.
 ///
 /// A file that was LAS keeps its version, format, scale and offset, where the columns fit into it;
-/// others get the smallest format that holds the columns. Their scale is the coarsest power of ten
-/// that gives each coordinate back within two units in the last place of the largest one, else the
-/// finest of which 32 bits hold all.
+/// others get the smallest format that holds the columns, and scales as of `las_grid_choice`.
 ///
 /// \throws las_fault
 [[nodiscard]] las_plan plan_las(const write_job& job, std::optional<std::span<const point3>> points,

@@ -121,7 +121,8 @@ void joined_points::fit(point_block& block) {
         block.points = std::move(file.mesh.points);
         block.properties = std::move(obtain_element(file.attributes, "vertex", 0));
     }
-    if (!as_las_ || !head_.las) return;
+    if (!is_rounded()) return;
+    single_ = fits_single(block.points);
     mesh_file file;
     file.las = las_header{.scale = head_.las->scale, .offset = head_.las->offset};
     file.mesh.points = std::move(block.points);

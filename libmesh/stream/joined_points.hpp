@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::stream {
@@ -18,7 +19,7 @@ namespace treeform::detail::stream {
 class joined_points {
   public:
     /// Reads what precedes the points of each file. With `as_las`, coordinates become those that a
-    /// LAS file with the first one's scale and offset holds.
+    /// LAS file with the first one's scale and offset holds, or with those that are set.
     ///
     /// \throws io_error, std::invalid_argument as `join`
     joined_points(const cloud_inputs& inputs, bool as_las);
@@ -26,6 +27,9 @@ class joined_points {
     /// Of all files together, without points.
     [[nodiscard]] const mesh_file& header() const { return head_; }
     [[nodiscard]] std::optional<std::uint64_t> count() const { return count_; }
+
+    [[nodiscard]] bool lacks_las_grid() const { return as_las_ && !head_.las; }
+    void set_las_grid(las_header grid) { head_.las = std::move(grid); }
 
     /// Starts again, with the first point of the share; of one that is not all, where the number of
     /// points is known.
@@ -35,6 +39,10 @@ class joined_points {
     /// The file that the last block came from, and its header.
     [[nodiscard]] std::size_t file() const { return file_; }
     [[nodiscard]] const mesh_file& file_header() const { return reader_->header(); }
+    /// Whether float32 held the last block as it was in the file.
+    [[nodiscard]] bool is_single(const point_block& block) const {
+        return is_rounded() ? single_ : fits_single(block.points);
+    }
 
     [[nodiscard]] std::size_t files() const { return formats_.size(); }
     [[nodiscard]] const std::string& format(std::size_t file) const { return formats_[file]; }
@@ -49,6 +57,7 @@ class joined_points {
     [[nodiscard]] bool read_some(point_block& block, std::size_t most);
     void take_warnings();
     void fit(point_block& block);
+    [[nodiscard]] bool is_rounded() const { return as_las_ && head_.las; }
 
     const cloud_inputs& inputs_;
     bool as_las_;
@@ -63,6 +72,7 @@ class joined_points {
     std::uint64_t left_ = 0;  ///< of the share
     bool ended_ = false;
     bool fits_ = true;  ///< the file has the columns of all
+    bool single_ = true;
     double moved_ = 0.0;
 };
 

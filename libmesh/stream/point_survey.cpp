@@ -152,7 +152,7 @@ point_survey survey(joined_points& points, const team& all, const share& mine,
         base::add_to_box(s.box, bounding_box(block.points));
         cloud_survey::source& from = s.sources[points.file()];
         from.points += block.points.size();
-        from.single = from.single && !points.file_header().las && fits_single(block.points);
+        from.single = from.single && !points.file_header().las && points.is_single(block);
         for (const point3& p : block.points) {
             const std::uint64_t id = mine.first + s.points++;
             if (!base::is_finite(p)) {

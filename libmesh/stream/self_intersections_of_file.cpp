@@ -1,6 +1,7 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
 #include <libmesh/io/face_rows.hpp>
+#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/weld_stream.hpp>
@@ -98,15 +99,25 @@ bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
 stream_search_result self_intersections_of_file(const fs::path& input,
                                                 const stream_search_options& options) {
     detail::stream::pacer pace(options.progress);
-    work_folder folder(folder_of(input, options), "search");
+    const detail::stream::team all(options.team);
+    if (!all.leads()) all.meet();  // the first one makes the folder
+    work_folder folder(folder_of(input, options), "search",
+                       all.leads() ? work_folder::use::alone : work_folder::use::member);
+    if (all.leads()) all.meet();
     detail::stream::tile_search search(pace, folder, input, options);
     stream_search_result result;
     try {
-        search.scatter();
-        for (std::size_t t = 0; t < search.tiles(); ++t) {
+        if (all.leads()) search.scatter();
+        all.meet();
+        const bool known = search.is_known();
+        all.meet();  // a tile that is finished has no faces any more
+        if (!known) folder.fail_without_tiles();
+        for (std::size_t t = all.rank(); t < search.tiles(); t += all.size()) {
             search.search(t, t, search.tiles());
             search.drop_faces(t);
         }
+        all.meet();
+        if (!all.leads()) return result;
         result = search.finish();
     } catch (const detail::stream::cancelled&) {
         result.found.cancelled = true;

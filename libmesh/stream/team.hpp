@@ -3,7 +3,7 @@
 /// The processes that do one work together: what each tells all, and which share is whose.
 
 #include <libmesh/stream/state_record.hpp>
-#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/mesh/process_team.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -24,7 +24,7 @@ struct share {
 
 class team {
   public:
-    explicit team(const weld_team& all) : all_(all) {}
+    explicit team(const process_team& all) : all_(all) {}
 
     [[nodiscard]] std::size_t size() const { return all_.size; }
     [[nodiscard]] std::size_t rank() const { return all_.rank; }
@@ -61,7 +61,7 @@ class team {
     }
 
   private:
-    weld_team all_;
+    process_team all_;
 };
 
 }  // namespace treeform::detail::stream

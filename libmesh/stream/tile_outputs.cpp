@@ -1,3 +1,4 @@
+#include <libmesh/io/las_plan.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/tile_outputs.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -98,6 +99,29 @@ class points_out {
     point_block some_{};
 };
 
+/// Rows on their way to a file, of which something has to be known before it is begun.
+class output_look {
+  public:
+    void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
+        point_block some;
+        for (const std::uint32_t row : rows) some.points.push_back(block.points[row]);
+        some.properties = gather(block.properties, rows);
+        write(some);
+    }
+    void write(const point_block& block) {
+        single_ = single_ && fits_single(block.points);
+        extended_ = extended_ || io::has_extended_values(block.properties);
+    }
+    void tell(mesh_file& head) const {
+        if (!single_) head.stored_as = precision::float64;
+        if (extended_) io::extend(*head.las);
+    }
+
+  private:
+    bool single_ = true;
+    bool extended_ = false;
+};
+
 /// The last pass over the input.
 class giving_back {
   public:
@@ -116,18 +140,17 @@ class giving_back {
         head_.stored_as = survey_.single ? precision::float32 : precision::float64;
         is_divided_ = may_divide();
         if (!is_divided_) steps.tell_first(welded);
-        first_ = welded.points.first;
         if (!is_divided_ && !all_.leads()) return;
-        open_files();
-        if (rows_ != nullptr) rows_->rewind();
-        if (asked_.map || !asked_.label.empty()) {
-            welded_.kept.number();
-            leaders_.emplace(steps, welded);
-        }
+        if (asked_.map || !asked_.label.empty()) welded_.kept.number();
     }
 
     [[nodiscard]] weld_stream_written run() {
-        if ((is_divided_ || all_.leads()) && (result_ || removed_ || asked_.map)) give_all();
+        const bool asked = asked_.welded || asked_.removed || asked_.map;
+        if (!asked || (!is_divided_ && !all_.leads())) return {};
+        add_columns();
+        if (task_.options.as_las) look_at_outputs();
+        open_files();
+        give_all();
         return std::move(written_);
     }
 
@@ -154,7 +177,16 @@ class giving_back {
         const std::uint64_t dropped = welded_.dropped;
         const team* const parts = is_divided_ ? &all_ : nullptr;
         if (asked_.removed)
-            removed_.emplace(*asked_.removed, removed_head(), dropped, parts, part("removed"));
+            removed_.emplace(*asked_.removed, removed_head_, dropped, parts, part("removed"));
+        if (asked_.welded)
+            result_.emplace(*asked_.welded, head_,
+                            drops_nothing() ? survey_.points : survey_.points - dropped, parts,
+                            part("welded"));
+    }
+
+    /// What the outputs have that the input has not.
+    void add_columns() {
+        removed_head_ = removed_head();
         if (!asked_.welded) return;
         if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
         if (!asked_.label.empty())
@@ -164,9 +196,6 @@ class giving_back {
         if (asked_.withhold)
             set_column(obtain_element(head_.attributes, "vertex", 0),
                        {.name = "withheld", .type = scalar_type::uint8});
-        result_.emplace(*asked_.welded, head_,
-                        drops_nothing() ? survey_.points : survey_.points - dropped, parts,
-                        part("welded"));
     }
 
     /// Of the header only the points and what they have.
@@ -180,29 +209,67 @@ class giving_back {
         return head;
     }
 
-    void give_all() {
+    /// Calls `take` with each block, which `first_` is the number of the first point of.
+    template <class Take>
+    void each_block(const Take& take) {
         joined_points& source = steps_.source();
         const share& mine = welded_.points;
         source.rewind(is_divided_ ? mine : share{});
+        if (rows_ != nullptr) rows_->rewind();
+        if (asked_.map || !asked_.label.empty()) leaders_.emplace(steps_, welded_);
+        first_ = mine.first;
+        given_ = 0;
         point_block block;
         while (source.read(block, points_a_block)) {
-            give(block);
+            take(block);
             first_ += block.points.size();
-            pace_.show("write",
-                       static_cast<double>(first_ - mine.first) / static_cast<double>(mine.size()));
         }
-        steps_.step_done();
         const fs::path& input = task_.inputs.paths.front();
         if (first_ != mine.last)
             throw stream_error(stream_error::reason::input_changed, input,
                                input.string() + ": the file changed while it was read");
         if (given_ != mine.size() - welded_.kept.dropped())
             throw std::logic_error("points in are not points kept and points removed");
+    }
+
+    /// What makes of LAS another format, and of other formats doubles, as far as it is not known.
+    void look_at_outputs() {
+        const auto may_extend = [](const mesh_file& head) {
+            const element* const vertices = find_element(head.attributes, "vertex");
+            return vertices != nullptr && !io::is_extended(*head.las) &&
+                   std::ranges::any_of(vertices->columns, [](const column& c) {
+                       return c.name == "classification" || c.name == "return_number" ||
+                              c.name == "number_of_returns";
+                   });
+        };
+        const bool all_las = std::ranges::all_of(
+            survey_.sources, [](const auto& one) { return one.format.starts_with("la"); });
+        if (!survey_.single && (all_las || !may_extend(head_))) return;
+        output_look welded;
+        output_look removed;
+        each_block([&](point_block& block) {
+            give(block, &welded, asked_.removed ? &removed : nullptr);
+            pace_.check();
+        });
+        welded.tell(head_);
+        removed.tell(removed_head_);
+    }
+
+    void give_all() {
+        const share& mine = welded_.points;
+        each_block([&](point_block& block) {
+            give(block, result_ ? &*result_ : nullptr, removed_ ? &*removed_ : nullptr);
+            if (asked_.map) asked_.map(groups_);
+            pace_.show("write", static_cast<double>(first_ - mine.first + block.points.size()) /
+                                    static_cast<double>(mine.size()));
+        });
+        steps_.step_done();
         if (removed_) written_.removed = removed_->commit();
         if (result_) written_.welded = result_->commit();
     }
 
-    void give(point_block& block) {
+    template <class Out>
+    void give(point_block& block, Out* welded, Out* removed) {
         if (leaders_) number(block.points.size());
         kept_.clear();
         gone_.clear();
@@ -211,16 +278,15 @@ class giving_back {
             if (!gives(first_ + row)) gone_.push_back(row);
         }
         given_ += kept_.size();
-        if (asked_.map) asked_.map(groups_);
-        if (removed_) removed_->write(block, gone_);
-        if (!result_) return;
+        if (removed != nullptr) removed->write(block, gone_);
+        if (welded == nullptr) return;
         if (drops_nothing()) {
             mark(block);
-            result_->write(block);
+            welded->write(block);
             return;
         }
         if (rows_ != nullptr) put_rows(block);
-        result_->write(block, kept_);
+        welded->write(block, kept_);
     }
 
     [[nodiscard]] bool gives(std::uint64_t point) const {
@@ -271,6 +337,7 @@ class giving_back {
     tiles_welded& welded_;
     kept_rows* rows_;
     mesh_file head_;
+    mesh_file removed_head_{};
     weld_stream_written written_{};
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};

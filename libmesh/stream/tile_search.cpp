@@ -129,11 +129,14 @@ std::filesystem::path tile_search::file(std::size_t tile, const char* what) cons
     return folder_.file(std::to_string(tile) + what);
 }
 
-/// With room for tiles that are larger than the sample said.
+/// With room for tiles that are larger than the sample said, and some tiles for each of a team.
 std::size_t tile_search::tile_count(std::uint64_t faces) const {
-    const std::uint64_t most = options_.faces_per_tile > 0
-                                   ? options_.faces_per_tile
-                                   : std::max<std::uint64_t>(1000, memory_ / 3 * 2 / bytes_a_face);
+    std::uint64_t most = options_.faces_per_tile;
+    if (most == 0) {
+        most = memory_ / 3 * 2 / bytes_a_face;
+        if (options_.team.size > 1) most = std::min(most, faces / (8 * options_.team.size));
+        most = std::max<std::uint64_t>(most, 1000);
+    }
     return static_cast<std::size_t>(faces / most + 1);
 }
 

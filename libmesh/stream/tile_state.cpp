@@ -1,6 +1,7 @@
 /// \file
 /// What is stored of a plan and of its tiles, and taken over by a later run.
 
+#include <libmesh/stream/las_grid.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <algorithm>
@@ -40,6 +41,18 @@ tile_cuts load_cuts(state_reader& state, double tolerance) {
     return {std::move(nodes), tolerance};
 }
 
+void store_grid(const las_header& header, state_writer& state) {
+    for (const double x : header.scale) state.real(x);
+    for (const double x : header.offset) state.real(x);
+}
+
+void load_grid(state_reader& state, joined_points& to) {
+    las_header grid;
+    for (double& x : grid.scale) x = state.real();
+    for (double& x : grid.offset) x = state.real();
+    if (to.lacks_las_grid()) to.set_las_grid(grid);
+}
+
 template <class Record>
 bool is_there(const std::filesystem::path& path, const record_count& count, bool check) {
     return check ? is_whole<Record>(path, count) : size_of(path) == count.records * sizeof(Record);
@@ -60,6 +73,8 @@ void tile_steps::look() {
         const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
         if (team_.leads()) folder_.clear();
         tiles_.clear();
+        if (source_.lacks_las_grid())
+            source_.set_las_grid(las_grid_of(source_, team_, read_by(team_.rank()), pace_));
         const std::size_t most = std::bit_floor(
             std::clamp<std::uint64_t>(task_.options.memory / bytes_of_sample, 1U << 12, 1U << 18));
         survey_ = stream::survey(
@@ -89,6 +104,7 @@ void tile_steps::store_plan() const {
     state_writer state;
     state.text(task_.identity);
     store(survey_, state);
+    if (task_.options.as_las) store_grid(*source_.header().las, state);
     store_count(numbers_, state);
     store_count(ranks_, state);
     store_cuts(*cuts_, state);
@@ -104,6 +120,7 @@ bool tile_steps::load_plan() {
     auto state = folder_.load(plan_name);
     if (!state || state->text() != task_.identity) return false;
     survey_ = load_survey(*state);
+    if (task_.options.as_las) load_grid(*state, source_);
     set_tolerance();
     numbers_ = load_count(*state);
     ranks_ = load_count(*state);

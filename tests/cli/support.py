@@ -17,6 +17,9 @@ PLACE = os.environ.get("TF_PLACE", "tf-place")
 WELD = os.environ.get("TF_WELD", "tf-weld")
 MODELS = os.environ.get("TREEFORM_MODELS_DIR", "")
 SANITIZED = os.environ.get("TREEFORM_SANITIZED", "") != ""
+MPIRUN = os.environ.get("TREEFORM_MPIRUN", "")
+NO_MPI = ("what MPI leaves behind is not ours" if SANITIZED else
+          "built without MPI (libopenmpi-dev)" if not MPIRUN else "")
 
 
 class Run:
@@ -43,6 +46,17 @@ class ToolTest(unittest.TestCase):
         with open(self.path(name), "w") as file:
             file.write(text)
         return name
+
+    def mpi(self, size, *arguments, status=0, last=()):
+        """As so many ranks, the last of which has further options."""
+        run = lambda count, *more: ["-n", str(count), self.tool, *map(str, arguments),
+                                    *map(str, more)]
+        command = run(size) if not last else run(size - 1) + [":"] + run(1, *last)
+        done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command],
+                              cwd=self.folder, capture_output=True, timeout=300)
+        if status is not None:
+            self.assertEqual(done.returncode, status, msg=f"{arguments}\n{done.stderr.decode()}")
+        return Run(done)
 
     def run_tool(self, *arguments, status=None, stdin=b"", timeout=120):
         done = subprocess.run([self.tool, *map(str, arguments)], input=stdin, capture_output=True,

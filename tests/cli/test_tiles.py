@@ -167,6 +167,52 @@ class Tiles(ToolTest):
                 self.assertEqual(self.read_bytes(f"tiles/{victim}.{what}"), whole[victim])
                 self.assertEqual(self.look("float.ply", *work, "--finish"), expected)
 
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_ranks_of_mpi_tell_what_one_tells(self):
+        names = ("report.json", "pairs.csv", "curves.obj")
+        for name in self.put_all(heap(40)):
+            for more in ([], ["--touching", "--box", "1,1,1,4,5,6.5"]):
+                expected = self.look(name, "--tile-faces", 100, *more)
+                for size in (2, 4):
+                    with self.subTest(name=name, more=more, size=size):
+                        self.mpi(size, name, "-r", names[0], "--pairs", names[1], "--curves",
+                                 names[2], "-f", "--tile-faces", 100, *more, status=1)
+                        found = [self.read_bytes(n) for n in names]
+                        self.assertEqual(answers(json.loads(found[0])), expected[0])
+                        self.assertEqual(found[1], expected[1])
+                        if name.endswith(".ply"):
+                            self.assertEqual(found[2], expected[2])
+        self.mpi(3, "in.stl", "-r", "report.json", "-f", status=1)  # some tiles for each
+        self.assertEqual(self.listing(), sorted({"in.stl", "float.ply", "double.ply", *names}))
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
+        self.put_all(heap(40))
+        expected = self.look("in.stl")
+        work = ["in.stl", "--tile-faces", 30, "--work", "tiles", "--pairs", "pairs.csv", "-f"]
+        for size, step in ((2, 1), (2, 2), (3, 1), (4, 2)):
+            run = self.mpi(size, *work, status=None, last=["--stop-at", step])
+            self.assertEqual(run.status, 128 + signal.SIGKILL)
+            self.assertIn("tiles", self.listing())
+            run = self.mpi((size + step) % 4 + 1, *work, "-v", status=1)
+            self.assertIn("finished before", run.err)
+            self.assertNotIn("tiles", self.listing())
+            self.assertEqual(self.read_bytes("pairs.csv"), expected[1])
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_what_fails_under_mpirun_is_said_once(self):
+        self.put_all(heap(10))
+        for arguments, status, words in (
+                (["none.stl"], 2, "none.stl"), (["in.stl", "--within"], 2, "needs the whole mesh"),
+                (["in.stl", "--pairs", "none/p.csv"], 4, "no folder none"),
+                (["in.stl", "--work", "none/tiles"], 4, "none/tiles: cannot be made"),
+                (["in.stl", "float.ply"], 2, "mpirun: one INPUT"),
+                (["in.stl", "--work", "tiles", "--plan"], 2, "without mpirun"),
+                (["--help"], 0, "Exit status:")):
+            run = self.mpi(3, *arguments, status=status)
+            self.assertEqual((run.text + run.err).count(words), 1, msg=run.text + run.err)
+            self.assertEqual(self.listing(), ["double.ply", "float.ply", "in.stl"])
+
     def test_a_folder_that_is_of_no_use_is_named(self):
         self.put_all(heap(10))
         run = self.run_tool("in.stl", "--work", "tiles")

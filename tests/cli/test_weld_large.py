@@ -101,10 +101,14 @@ class Large(WeldTest):
             for tiled in ([], ["--tile-points", 200]):
                 command = ["in.ply", "-t", "0.03", "--rule", rule, "-o", "out.ply", "-f", *tiled]
                 reports.append(self.report(*command, status=0)["files"])
+                tiles = reports[-1][0].pop("tiles")
                 said = self.run_tool(*command, "-v", status=0).err
                 moves.append(said[said.index("largest move"):].split("\n")[0])
             self.assertEqual(*reports)
             self.assertEqual(*moves)
+            self.assertEqual(tiles, {"count": tiles["count"], "folder": "out.ply.tf-weld-tiles",
+                                     "unfinished": []})
+            self.assertGreater(tiles["count"], 5)
             self.assertGreater(reports[0][0]["displacement"]["max"], 0.0)
 
     def test_points_that_are_not_finite_are_kept(self):
@@ -134,7 +138,7 @@ class Large(WeldTest):
     def test_what_only_memory_can_do_is_refused_in_words(self):
         self.write("in.ply", ply(cloud(200), ascii=False))
         for out, more in (("out.ply", ["--keep-manifold"]), ("out.ply", ["--borders"]),
-                          ("out.las", []), ("-", ["--keep", "mean", "--output-format", "ply"])):
+                          ("out.ply", ["--removed", "out.las"]), ("-", ["--keep", "mean", "--output-format", "ply"])):
             run = self.run_tool("in.ply", "-t", "0.02", "-o", out, "--tile-points", 50, *more,
                                 status=2)
             self.assertIn("memory", run.err)
@@ -325,8 +329,9 @@ class Large(WeldTest):
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_what_tiles_cannot_do_is_refused_where_memory_is_limited(self):
         self.binary("in.ply", [(i % 100, i // 100 % 100, i // 10000) for i in range(400000)])
-        run = self.run_tool("in.ply", "-o", "out.las", "--memory", "40M", status=5)
-        self.assertRegex(run.err, "LAS of what is in another format needs .* in memory, about")
+        run = self.run_tool("in.ply", "-o", "out.ply", "--removed", "gone.las", "--memory", "40M",
+                            status=5)
+        self.assertRegex(run.err, "--removed in LAS, .* needs .* in memory, about")
         self.assertEqual(self.listing(), ["in.ply"])
 
 

@@ -9,7 +9,7 @@ NUMBER = (int, float)
 HEAD = {"schema": str, "tool": str, "version": str, "command": list, "exit": int, "unit": str,
         "files": list, "seconds": dict, "threads": int, "peak_rss": int}
 FILE = {"input": str, "exit": int, "error": type(None), "format": str, "sha256": str,
-        "precision_in": str, "sources": list, "points": dict, "faces": dict, "polygons": dict,
+        "precision_in": str, "sources": list, "tiles": type(None), "points": dict, "faces": dict, "polygons": dict,
         "box": dict, "skipped": dict, "tolerance": dict, "rule": str, "keep": str, "order": str,
         "same": list, "displacement": dict, "nonmanifold_edges": dict, "left_alone": type(None),
         "output": (dict, type(None)), "map": type(None), "removed": type(None),
@@ -119,8 +119,9 @@ class Report(WeldTest):
                   "property float x\nproperty float y\nproperty float z\nend_header\n")
         self.write("in.ply", header)
         os.truncate(self.path("in.ply"), len(header) + 12 * count)  # all of them in one place
-        for output, memory in (("out.las", "100M"), ("out.ply", "40M")):  # too little for tiles, too
-            run = self.run_tool("in.ply", "-o", output, "--memory", memory, "--keep", "mean", status=5)
+        for memory, more in (("100M", ["--keep-manifold"]),
+                             ("40M", ["--keep", "mean"])):  # too little for tiles, too
+            run = self.run_tool("in.ply", "-o", "out.ply", "--memory", memory, *more, status=5)
             self.assertIn("--memory", run.err)
             self.assertEqual(self.listing(), ["in.ply"])
 

@@ -7,9 +7,6 @@ import shutil
 import signal
 import time
 
-MPIRUN = os.environ.get("TREEFORM_MPIRUN", "")
-NO_MPI = ("what MPI leaves behind is not ours" if SANITIZED else
-          "built without MPI (libopenmpi-dev)" if not MPIRUN else "")
 NAN = float("nan")
 
 
@@ -93,6 +90,34 @@ class Shared(WeldTest):
         self.run_tool(*work, "--finish", "-o", "out.ply", status=0)
         self.assertEqual(self.written(), expected)
 
+    def test_las_of_another_format_is_that_of_one_also_after_a_kill(self):
+        finite = [p for p in cloud(self.rng, 1500) if p[0] == p[0]]
+        text = "".join("%.3f %.4f %r\n" % p for p in sorted(finite))
+        self.write("in.xyz", text.encode())
+        names = ("out.las", "gone.las")
+        gives = ["-o", "out.las", "--removed", "gone.las"]
+        self.run_tool("in.xyz", "-t", "0.02", *gives, status=0)
+        expected = self.written(names)
+        work = ["in.xyz", "-t", "0.02", "--work", "tiles"]
+        share = [*work, "--output-format", "las"]
+        run = self.run_tool(*share, "--plan", "--tile-points", 300, "--stop-at", 1)
+        self.assertEqual(run.status, -signal.SIGKILL)
+        for t in range(int(self.run_tool(*share, "--plan", status=0).text.split()[1])):
+            self.run_tool(*share, "--tile", t, status=0)
+        self.run_tool(*share, "--finish", *gives, status=0)
+        self.assertEqual(self.written(names), expected)
+        shutil.rmtree(self.path("tiles"))
+        for stop in (1, 3, 5):
+            run = self.run_tool(*work, *gives, "--tile-points", 300, "--stop-at", stop)
+            self.assertEqual(run.status, -signal.SIGKILL)
+            run = self.run_tool(*work, *gives, "--tile-points", 300, "-v", status=0)
+            self.assertIn("finished before", run.err)
+            self.assertEqual(self.written(names), expected)
+        for size in (2, 5) if MPIRUN and not SANITIZED else ():
+            self.mpi(size, *work, *gives, "--tile-points", 300)
+            self.assertEqual(self.written(names), expected)
+        self.assertEqual(self.listing(), ["in.ply", "in.xyz"])
+
     def test_who_puts_together_has_the_folder_alone(self):
         self.write("in.ply", ply(cloud(self.rng, 40000), self.rng))
         keep = ["-t", "0.002", "--keep", "mean"]
@@ -173,16 +198,6 @@ class Shared(WeldTest):
         self.assertIn("is no cloud",
                       self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
 
-    def mpi(self, size, *arguments, status=0, last=()):
-        """As so many ranks, the last of which has further options."""
-        run = lambda count, *more: ["-n", str(count), WELD, *map(str, arguments), *map(str, more)]
-        command = run(size) if not last else run(size - 1) + [":"] + run(1, *last)
-        done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command],
-                              cwd=self.folder, capture_output=True, timeout=300)
-        if status is not None:
-            self.assertEqual(done.returncode, status, msg=f"{arguments}\n{done.stderr.decode()}")
-        return Run(done)
-
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_ranks_of_mpi_give_what_one_gives(self):
         sizes = [(2, 7), (1, 4)]
@@ -242,7 +257,10 @@ class Shared(WeldTest):
             self.assertEqual(run.err.count(words), 1, msg=run.err)
             self.assertEqual(self.listing(), ["in.ply", "there.ply"])
         self.assertEqual(self.read_bytes("there.ply"), b"mine")
-        self.mpi(2, "in.ply", "-t", "0.1", "--check", status=1)
+        for more in ([], ["-r", "report.json"]):
+            self.mpi(2, "in.ply", "-t", "0.1", "--check", *more, status=1)
+        self.assertEqual(json.loads(self.read_bytes("report.json"))["exit"], 1)
+        os.remove(self.path("report.json"))
         os.symlink("/dev/full", self.path("full.ply"))
         for arguments, status, words in (
                 (["--help"], 0, "Exit status:"),
@@ -275,7 +293,7 @@ class Shared(WeldTest):
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_tools_that_share_nothing_say_so(self):
         self.write("cube.obj", obj_bytes(cube()))
-        for tool in (TOOL, MEND):
+        for tool in (PLACE, MEND):
             done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "3", tool,
                                    "cube.obj"], cwd=self.folder, capture_output=True, timeout=300)
             self.assertEqual(done.returncode, 2)

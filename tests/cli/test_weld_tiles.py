@@ -120,6 +120,62 @@ class Tiles(WeldTest):
             self.assertIn("las-grid", [w["code"] for w in entry["warnings"]])
         self.check("a.las", "b.las", "--join", "-t", "0.05", size=70, also=("--removed", "gone.csv"))
 
+    def to_las(self, name, *which, size=70, removed="gone.ply"):
+        return self.check(name, "-t", "0.05", *which, size=size, out="out.las",
+                          also=("--removed", removed, "--map", "map.csv"))
+
+    def test_las_of_other_formats_has_the_steps_that_memory_chooses(self):
+        draw = lambda scale, digits: [tuple(round(scale * self.rng.random(), digits)
+                                            for _ in range(3)) for _ in range(400)]
+        shifted = lambda points, by: [tuple(x + by for x in p) for p in points]
+        exact = {"coarse": draw(3, 2), "fine at last": draw(3, 1) + draw(3, 5)[:40] + draw(3, 3),
+                 "none": list(families(self.rng, 400))[3][1],
+                 "beyond 32 bits": draw(1e7, 3) + draw(1, 6), "far": shifted(draw(1, 3), 4e9),
+                 "huge": shifted(draw(1e13, 0), 1e15), "one": 70 * [(0.1, 0.25, -3.0)],
+                 "tiny": [tuple(1e-9 * x for x in p) for p in draw(1, 6)]}
+        moved = {}
+        for name, points in exact.items():
+            self.rng.shuffle(points) if name != "fine at last" else None
+            self.write("in.ply", ply(points, self.rng))
+            for which in ([], ["--keep", "mean"], ["--order", "z"]):
+                with self.subTest(name=name, which=which):
+                    entry = self.to_las("in.ply", *which)
+                    moved[name] = "las-grid" in [w["code"] for w in entry["warnings"]]
+        self.assertTrue(moved["none"] and moved["huge"])
+
+    def test_las_of_floats_and_texts_is_that_of_memory(self):
+        for digits in (1, 3, 9):  # steps of floats are floats, or not
+            points = [tuple(round(x, digits) for x in p) for p in list(families(self.rng, 500))[0][1]]
+            points += [(p[0] + 3, 0.5, 1.0) for p in points[:20]]
+            rows = [(*p, i % 3, i % 7) for i, p in enumerate(points)]
+            self.write("in.ply", ply_text(["float x", "float y", "float z", "uchar return_number",
+                                           "float shade"], rows))
+            self.cloud("in.xyz", points)
+            for which in ([], ["--keep", "mean"], ["--rule", "chain"]):
+                for name in ("in.ply", "in.xyz"):
+                    self.to_las(name, *which)
+                    self.to_las(name, *which, removed="gone.laz")
+            self.check("in.ply", "-t", "0.05", "--label", "group", size=80, out="out.laz", also=())
+            self.check("in.ply", "-t", "0.05", "--withhold", size=80, out="out.las", also=())
+
+    def test_las_has_the_format_that_holds_what_is_written(self):
+        points = [(0.25 * (i // 2), 0.0, 0.0) for i in range(200)]  # pairs
+        for rank in (0, 1):
+            values = [40 if i == 2 * 50 + rank else i % 30 for i in range(200)]
+            self.write("in.ply", ply_text(["double x", "double y", "double z",
+                                           "uchar classification"],
+                                          [(*p, v) for p, v in zip(points, values)]))
+            formats = []
+            for which in ([], ["--keep", "last"], ["--keep", "max:classification"],
+                          ["--order", "min:classification"]):
+                entry = self.to_las("in.ply", *which, size=30, removed="gone.las")
+                self.run_tool("in.ply", "-t", "0.05", *which, "--tile-points", 30, "-o", "out.las",
+                              "-f", status=0)
+                formats.append(self.read_bytes("out.las")[104])
+            self.assertEqual(formats, [[6, 0, 6, 0], [0, 6, 6, 0]][rank])
+            self.check("in.ply", "-t", "0.05", "--label", "classification", size=30, out="out.las",
+                       also=())
+
     def test_rounding_to_float_is_looked_at_again(self):
         points = [(1e5 + x, y, z) for x, y, z in list(families(self.rng, 500))[0][1]]
         self.write("in.ply", ply(points, self.rng))

@@ -81,6 +81,7 @@ tf::stream_search_options library_options(job& work, const search_settings& sett
     options.memory = work.options.memory;
     options.folder = folder;
     options.faces_per_tile = tiles.per_tile;
+    options.team = tiles.team;
     options.progress = [&work](std::string_view step, double share) {
         return work.progress(step)(share);
     };
@@ -132,6 +133,7 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
         return search.finish();
     });
     work.call_ended(r.found.cancelled);
+    if (tiles.team.rank > 0) return {};
     work.seconds["tree"] += r.found.tree_seconds;
     work.seconds["pairs"] += r.found.pair_seconds;
     work.seconds["read"] =

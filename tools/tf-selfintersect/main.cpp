@@ -8,6 +8,7 @@
 #include "tools/common/run.hpp"
 #include "tools/tf-selfintersect/in_tiles.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
+#include "tools/tiles/team.hpp"
 #include <treeform/tf.hpp>
 
 #include <array>
@@ -126,6 +127,7 @@ const char* const epilogue =
     "  tf-selfintersect part.stl --curves where.obj\n"
     "  tf-selfintersect --repair part.stl -o fixed.stl\n"
     "  tf-selfintersect --repair=remove scan.ply -o clean.ply --max-move 0\n"
+    "  mpirun -n 8 tf-selfintersect huge.stl --work /scratch/tiles --pairs pairs.csv\n"
     "\n"
     "Exit status: 0 none found, or all resolved; 1 found, or not all resolved;\n"
     "  2 usage; 3 input; 4 output; 5 stopped (memory, timeout, signal); 70 bug.\n"
@@ -160,7 +162,8 @@ void check_request(const command_line& line, request& r, common_options& options
 exit_status look_at(tools::job& work, const request& r) {
     const common_options& o = work.options;
     work.entry["tiles"] = nullptr;
-    tools::check_outputs(work, {r.pairs}, {r.curves});
+    const bool leads = r.tiles.team.rank == 0;
+    if (leads) tools::check_outputs(work, {r.pairs}, {r.curves});
     const auto output = tools::mesh_output(o, work.path);
     const bool keeps_mesh = r.repairs || (output && !o.dry_run);
     tf::mesh_file file;
@@ -171,7 +174,7 @@ exit_status look_at(tools::job& work, const request& r) {
             return tools::done;
         }
         const auto folder = r.tiles.folder_for(work, "tf-selfintersect",
-                                               {r.pairs, r.curves, o.html, o.png, o.report});
+                                               {r.pairs, r.curves, o.html, o.png, r.tiles.report});
         result = tools::work_in(work, folder, r.tiles, [&] {
             return tools::search_in_tiles(work, r.search, r.tiles, folder);
         });
@@ -180,6 +183,7 @@ exit_status look_at(tools::job& work, const request& r) {
         result = tools::search(work, file, r.search, keeps_mesh);
     }
 
+    if (!leads) return tools::done;
     work.out.result(work.name + ": " + tools::verdict(result, r.search));
     tools::say_details(work, result);
     tools::enter_report(work, result, r.search, r.limit);
@@ -198,15 +202,16 @@ exit_status look_at(tools::job& work, const request& r) {
     return found ? tools::found : tools::done;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv, tools::team_member& me) {
     command_line line(
         "tf-selfintersect", "[OPTIONS] INPUT...",
         "Find self-intersections of triangle meshes and, with --repair, resolve them.\n"
         "Every yes/no answer is exact for the coordinates as read.");
     request r;
     common_options options;
+    r.tiles.team = me.team;
+    options.in_team = true;
+    options.failed = [&me](const std::string& text) { me.error = text; };
     options.suffix = "-selfintersect";
     options.table = {{"faces", "/faces"}, {"hit", "/faces_hit"}};
     for (const char* const kind :
@@ -226,6 +231,16 @@ int main(int argc, char** argv) {
     line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "tree", "pairs", "regions", "repair", "write"}, argc,
-        argv, [&] { check_request(line, r, options); },
+        argv,
+        [&] {
+            tools::leave_reports_to_first(r.tiles, options);
+            check_request(line, r, options);
+        },
         [&](tools::job& work) { return look_at(work, r); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return tools::run_in_team([&](tools::team_member& me) { return run(argc, argv, me); });
 }

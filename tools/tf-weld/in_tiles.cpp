@@ -223,7 +223,7 @@ tf::status weld_tile(job& work, tf::stream_weld& weld, const tile_options& optio
 fs::path folder_for(const job& work, const weld_request& request, const tile_options& tiles) {
     return tiles.folder_for(work, "tf-weld",
                             {mesh_output(work.options, work.path).value_or(fs::path()),
-                             request.outputs.removed, request.outputs.map, work.options.report});
+                             request.outputs.removed, request.outputs.map, tiles.report});
 }
 
 exit_status weld_in_tiles(job& work, const weld_request& request, const tile_options& tiles,

@@ -104,8 +104,8 @@ const char* const epilogue =
     "In tiles, clouds are read three times: to look at them (the box that a DIST in\n"
     "percent needs, how many points, samples that say where to cut), to give each\n"
     "tile its points, and to write what is kept; --order and --keep read them once\n"
-    "more. Meshes, --borders, --keep-manifold and LAS of other formats need all of it\n"
-    "in memory.\n"
+    "more, and LAS of other formats three times more. Meshes, --borders and\n"
+    "--keep-manifold need all of it in memory.\n"
     "\n"
     "With --order and rule first, no two kept points are within DIST, and every\n"
     "dropped point is within DIST of a kept one that comes earlier in that order.\n"
@@ -197,10 +197,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     return tools::run(
         line, options, {"read", "weld", "write"}, argc, argv,
         [&] {
-            if (me.team.rank > 0) {  // the first one speaks for all
-                options.report.clear();
-                options.log.clear();
-            }
+            tools::leave_reports_to_first(tiles, options);
             check_request(line, r, tiles, options);
         },
         [&](tools::job& work) { return tools::weld_somewhere(work, r, tiles); });

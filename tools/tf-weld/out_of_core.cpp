@@ -38,10 +38,9 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const auto path = mesh_output(work.options, work.path);
     if (path && *path == "-" && (chooses || work.options.precision == "float"))
         return "looking again at what goes to standard output";
-    const fs::path& removed = request.outputs.removed;
-    if (!header.las && ((path && form_of(work, header, *path).is_las()) ||
-                        written_form{extension_of(removed)}.is_las()))
-        return "LAS of what is in another format";
+    const bool gives_las = path && form_of(work, header, *path).is_las();
+    if (!header.las && !gives_las && written_form{extension_of(request.outputs.removed)}.is_las())
+        return "--removed in LAS, where neither input nor output is,";
     return {};
 }
 
@@ -77,8 +76,7 @@ exit_status weld_mesh(job& work, const weld_request& request, const tile_options
                       std::uint64_t size) {
     const char* const words = "meshes are welded in memory, not in tiles";
     if (work.options.memory == 0 || size < work.options.memory / most_per_byte)
-        return weld_in_memory(work, request,
-                              tiles.per_tile > 0 ? words : remark_on_folder(tiles));
+        return weld_in_memory(work, request, tiles.per_tile > 0 ? words : remark_on_folder(tiles));
     const auto not_enough = [&] {
         return failure(stopped, "memory",
                        work.name + ": " + words +
@@ -87,8 +85,7 @@ exit_status weld_mesh(job& work, const weld_request& request, const tile_options
     };
     if (size > work.options.memory) throw not_enough();
     try {
-        return weld_in_memory(work, request,
-                              words + std::string("; --memory may not be enough"));
+        return weld_in_memory(work, request, words + std::string("; --memory may not be enough"));
     } catch (const std::bad_alloc&) {
         throw not_enough();
     } catch (const failure& error) {
@@ -119,13 +116,11 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +
         tf::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
-    if (!asked && needed <= allowed)
-        return weld_in_memory(work, request, remark_on_folder(tiles));
+    if (!asked && needed <= allowed) return weld_in_memory(work, request, remark_on_folder(tiles));
     const std::string only = what_needs_memory(work, request, cloud->header);
     if (only.empty())
-        return work_in(work, folder_for(work, request, tiles), tiles, [&] {
-            return weld_in_tiles(work, request, tiles, inputs, cloud->header);
-        });
+        return work_in(work, folder_for(work, request, tiles), tiles,
+                       [&] { return weld_in_tiles(work, request, tiles, inputs, cloud->header); });
     throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
                   work.name + ": " + only + " needs the whole cloud in memory, about " +
                       in_megabytes(needed) + "; without it, a smaller --memory would do");

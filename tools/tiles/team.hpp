@@ -12,7 +12,7 @@
 namespace tools {
 
 struct team_member {
-    tf::weld_team team{};
+    tf::process_team team{};
     std::string error{};  ///< to be set by a tool that fails: what it says of it
 };
 

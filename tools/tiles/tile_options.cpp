@@ -33,7 +33,7 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
                       const std::string& per_tile) {
     line.group(heading);
     line.option({"--work", "DIR",
-                 "folder for them; kept when stopped, so that the same\n"
+                 "folder for them; left when stopped, so that the same\n"
                  "command goes on there",
                  "beside the output"},
                 [&target](std::string_view text) { target.folder = text; });
@@ -53,7 +53,14 @@ void add_sharing_options(command_line& line, tile_options& target) {
                             "--work DIR"});
     line.option({"--tile", "K", "only do this tile"},
                 [&target](std::string_view text) { target.tile = parse_count("--tile", text); });
-    line.flag(target.finish, {"--finish", "", "only put together what all tiles gave"});
+    line.flag(target.finish, {"--finish", "", "only put together what all tiles gave; DIR stays"});
+}
+
+void leave_reports_to_first(tile_options& tiles, common_options& options) {
+    tiles.report = options.report;
+    if (tiles.team.rank == 0) return;
+    options.report.clear();
+    options.log.clear();
 }
 
 void check_tile_options(const tile_options& tiles, const command_line& line,
@@ -70,8 +77,8 @@ void check_tile_options(const tile_options& tiles, const command_line& line,
     if (options.inputs.size() != 1 && !options.joined)
         refuse("--plan, --tile and --finish take one INPUT");
     const std::vector<fs::path> outputs = line.outputs();
-    const bool gives = std::ranges::any_of(
-        outputs, [&](const fs::path& path) { return path != options.report; });
+    const bool gives =
+        std::ranges::any_of(outputs, [&](const fs::path& path) { return path != options.report; });
     if (tiles.is_part() && (gives || wants_mesh(options)))
         refuse("--plan and --tile give nothing back: outputs belong to --finish");
 }

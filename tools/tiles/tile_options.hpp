@@ -26,8 +26,9 @@ struct tile_options {
     bool plan = false;
     std::optional<std::uint64_t> tile{};
     bool finish = false;
-    tf::weld_team team{};       ///< of mpirun
-    std::uint64_t stop_at = 0;  ///< for tests: the process kills itself after so many steps
+    tf::process_team team{};         ///< of mpirun
+    std::filesystem::path report{};  ///< as asked for, also where another process writes it
+    std::uint64_t stop_at = 0;       ///< for tests: the process kills itself after so many steps
 
     /// Whether there are other processes.
     [[nodiscard]] bool is_shared() const { return plan || tile || finish; }
@@ -49,6 +50,9 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
                       const std::string& per_tile);
 /// Adds the options of work that many processes share.
 void add_sharing_options(command_line& line, tile_options& target);
+
+/// Of a team, only the first one writes a report or a log.
+void leave_reports_to_first(tile_options& tiles, common_options& options);
 
 /// \throws failure (bad_usage) for options that exclude each other or need others
 void check_tile_options(const tile_options& tiles, const command_line& line,

@@ -40,7 +40,7 @@ class threads_of_team {
   public:
     explicit threads_of_team(std::size_t size) : mine_(size) {}
 
-    [[nodiscard]] tf::weld_team as(std::size_t rank) {
+    [[nodiscard]] tf::process_team as(std::size_t rank) {
         return {rank, mine_.size(),
                 [this, rank](const std::string& told) { return exchange(rank, told); }};
     }

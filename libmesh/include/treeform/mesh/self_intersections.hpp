@@ -8,6 +8,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/process_team.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -165,6 +166,7 @@ struct stream_search_options {
     std::uint64_t memory = 0;        ///< bytes that the process may take; 0: `default_memory`
     std::filesystem::path folder{};  ///< for the tiles; empty: the input's name and ".search-tiles"
     std::uint64_t faces_per_tile = 0;  ///< at most about this many; 0: as the memory allows
+    process_team team{};               ///< not for `stream_search`
     /// Called with the step ("scatter", "pairs") and the share of it that is done. Returning false
     /// cancels.
     std::function<bool(std::string_view, double)> progress{};
@@ -191,10 +193,11 @@ struct stream_search_result {
 
 /// The pairs that `self_intersections` finds in the usable part of a file, for files larger than
 /// memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut into tiles; each
-/// gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A pair counts in the tile that holds
-/// the lowest corner of the common part of the boxes of its two faces, so it counts once.
+/// gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A pair counts in
+/// the tile that holds the lowest corner of the common part of the boxes of its faces, so it counts once.
 ///
-/// The folder stays when the process is killed, and the same call goes on from there.
+/// The folder stays when the process is killed, and the same call goes on from there. Of a team, rank
+/// 0 makes the tiles, all search them, and rank 0 gets the result.
 ///
 /// \throws io_error when the file cannot be read or is of another format; stream_error for the
 ///         folder; std::length_error for more than 2^32 - 1 triangles

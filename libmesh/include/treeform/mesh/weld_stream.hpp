@@ -13,6 +13,7 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -48,15 +49,6 @@ struct cloud_outline {
 ///         columns that `join` cannot unite
 [[nodiscard]] TREEFORM_API cloud_outline outline(const cloud_inputs& inputs);
 
-/// Processes that weld one cloud together, each its share, in a folder that all see. All call the same
-/// with the same options; outputs are those of rank 0, and where one fails, `exchange` must throw.
-struct weld_team {
-    std::size_t rank = 0;
-    std::size_t size = 1;
-    /// Gives all of them what each gives, in the order of the ranks.
-    std::function<std::vector<std::string>(const std::string&)> exchange{};
-};
-
 struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     bool relative = false;   ///< `tolerance` is a share of the diagonal of the cloud's box
@@ -66,13 +58,13 @@ struct weld_stream_options {
     std::string keep_by{};
     weld_order order = weld_order::given;
     std::string order_by{};
-    /// Coordinates, and means of them, are rounded to the steps of the first file, which is LAS,
-    /// before anything is decided of them.
+    /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS, else
+    /// to those of `round_to_las`, before anything is decided of them.
     bool as_las = false;
     std::uint64_t memory = 0;           ///< bytes that the process may take; 0: `default_memory`
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< at most about this many; 0: as the memory allows
-    weld_team team{};
+    process_team team{};
     bool shared = false;  ///< see `stream_weld`
     /// Called with the step ("look", "scatter", "weld", "write") and the share of it that is done.
     /// Returning false cancels.
@@ -99,8 +91,8 @@ struct cloud_survey {
     std::size_t tiles = 0;
     std::size_t finished_tiles = 0;         ///< by an earlier run
     std::vector<std::size_t> unfinished{};  ///< the others
-    bool continued = false;          ///< this run goes on from what an earlier one has left
-    bool started_anew = false;       ///< what was left is of another job, or incomplete
+    bool continued = false;                 ///< this run goes on from what an earlier one has left
+    bool started_anew = false;              ///< what was left is of another job, or incomplete
     std::vector<std::filesystem::path> damaged{};  ///< files left by it that have changed since
     std::uint64_t disk_bytes = 0;  ///< about what the tiles will take; 0 when they are there
     std::optional<std::uint64_t> disk_bytes_free{};

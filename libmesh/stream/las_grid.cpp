@@ -1,0 +1,72 @@
+#include <libmesh/io/las_grid_choice.hpp>
+#include <libmesh/stream/las_grid.hpp>
+#include <libmesh/stream/point_survey.hpp>
+
+#include <algorithm>
+
+namespace treeform::detail::stream {
+namespace {
+
+using io::las_grid_choice;
+
+template <class Take>
+void each_block(joined_points& points, const share& mine, pacer& pace, const Take& take) {
+    point_block block;
+    points.rewind(mine);
+    while (points.read(block, points_a_block)) {
+        take(block.points);
+        pace.check();
+    }
+}
+
+void look_at_all(las_grid_choice& choice, joined_points& points, const team& all, const share& mine,
+                 pacer& pace) {
+    each_block(points, mine, pace, [&](const auto& some) { choice.look(some); });
+    state_writer told;
+    for (const las_grid_choice::range& r : choice.ranges()) {
+        told.real(r.low);
+        told.real(r.high);
+    }
+    for (state_reader& one : all.exchange(told))
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double low = one.real();
+            choice.add(axis, {low, one.real()});
+        }
+}
+
+/// Whether all agree that the scales hold all points.
+bool try_on_all(las_grid_choice& choice, joined_points& points, const team& all, const share& mine,
+                pacer& pace) {
+    each_block(points, mine, pace, [&](const auto& some) { choice.try_on(some); });
+    state_writer told;
+    told.number(choice.must_try_again() ? 1 : 0);
+    for (const int d : choice.tried()) told.number(static_cast<std::uint64_t>(d));
+    bool agreed = true;
+    las_grid_choice::digits most{};
+    std::vector<las_grid_choice::digits> tried;
+    for (state_reader& one : all.exchange(told)) {
+        agreed = one.number() == 0 && agreed;
+        las_grid_choice::digits& of_one = tried.emplace_back();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            of_one[axis] = static_cast<int>(one.number());
+            most[axis] = std::max(most[axis], of_one[axis]);
+        }
+    }
+    for (const las_grid_choice::digits& of_one : tried) agreed = agreed && of_one == most;
+    choice.start_round(most);
+    return agreed;
+}
+
+}  // namespace
+
+las_header las_grid_of(joined_points& points, const team& all, const share& mine, pacer& pace) {
+    las_grid_choice choice;
+    look_at_all(choice, points, all, mine, pace);
+    while (!try_on_all(choice, points, all, mine, pace)) {
+    }
+    las_header header;
+    choice.put(header);
+    return header;
+}
+
+}  // namespace treeform::detail::stream
