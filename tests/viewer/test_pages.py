@@ -3,6 +3,7 @@
 With KEEP_PICTURES=1, the small pictures beside this file are made anew."""
 
 import base64
+import html
 import json
 import os
 import pathlib
@@ -366,6 +367,24 @@ class Numbers(PageTest):
         self.open(self.path("t.html"))
         self.assertEqual(self.run_js("document.images.length"), 0)
         self.assertIn("<img src=x", self.run_js("document.querySelector('h1').textContent"))
+        self.quiet()
+
+
+class Frames(PageTest):
+    def test_a_page_in_a_frame_that_is_shown_later_is_drawn(self):
+        page = pathlib.Path(self.make("selfintersect")).read_text()
+        host = self.path("host.html")
+        pathlib.Path(host).write_text(f'<iframe style="display: none; width: 600px; height: 500px" '
+                                      f'srcdoc="{html.escape(page)}"></iframe>')
+        self.browser.open(host)
+        self.run_js("document.querySelector('iframe').style.display = 'block'")
+        self.browser.settle()
+        drawn = self.run_js("""new Promise((done) => requestAnimationFrame(() => {
+            const { viewer } = frames[0];
+            viewer.draw();
+            done(viewer.pixels().reduce((n, v, i) => n + (i % 4 === 3 && v > 0), 0));
+        }))""")
+        self.assertGreater(drawn, 20_000)
         self.quiet()
 
 

@@ -13,7 +13,9 @@ Watched = Optional[Callable[[float], Any]]
 Same = list[tuple[str, float]]
 
 KINDS: list[str]
+PICTURE_SIDES: tuple[int, int]
 STANDINGS: list[str]
+VIEWS: list[str]
 
 class Certificate:
     """What was checked about the coordinates of a result."""
@@ -231,3 +233,8 @@ def distance(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats, radius: f
              progress: Watched = ...) -> Floats: ...
 def closest_points(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats,
                    radius: float) -> Optional[tuple[Floats, Floats, float, int, int]]: ...
+
+def colors(count: int) -> list[str]: ...
+def page(meshes: Sequence[HeldMesh], look: dict[str, Any], progress: Watched = ...) -> str: ...
+def picture(meshes: Sequence[HeldMesh], look: dict[str, Any], views: Sequence[str], width: int,
+            height: int, progress: Watched = ...) -> bytes: ...
