@@ -63,6 +63,7 @@ class BuildByCMake(build_ext):
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         subprocess.run(["cmake", "-S", str(TREE), "-B", str(build), *generator,
                         "-DCMAKE_BUILD_TYPE=Release", "-DTREEFORM_BUILD_TOOLS=OFF",
+                        "-DTREEFORM_BUILD_C=OFF",
                         "-DTREEFORM_INSTALL=OFF", "-DTREEFORM_BUILD_PYTHON=ON",
                         f"-DTREEFORM_PYTHON={sys.executable}",
                         *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
