@@ -6,7 +6,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-mapfile -t commands < <(sed -n '/^## From a bare Debian to a picture/,/^## /s/^    //p' README.md)
+# Of its first block.
+mapfile -t commands < <(awk '/^## From a bare Debian to a picture/ { on = 1 }
+    on && /^    / { print substr($0, 5); seen = 1 }
+    seen && !/^    / { exit }' README.md)
 if ((${#commands[@]} != 3)); then
     echo "1 failed: README.md has ${#commands[@]} commands"
     exit 1
