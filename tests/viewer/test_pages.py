@@ -7,6 +7,7 @@ import html
 import json
 import os
 import pathlib
+import re
 import shutil
 import struct
 import sys
@@ -293,6 +294,34 @@ class Numbers(PageTest):
         self.assertGreater(marked, 5)
         self.quiet()
 
+    def test_faces_of_a_clash_are_picked_with_the_numbers_of_the_report(self):
+        report = self.show("clash")["files"][0]
+        faces = {"two_spheres": triangles_of_stl(SPHERES), "cube/model": triangles_of_stl(CUBE)}
+        found = {(pair[side], face) for pair in report["pairs"] for region in pair["regions"]
+                 for side in "ab" for face in region["faces_" + side]}
+        self.press_button("view", "top")
+        texts = self.run_js("""(() => {
+            const view = document.querySelector('canvas'), texts = new Set();
+            for (let i = 0; i < 1600; ++i) {
+                viewer.pick((i % 40 + 0.5) / 40 * view.width, (Math.floor(i / 40) + 0.5) / 40 * view.height);
+                texts.add(document.querySelector('.picked').textContent);
+            }
+            return [...texts];
+        })()""")
+        seen = 0
+        for text in texts:
+            picked = re.match(r"face (\d+) of (\S+)(?: \((.*)\))? at (\S+), (\S+), (\S+)$", text)
+            if not picked or picked[2] not in faces:
+                continue
+            number, part = int(picked[1]), picked[2]
+            self.assertEqual((part, number) in found, picked[3] is not None, text)
+            at, corners = [float(v) for v in picked.groups()[3:]], faces[part][number]
+            for axis in range(3):
+                low, high = (f(c[axis] for c in corners) for f in (min, max))
+                self.assertTrue(low - 0.05 <= at[axis] <= high + 0.05, (text, corners))  # at a rim
+            seen += 1
+        self.assertGreater(seen, 100)
+
     def test_points_are_picked_with_their_numbers_and_what_became_of_them(self):
         self.show("weld_cloud")
         self.assertEqual(self.run_js("viewer.scene.dots.reduce((n, d) => n + d.count, 0)"), 642)
@@ -501,6 +530,28 @@ class Controls(PageTest):
         before = self.run_js("drawn(1)")["own"]
         self.run_js("document.querySelector('[data-glass]').click()")
         self.assertGreater(self.run_js("drawn(1)")["own"], 1.2 * before)
+
+    def test_every_switch_changes_what_is_seen(self):
+        kinds = {"class", "glass", "edges", "labels", "up", "map", "band", "flip"}
+        changing = set()
+        for name in ("repair", "selfintersect", "band", "slide"):
+            self.show(name)
+            self.run_js("(() => { const s = document.querySelector('[data-section]'); s.value = 1;"
+                        "s.dispatchEvent(new Event('change', { bubbles: true })); })()")
+            for at, kind in enumerate(self.run_js("[...document.querySelectorAll('#view [type=checkbox]')]"
+                                                  ".map(i => Object.keys(i.dataset)[0])")):
+                state = "[sum(), document.querySelector('.tags').textContent].join()"
+                press = f"document.querySelectorAll('#view [type=checkbox]')[{at}].click()"
+                before = self.run_js(state)
+                self.run_js(press)
+                self.browser.settle()
+                if self.run_js(state) != before:
+                    changing.add(kind)
+                self.run_js(press)
+                self.browser.settle()
+                self.assertEqual(self.run_js(state), before, (name, kind))
+            self.quiet()
+        self.assertEqual(changing, kinds)
 
     def test_every_control_is_used_without_a_complaint(self):
         for name in PAGES:
