@@ -299,11 +299,11 @@ class Numbers(PageTest):
         faces = {"two_spheres": triangles_of_stl(SPHERES), "cube/model": triangles_of_stl(CUBE)}
         found = {(pair[side], face) for pair in report["pairs"] for region in pair["regions"]
                  for side in "ab" for face in region["faces_" + side]}
-        self.press_button("view", "bottom")
+        self.press_button("view", "front")
         texts = self.run_js("""(() => {
             const view = document.querySelector('canvas'), texts = new Set();
-            for (let i = 0; i < 1600; ++i) {
-                viewer.pick((i % 40 + 0.5) / 40 * view.width, (Math.floor(i / 40) + 0.5) / 40 * view.height);
+            for (let i = 0; i < 3600; ++i) {
+                viewer.pick((i % 60 + 0.5) / 60 * view.width, (Math.floor(i / 60) + 0.5) / 60 * view.height);
                 texts.add(document.querySelector('.picked').textContent);
             }
             return [...texts];
