@@ -417,6 +417,19 @@ class Frames(PageTest):
         self.assertGreater(drawn, 20_000)
         self.quiet()
 
+    def test_a_page_in_a_sandbox_is_drawn_as_notebooks_have_it(self):
+        page = pathlib.Path(self.make("selfintersect")).read_text()
+        host = self.path("host.html")
+        pathlib.Path(host).write_text('<iframe sandbox="allow-scripts" style="width: 100%; height: 560px" '
+                                      f'srcdoc="{html.escape(page)}"></iframe>')
+        self.browser.open(host)
+        with self.browser.in_frame():
+            self.run_js(HELPERS)
+            self.browser.settle()
+            self.assertGreater(self.run_js("drawn(null)")["opaque"], 20_000)
+            self.assertEqual(self.run_js("origin"), "null")
+        self.quiet()
+
 
 class Controls(PageTest):
     def differ(self, scripts):
