@@ -2,8 +2,10 @@
 
 import html
 import json
+import os
 import re
 import struct
+import subprocess
 import sys
 import zlib
 
@@ -55,6 +57,29 @@ def test_a_path_gets_the_same_bytes(tmp_path):
     assert (tmp_path / "cube.png").read_bytes() == picture
     with pytest.raises(OSError):
         small(CUBE, path=tmp_path / "no" / "cube.png")
+
+
+def test_a_file_appears_whole_or_stays_as_it_was(tmp_path):
+    path = tmp_path / "cube.png"
+    program = f"""
+import resource, treeform as tf
+cube = tf.read("data/cube.stl")
+resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+for work in (lambda: tf.plot(cube, path={str(path)!r}), lambda: cube.show().write({str(path)!r})):
+    try:
+        work()
+    except OSError:
+        print("full")
+"""
+    for there in ("", "mine"):
+        path.write_text(there) if there else None
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+        assert done.stdout == "full\nfull\n", done.stderr
+        assert [p.read_text() for p in tmp_path.iterdir()] == ([there] if there else [])
+    small(CUBE, path=path)
+    assert path.read_bytes() == small(CUBE)
+    small(CUBE, path="/dev/null")
+    assert not os.path.isfile("/dev/null")
 
 
 def test_views_are_of_different_sides_and_stand_side_by_side():

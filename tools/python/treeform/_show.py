@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import os
 import re
 from typing import Any, Sequence, Union
 
@@ -44,9 +45,8 @@ class View:
         return _core.page(self._meshes, self._look)
 
     def write(self, path: Path) -> None:
-        """Writes the page, for any browser."""
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self.html)
+        """Writes the page, for any browser. It appears whole or not at all."""
+        _put(path, self.html.encode())
 
     def _repr_html_(self) -> str:
         # Nothing in the frame reaches the notebook, nor the other way round.
@@ -68,7 +68,7 @@ def plot(*meshes: _Shown, path: Path | None = None, view: str | Sequence[str] = 
          y_is_up: bool = False) -> Picture:
     """Meshes and clouds as a PNG, drawn without a display, a graphics card or a browser.
 
-    path: where the PNG goes as well. An existing file is replaced.
+    path: where the PNG goes as well. An existing file is replaced; it appears whole or not at all.
     view: iso, top, bottom, front, back, left or right; several stand side by side; all: iso, top,
     front and right. All are parallel.
     size: pixels, across and down.
@@ -93,8 +93,7 @@ def plot(*meshes: _Shown, path: Path | None = None, view: str | Sequence[str] = 
         raise ValueError(f"size: a side has {low} to {high} pixels, not {size}")
     picture = Picture(_core.picture(held, look, _views(view), width, height))
     if path is not None:
-        with open(path, "wb") as file:
-            file.write(picture)
+        _put(path, picture)
     return picture
 
 
@@ -111,6 +110,24 @@ def show(*meshes: _Shown, names: Sequence[str] = (), colors: Sequence[str] = (),
     View(12 faces; a notebook shows it, write(path) makes a page)
     """
     return View(*_look_of(meshes, names, colors, marked, values, limits, label, title, y_is_up))
+
+
+def _put(path: Path, data: bytes) -> None:
+    """Writes a file whole, or leaves what is there."""
+    to = os.path.realpath(path)
+    if os.path.exists(to) and not os.path.isfile(to):  # a pipe or a device
+        with open(to, "wb") as special:
+            special.write(data)
+        return
+    beside = f"{to}.unfinished-{os.getpid()}"
+    try:
+        with open(beside, "wb") as file:
+            file.write(data)
+        os.replace(beside, to)
+    except BaseException:
+        if os.path.exists(beside):
+            os.remove(beside)
+        raise
 
 
 def _views(view: str | Sequence[str]) -> list[str]:
