@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a bare Debian 12 to the tools and what they do with real models. As root or with sudo; safe to
-# repeat, quick the second time. Writes only into build/ and data/real/ here.
+# repeat, quick the second time. Writes only into build/ and data/real/ here; the tools are in build/bin.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -26,7 +26,11 @@ for main in tools/*/main.cpp; do
     tools+=("$(basename "$(dirname "$main")")")
 done
 cmake --build build/release --target "${tools[@]}"
-at() { echo "build/release/tools/$1/$1"; }
+mkdir -p build/bin
+for tool in "${tools[@]}"; do
+    ln -sf "../release/tools/$tool/$tool" "build/bin/$tool"
+done
+at() { echo "build/bin/$1"; }
 
 step "models"
 shopt -s nullglob
@@ -55,10 +59,11 @@ step "what tf-weld and tf-place do with the first"
 cat <<MSG
 
 == next: --help of each is its manual
-  $(at tf-selfintersect) YOUR_MODEL.stl -o marked.ply -r report.json
-  $(at tf-boolean) difference YOUR_MODEL.stl YOUR_OTHER.stl -o cut.ply
-  $(at tf-weld) YOUR_SCAN.ply -t 0.5 -o thin.ply
-  $(at tf-place) drop YOUR_MODEL.stl -o on_bed.stl
+  export PATH=$PWD/build/bin:\$PATH
+  tf-selfintersect YOUR_MODEL.stl --png picture.png --html page.html
+  tf-boolean difference YOUR_MODEL.stl YOUR_OTHER.stl -o cut.ply
+  tf-weld YOUR_SCAN.ply -t 0.5 -o thin.ply
+  tf-place drop YOUR_MODEL.stl -o on_bed.stl
   tests/run.sh
 MSG
 exit $status

@@ -22,17 +22,19 @@ inline constexpr double width = 760, left = 76, top = 80, bottom = 60;
 inline constexpr double plot_height = 300;
 inline constexpr double height = top + plot_height + bottom;
 
-/// Colors by class, not by variable: some viewers know no others.
+/// Colors by class, not by variable: some viewers know no others. A picture has paper of its own, as
+/// nobody knows on what it will lie; marks have a rim of it, so that each can be told from the next.
 inline constexpr std::string_view style =
     "text{font:13px system-ui,'DejaVu Sans',sans-serif;fill:#24292f}"
     ".title{font-size:15px;font-weight:600}.small{font-size:11px;fill:#57606a}"
     ".grid{stroke:#d0d7de;stroke-width:1}.axis{stroke:#57606a;stroke-width:1}"
-    ".line{fill:none;stroke-width:2}.mark{stroke:none}"
+    ".paper{fill:#fff}.line{fill:none;stroke-width:2}.mark{stroke:#fff;stroke-width:1}"
     ".s1{stroke:#1f6feb}.f1{fill:#1f6feb}.s2{stroke:#bc5c00}.f2{fill:#bc5c00}"
     ".s3{stroke:#1a7f37}.f3{fill:#1a7f37}.s4{stroke:#8250df}.f4{fill:#8250df}"
     ".s5{stroke:#bf3989}.f5{fill:#bf3989}.s6{stroke:#0e7490}.f6{fill:#0e7490}"
     ".s7{stroke:#7d6400}.f7{fill:#7d6400}.s8{stroke:#57606a}.f8{fill:#57606a}"
-    "@media(prefers-color-scheme:dark){text{fill:#e6edf3}.small{fill:#9aa4af}"
+    "@media(prefers-color-scheme:dark){.paper{fill:#0d1117}.mark{stroke:#0d1117}text{fill:#e6edf3}."
+    "small{fill:#9aa4af}"
     ".grid{stroke:#30363d}.axis{stroke:#9aa4af}"
     ".s1{stroke:#58a6ff}.f1{fill:#58a6ff}.s2{stroke:#f0883e}.f2{fill:#f0883e}"
     ".s3{stroke:#3fb950}.f3{fill:#3fb950}.s4{stroke:#bc8cff}.f4{fill:#bc8cff}"
@@ -102,6 +104,8 @@ class drawing {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
             "width=\"{:.0f}\" height=\"{:.0f}\" role=\"img\"><style>{}</style>\n",
             width, height, width, height, style);
+        out_ += fmt::format("<rect class=\"paper\" width=\"{:.0f}\" height=\"{:.0f}\"/>\n", width,
+                            height);
         text(left, 22, caption.title, "title", "start");
         text(width - 12, height - 8, caption.machine, "small", "end");
     }
@@ -150,7 +154,7 @@ class drawing {
             "M-1.5,-4.6h3v3.1h3.1v3h-3.1v3.1h-3v-3.1h-3.1v-3h3.1z"};
         out_ += fmt::format(
             "<path transform=\"translate({:.1f} {:.1f})\" d=\"{}\" class=\"mark {}\" "
-            "fill-opacity=\"0.85\"><title>{}</title></path>\n",
+            "><title>{}</title></path>\n",
             x, y, outlines[static_cast<std::size_t>(kind) % outlines.size()], classes,
             escaped(tip));
     }

@@ -43,6 +43,7 @@ const std::array commands{
             [](const scaling_files& f) {
                 return std::vector<std::string>{"--repair", f.both};
             }},
+    command{"tf-repair", "tf-repair", [](const scaling_files& f) { return std::vector{f.both}; }},
     command{"tf-boolean union", "tf-boolean",
             [](const scaling_files& f) {
                 return std::vector<std::string>{"union", f.first, f.second};
@@ -59,8 +60,12 @@ const std::array commands{
             [](const scaling_files& f) {
                 return std::vector<std::string>{"drop", f.both};
             }},
-    command{"tf-place slide", "tf-place", [](const scaling_files& f) {
+    command{"tf-place slide", "tf-place",
+            [](const scaling_files& f) {
                 return std::vector<std::string>{"slide", f.above, "--fixed", f.second};
+            }},
+    command{"tf-place measure", "tf-place", [](const scaling_files& f) {
+                return std::vector<std::string>{"measure", f.above, "--fixed", f.second};
             }}};
 
 contest contest_of_tools(const setting& setting, std::size_t size) {
@@ -229,9 +234,11 @@ section draw_scaling(const std::vector<outcome>& outcomes, const std::string& ma
         .table = std::move(table),
         .remarks = {
             "tf-selfintersect reads two rippled rings that are linked and pass through each other, "
-            "in one mesh of n triangles, and writes it with its faces colored; --repair cuts them "
-            "and keeps the outside. tf-boolean union does the same to two meshes, tf-place slide "
-            "moves one down onto the other, tf-place drop lets both down to the bed. tf-weld "
+            "in one mesh of n triangles, and writes it with its faces colored; --repair and "
+            "tf-repair cut them and keep the outside. tf-boolean union does the same to two "
+            "meshes, tf-place slide "
+            "moves one down onto the other, tf-place measure says how far they are, tf-place drop "
+            "lets both down to the bed. tf-weld "
             "indexes a binary STL of n triangles and merges a cloud of n points, 30 % of them "
             "copies, at a tolerance of a quarter of what they have between them. Starting the "
             "process, reading and writing are in the figures; files lie in the page cache.",

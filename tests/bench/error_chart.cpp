@@ -8,8 +8,10 @@
 namespace treeform::bench {
 namespace {
 
-constexpr double exact_y = top + plot_height - 12;      // the line of the dots without error
-constexpr double axis_bottom = top + plot_height - 40;  // where the least error is
+constexpr double mark_size = 8;     // dots nearer than that cover each other
+constexpr double farthest = 40;     // that a dot is moved
+constexpr double lane_height = 11;  // of the line of an exact method
+constexpr double plot_bottom = top + plot_height;
 
 /// Whole decades, every one or every few, so that labels do not touch.
 std::vector<int> decades(double low, double high, int most) {
@@ -30,23 +32,44 @@ bool drawable(const error_point& p) {
     return std::isfinite(p.time) && std::isfinite(p.error) && p.time > 0 && p.error >= 0;
 }
 
+bool is_exact(const error_point& p) { return drawable(p) && p.error == 0; }
+
+/// Of each series, the height of its line among the exact ones; and what is above all of them.
+struct lanes {
+    explicit lanes(const std::vector<error_series>& all) {
+        const auto any = [](const error_series& series) {
+            return std::ranges::any_of(series.points, is_exact);
+        };
+        const auto count =
+            static_cast<double>(std::max<std::ptrdiff_t>(std::ranges::count_if(all, any), 1));
+        upper = plot_bottom - lane_height * count - 4;
+        double y = upper + lane_height / 2 + 2;
+        for (const error_series& series : all) {
+            of_series.push_back(y);
+            if (any(series)) y += lane_height;
+        }
+    }
+    std::vector<double> of_series{};
+    double upper = 0.0;
+};
+
 class dots {
   public:
-    dots(drawing& drawing, const scale& x, const scale& y) : drawing_(drawing), x_(x), y_(y) {}
+    dots(drawing& drawing, const scale& x, const scale& y, double lowest)
+        : drawing_(drawing), x_(x), y_(y), lowest_(lowest) {}
 
-    [[nodiscard]] std::array<double, 2> place(const error_point& p) const {
-        return {x_(p.time), p.error > 0 ? y_(p.error) : exact_y};
-    }
-    void draw(const error_series& series) {
-        if (series.joined) {
-            std::vector<std::array<double, 2>> places;
-            for (const error_point& p : series.points)
-                if (drawable(p)) places.push_back(place(p));
-            drawing_.path(places, of_tone('s', series.tone), true);
-        }
+    void draw(const error_series& series, double exact_y) {
+        std::vector<std::array<double, 2>> places;
+        for (const error_point& p : series.points)
+            if (drawable(p))
+                places.push_back(p.error > 0 ? free_place(x_(p.time), y_(p.error))
+                                             : std::array{x_(p.time), exact_y});
+        if (series.joined) drawing_.path(places, of_tone('s', series.tone), true);
+        taken_.insert(taken_.end(), places.begin(), places.end());
+        auto place = places.begin();
         for (const error_point& p : series.points)
             if (drawable(p)) {
-                const auto [x, y] = place(p);
+                const auto [x, y] = *place++;
                 drawing_.shape(
                     x, y, series.shape, of_tone('f', series.tone),
                     fmt::format("{}{}{}: {:.4g} at {:.4g}", series.name,
@@ -55,9 +78,27 @@ class dots {
     }
 
   private:
+    /// The nearest place to (x, y), on rings around it, at which no dot of another series is.
+    [[nodiscard]] std::array<double, 2> free_place(double x, double y) const {
+        const auto is_free = [&](const std::array<double, 2>& at) {
+            return at[1] <= lowest_ && std::ranges::none_of(taken_, [&](const auto& other) {
+                       return std::hypot(at[0] - other[0], at[1] - other[1]) < mark_size;
+                   });
+        };
+        for (double reach = 0; reach <= farthest; reach += 2)
+            for (int turn = 0; turn < (reach > 0 ? 16 : 1); ++turn) {
+                const double angle = turn * std::acos(-1.0) / 8;
+                const std::array at{x + reach * std::cos(angle), y + reach * std::sin(angle)};
+                if (is_free(at)) return at;
+            }
+        return {x, y};
+    }
+
     drawing& drawing_;
     const scale& x_;
     const scale& y_;
+    double lowest_;  // of dots with an error
+    std::vector<std::array<double, 2>> taken_{};
 };
 
 /// Names in the order of the series, beside the plot.
@@ -89,6 +130,8 @@ std::string svg(const error_chart& chart) {
     const double right = width - 40 - 6.4 * static_cast<double>(longest);
     const std::vector<int> rows = decades(ys.low, ys.high, 9);
     const scale x(xs.low * 0.8, xs.high * 1.25, true, left, right);
+    const lanes exact(chart.series);
+    const double axis_bottom = exact.upper - 14;  // where the least error is
     const scale y(std::pow(10, rows.front()), std::max(std::pow(10, rows.back()), ys.high * 1.1),
                   true, axis_bottom, top);
     drawing drawing(chart.caption);
@@ -98,14 +141,15 @@ std::string svg(const error_chart& chart) {
         drawing.text(left - 8, at + 4, power_of_ten(row), "small", "end");
     }
     drawing.upright_text(20, top + plot_height / 2, chart.error_label);
-    drawing.line(left, exact_y, right, exact_y, "axis", true);
-    drawing.text(left - 8, exact_y + 4, chart.exact_label, "small", "end");
+    drawing.line(left, exact.upper, right, exact.upper, "axis", true);
+    drawing.text(left - 8, (exact.upper + plot_bottom) / 2 + 4, chart.exact_label, "small", "end");
     for (const double tick : x.ticks())
         drawing.text(x(tick), top + plot_height + 18, short_number(tick), "small", "middle");
     drawing.line(left, top + plot_height, right, top + plot_height, "axis");
     drawing.text((left + right) / 2, top + plot_height + 38, chart.time_label, "", "middle");
-    dots dots(drawing, x, y);
-    for (const error_series& series : chart.series) dots.draw(series);
+    dots dots(drawing, x, y, axis_bottom);
+    for (std::size_t i = 0; i < chart.series.size(); ++i)
+        dots.draw(chart.series[i], exact.of_series[i]);
     draw_names(drawing, chart.series, right);
     return drawing.finished();
 }

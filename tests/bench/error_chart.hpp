@@ -11,7 +11,7 @@ namespace treeform::bench {
 
 struct error_point {
     double time = 0.0;      ///< greater than 0
-    double error = 0.0;     ///< 0: drawn on the line of the exact, which is below the axis
+    double error = 0.0;     ///< 0: drawn below the axis, where each exact method has a line
     std::string setting{};  ///< in the dot's tooltip: a family, a tolerance
 };
 
@@ -24,13 +24,14 @@ struct error_series {
     bool joined = false;  ///< a setting that is swept: dots are joined in their order
 };
 
-/// Both axes are logarithmic. A dot that is not finite is left out.
+/// Both axes are logarithmic. A dot that is not finite is left out. Where dots of several methods
+/// would cover each other, they stand side by side; their tooltips have the values.
 struct error_chart {
     bench::caption caption;
     std::string time_label;
     std::string error_label;
     std::vector<error_series> series{};
-    std::string exact_label = "exact";  ///< of the line for error 0
+    std::string exact_label = "exact";  ///< of the lines for error 0
 };
 
 [[nodiscard]] std::string svg(const error_chart& chart);

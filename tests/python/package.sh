@@ -25,6 +25,7 @@ if ((EUID == 0)) && command -v mmdebstrap >/dev/null; then
 import treeform
 mesh = treeform.read("/opt/two_spheres.stl")
 assert len(treeform.self_intersections(mesh)) == 78 and treeform.union(mesh).mesh.is_solid
+assert treeform.plot(mesh).startswith(b"\x89PNG") and "iframe" in mesh.show()._repr_html_()
 print("1 passed in a bare system")'
 else
     echo "1 skipped: a bare system needs root and mmdebstrap"

@@ -4,6 +4,7 @@ Needs Debian's chromium alone. Two file descriptors carry JSON with a zero byte 
 as `--remote-debugging-pipe` asks for."""
 
 import base64
+import contextlib
 import json
 import os
 import select
@@ -102,6 +103,24 @@ class Browser:
                 raise TimeoutError(path + " does not load")
             self.run("1")
         self.settle()
+
+    @contextlib.contextmanager
+    def in_frame(self):
+        """What is run meanwhile is run in the page's frame, which has an origin of its own."""
+        outer, self.session = self.session, None
+        end = time.monotonic() + 60
+        while True:
+            frames = [t for t in self.call("Target.getTargets")["targetInfos"] if t["type"] == "iframe"]
+            if frames:
+                break
+            if time.monotonic() > end:
+                raise TimeoutError("no frame")
+        self.session = self.call("Target.attachToTarget", targetId=frames[0]["targetId"],
+                                 flatten=True)["sessionId"]
+        try:
+            yield
+        finally:
+            self.session = outer
 
     def settle(self):
         """Waits until what was asked for is drawn."""

@@ -3,9 +3,11 @@
 With KEEP_PICTURES=1, the small pictures beside this file are made anew."""
 
 import base64
+import html
 import json
 import os
 import pathlib
+import re
 import shutil
 import struct
 import sys
@@ -292,6 +294,35 @@ class Numbers(PageTest):
         self.assertGreater(marked, 5)
         self.quiet()
 
+    def test_faces_of_a_clash_are_picked_with_the_numbers_of_the_report(self):
+        report = self.show("clash")["files"][0]
+        faces = {"two_spheres": triangles_of_stl(SPHERES), "cube/model": triangles_of_stl(CUBE)}
+        found = {(pair[side], face) for pair in report["pairs"] for region in pair["regions"]
+                 for side in "ab" for face in region["faces_" + side]}
+        self.press_button("view", "front")
+        texts = self.run_js("""(() => {
+            const view = document.querySelector('canvas'), texts = new Set();
+            for (let i = 0; i < 3600; ++i) {
+                viewer.pick((i % 60 + 0.5) / 60 * view.width, (Math.floor(i / 60) + 0.5) / 60 * view.height);
+                texts.add(document.querySelector('.picked').textContent);
+            }
+            return [...texts];
+        })()""")
+        seen = marked = 0
+        for text in texts:
+            picked = re.match(r"face (\d+) of (\S+)(?: \((.*)\))? at (\S+), (\S+), (\S+)$", text)
+            if not picked or picked[2] not in faces:
+                continue
+            number, part = int(picked[1]), picked[2]
+            self.assertEqual((part, number) in found, picked[3] is not None, text)
+            at, corners = [float(v) for v in picked.groups()[3:]], faces[part][number]
+            for axis in range(3):
+                low, high = (f(c[axis] for c in corners) for f in (min, max))
+                self.assertTrue(low - 0.05 <= at[axis] <= high + 0.05, (text, corners))  # at a rim
+            seen, marked = seen + 1, marked + (picked[3] is not None)
+        self.assertGreater(marked, 5)
+        self.assertGreater(seen - marked, 5)
+
     def test_points_are_picked_with_their_numbers_and_what_became_of_them(self):
         self.show("weld_cloud")
         self.assertEqual(self.run_js("viewer.scene.dots.reduce((n, d) => n + d.count, 0)"), 642)
@@ -366,6 +397,37 @@ class Numbers(PageTest):
         self.open(self.path("t.html"))
         self.assertEqual(self.run_js("document.images.length"), 0)
         self.assertIn("<img src=x", self.run_js("document.querySelector('h1').textContent"))
+        self.quiet()
+
+
+class Frames(PageTest):
+    def test_a_page_in_a_frame_that_is_shown_later_is_drawn(self):
+        page = pathlib.Path(self.make("selfintersect")).read_text()
+        host = self.path("host.html")
+        pathlib.Path(host).write_text(f'<iframe style="display: none; width: 600px; height: 500px" '
+                                      f'srcdoc="{html.escape(page)}"></iframe>')
+        self.browser.open(host)
+        self.run_js("document.querySelector('iframe').style.display = 'block'")
+        self.browser.settle()
+        drawn = self.run_js("""new Promise((done) => requestAnimationFrame(() => {
+            const { viewer } = frames[0];
+            viewer.draw();
+            done(viewer.pixels().reduce((n, v, i) => n + (i % 4 === 3 && v > 0), 0));
+        }))""")
+        self.assertGreater(drawn, 20_000)
+        self.quiet()
+
+    def test_a_page_in_a_sandbox_is_drawn_as_notebooks_have_it(self):
+        page = pathlib.Path(self.make("selfintersect")).read_text()
+        host = self.path("host.html")
+        pathlib.Path(host).write_text('<iframe sandbox="allow-scripts" style="width: 100%; height: 560px" '
+                                      f'srcdoc="{html.escape(page)}"></iframe>')
+        self.browser.open(host)
+        with self.browser.in_frame():
+            self.run_js(HELPERS)
+            self.browser.settle()
+            self.assertGreater(self.run_js("drawn(null)")["opaque"], 20_000)
+            self.assertEqual(self.run_js("origin"), "null")
         self.quiet()
 
 
@@ -482,6 +544,28 @@ class Controls(PageTest):
         before = self.run_js("drawn(1)")["own"]
         self.run_js("document.querySelector('[data-glass]').click()")
         self.assertGreater(self.run_js("drawn(1)")["own"], 1.2 * before)
+
+    def test_every_switch_changes_what_is_seen(self):
+        kinds = {"class", "glass", "edges", "labels", "up", "map", "band", "flip"}
+        changing = set()
+        for name in ("repair", "selfintersect", "band", "slide"):
+            self.show(name)
+            self.run_js("(() => { const s = document.querySelector('[data-section]'); s.value = 1;"
+                        "s.dispatchEvent(new Event('change', { bubbles: true })); })()")
+            for at, kind in enumerate(self.run_js("[...document.querySelectorAll('#view [type=checkbox]')]"
+                                                  ".map(i => Object.keys(i.dataset)[0])")):
+                state = "[sum(), document.querySelector('.tags').textContent].join()"
+                press = f"document.querySelectorAll('#view [type=checkbox]')[{at}].click()"
+                before = self.run_js(state)
+                self.run_js(press)
+                self.browser.settle()
+                if self.run_js(state) != before:
+                    changing.add(kind)
+                self.run_js(press)
+                self.browser.settle()
+                self.assertEqual(self.run_js(state), before, (name, kind))
+            self.quiet()
+        self.assertEqual(changing, kinds)
 
     def test_every_control_is_used_without_a_complaint(self):
         for name in PAGES:

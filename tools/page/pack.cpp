@@ -1,6 +1,6 @@
 #include "tools/page/pack.hpp"
 
-#include "tools/common/entries.hpp"
+#include "tools/page/json.hpp"
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 

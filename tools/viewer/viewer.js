@@ -29,7 +29,7 @@ const show = (canvas, renderer) => {
     const state = { variant: scene.variants.length > 1 ? 'after' : scene.variants[0] ?? '', row: -1 };
 
     // ---- drawing ----
-    const ratio = () => canvas.clientWidth / Math.max(canvas.clientHeight, 1);
+    const ratio = () => canvas.clientWidth / Math.max(canvas.clientHeight, 1) || 1;  // 1 of a hidden frame
     const panes = () => {
         const pane = (variant, left, width, from = left, to = left + width) => ({ variant, left, width, from, to,
             camera: camera.matrix(ratio() * width), eye: camera.axes().eye, ratio: ratio() * width });
@@ -260,12 +260,18 @@ const show = (canvas, renderer) => {
     };
     listen(box, canvas, act);
     canvas.addEventListener('dblclick', () => state.hit && fly({ target: state.hit, distance: camera.distance / 2 }));
-    window.addEventListener('resize', redraw);
     const divider = find('.wipe');
     if (divider) divider.addEventListener('input', () => divider.style.setProperty('--at', find('[data-wipe]').value));
 
-    const first = boxThatMatters(scene);
-    Object.assign(camera, camera.fit(first, ratio(), first === scene.whole ? scene.samples : undefined));
+    const begin = () => {
+        const first = boxThatMatters(scene);
+        Object.assign(camera, camera.fit(first, ratio(), first === scene.whole ? scene.samples : undefined));
+    };
+    begin();
+    new ResizeObserver(() => {
+        if (!flight) begin();  // nobody has turned it yet; a frame may get its size late
+        redraw();
+    }).observe(canvas);
     const asked = /^#(?:region|row)=(\d+)$/.exec(location.hash);  // a page can be linked to at a row
     if (asked && rows[asked[1]]) visit(Number(asked[1]));
     draw();

@@ -16,6 +16,7 @@ void add_files(pybind11::module_& module);
 void add_intersections(pybind11::module_& module);
 void add_layouts(pybind11::module_& module);
 void add_nearness(pybind11::module_& module);
+void add_pictures(pybind11::module_& module);
 void add_placement(pybind11::module_& module);
 void add_properties(pybind11::module_& module);
 void add_repair(pybind11::module_& module);

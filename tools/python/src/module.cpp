@@ -122,8 +122,8 @@ constexpr const char* jobs[] = {"self_intersections",
 /// All functions of the module but those that only look something up, and what trees are asked.
 void make_jobs(py::module_& module) {
     module.def("build", &build);
-    for (const char* name :
-         {"read", "write", "self_intersections_of_file", "weld_stream", "wrap", "pack"})
+    for (const char* name : {"read", "write", "self_intersections_of_file", "weld_stream", "wrap",
+                             "pack", "page", "picture"})
         make_job(module, name, true);
     for (const char* name : jobs) make_job(module, name);
     for (const char* type : {"Cloud2", "Cloud3"})
@@ -153,6 +153,7 @@ PYBIND11_MODULE(_core, module) {
     add_placement(module);
     add_layouts(module);
     add_nearness(module);
+    add_pictures(module);
     add_assembly(module);
     add_clouds(module);
     add_boxes(module);

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any, Iterator, Protocol, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Iterator, Protocol, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +13,9 @@ from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
 from ._results import Result
+
+if TYPE_CHECKING:
+    from ._show import View
 
 
 class HasFaces(Protocol):
@@ -252,6 +255,13 @@ class Mesh:
         """(2, 3): the lowest and highest coordinates of finite vertices; None where there are
         none."""
         return _core.bounds(self._ready()._held)
+
+    def show(self, *others: MeshLike, **look: Any) -> View:
+        """A view of the mesh, and others, for a notebook or a page: see `show`, which takes the same
+        arguments."""
+        from ._show import show
+
+        return show(self, *others, **look)
 
     def to_trimesh(self) -> Any:
         """A `trimesh.Trimesh` with copies of the arrays; trimesh has to be installed."""

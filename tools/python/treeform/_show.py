@@ -1,0 +1,182 @@
+"""Pictures of meshes, and pages to turn them on."""
+
+from __future__ import annotations
+
+import html
+import os
+import re
+from typing import Any, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _arrays, _core
+from ._files import Path
+from ._mesh import Mesh, MeshLike, held_body
+
+#: A mesh, or the points of a cloud.
+_Shown = Union[MeshLike, ArrayLike]
+
+
+class Picture(bytes):
+    """The bytes of a PNG; a notebook shows it."""
+
+    def _repr_png_(self) -> bytes:
+        return bytes(self)
+
+    def __repr__(self) -> str:
+        width, height = (int.from_bytes(self[at:at + 4], "big") for at in (16, 20))
+        return f"Picture({width} x {height})"
+
+    def __str__(self) -> str:
+        return repr(self)
+
+
+class View:
+    """Meshes as a page with a 3D view: a notebook shows it where it stands, `write` makes a file."""
+
+    def __init__(self, meshes: Sequence[_core.HeldMesh], look: dict[str, Any]) -> None:
+        self._meshes = list(meshes)
+        self._look = look
+
+    @property
+    def html(self) -> str:
+        """The page. It asks nothing of any network."""
+        return _core.page(self._meshes, self._look)
+
+    def write(self, path: Path) -> None:
+        """Writes the page, for any browser. It appears whole or not at all."""
+        _put(path, self.html.encode())
+
+    def _repr_html_(self) -> str:
+        # Nothing in the frame reaches the notebook, nor the other way round.
+        return ('<iframe sandbox="allow-scripts" style="width: 100%; height: 560px; border: 0" '
+                f'srcdoc="{html.escape(self.html)}"></iframe>')
+
+    def _repr_png_(self) -> bytes:
+        """For where there are no scripts."""
+        return _core.picture(self._meshes, self._look, ["iso"], 800, 600)
+
+    def __repr__(self) -> str:
+        return f"View({self._look['verdict']}; a notebook shows it, write(path) makes a page)"
+
+
+def plot(*meshes: _Shown, path: Path | None = None, view: str | Sequence[str] = "iso",
+         size: tuple[int, int] = (800, 600), names: Sequence[str] = (),
+         colors: Sequence[str] = (), marked: ArrayLike = (), values: ArrayLike | None = None,
+         limits: tuple[float, float] | None = None, label: str = "value", title: str = "",
+         y_is_up: bool = False) -> Picture:
+    """Meshes and clouds as a PNG, drawn without a display, a graphics card or a browser.
+
+    path: where the PNG goes as well. An existing file is replaced; it appears whole or not at all.
+    view: iso, top, bottom, front, back, left or right; several stand side by side; all: iso, top,
+    front and right. All are parallel.
+    size: pixels, across and down.
+    names, colors: one for each mesh; colors are "#rrggbb".
+    marked: numbers of faces of the first mesh, which become red and are seen through what hides
+    them. Of any shape: pairs of faces will do.
+    values: (V,) a value for each vertex of the first mesh, colored from `limits[0]` to `limits[1]`,
+    else from the lowest to the highest; zero is white where it lies between. NaN: no value.
+    y_is_up: y instead of z.
+
+    Faces with a coordinate that is not finite are left out. The same bytes for any number of threads.
+
+    >>> import treeform
+    >>> m = treeform.read("data/two_spheres.stl")
+    >>> treeform.plot(m, marked=treeform.self_intersections(m).pairs)
+    Picture(800 x 600)
+    """
+    held, look = _look_of(meshes, names, colors, marked, values, limits, label, title, y_is_up)
+    width, height = (int(side) for side in size)
+    low, high = _core.PICTURE_SIDES
+    if not all(low <= side <= high for side in (width, height)):
+        raise ValueError(f"size: a side has {low} to {high} pixels, not {size}")
+    picture = Picture(_core.picture(held, look, _views(view), width, height))
+    if path is not None:
+        _put(path, picture)
+    return picture
+
+
+def show(*meshes: _Shown, names: Sequence[str] = (), colors: Sequence[str] = (),
+         marked: ArrayLike = (), values: ArrayLike | None = None,
+         limits: tuple[float, float] | None = None, label: str = "value", title: str = "",
+         y_is_up: bool = False) -> View:
+    """Meshes and clouds to be turned, cut and clicked in a notebook or, written to a file, in any
+    browser. The arguments are those of `plot`. More than 200,000 faces that are not marked are
+    thinned out.
+
+    >>> import treeform
+    >>> treeform.show(treeform.read("data/cube.stl"))
+    View(12 faces; a notebook shows it, write(path) makes a page)
+    """
+    return View(*_look_of(meshes, names, colors, marked, values, limits, label, title, y_is_up))
+
+
+def _put(path: Path, data: bytes) -> None:
+    """Writes a file whole, or leaves what is there."""
+    to = os.path.realpath(path)
+    if os.path.exists(to) and not os.path.isfile(to):  # a pipe or a device
+        with open(to, "wb") as special:
+            special.write(data)
+        return
+    beside = f"{to}.unfinished-{os.getpid()}"
+    try:
+        with open(beside, "wb") as file:
+            file.write(data)
+        os.replace(beside, to)
+    except BaseException:
+        if os.path.exists(beside):
+            os.remove(beside)
+        raise
+
+
+def _views(view: str | Sequence[str]) -> list[str]:
+    views: list[str] = []
+    for name in [view] if isinstance(view, str) else view:
+        if name != "all" and name not in _core.VIEWS:
+            raise ValueError(f"view: {name!r} is none of {', '.join(_core.VIEWS)}, all")
+        views += ["iso", "top", "front", "right"] if name == "all" else [name]
+    if not 1 <= len(views) <= 16:
+        raise ValueError(f"view: 1 to 16 are needed, not {len(views)}")
+    return views
+
+
+def _look_of(meshes: Sequence[Any], names: Sequence[str], colors: Sequence[str], marked: ArrayLike,
+             values: ArrayLike | None, limits: tuple[float, float] | None, label: str, title: str,
+             y_is_up: bool) -> tuple[list[_core.HeldMesh], dict[str, Any]]:
+    if not meshes:
+        raise ValueError("meshes: one at least is needed")
+    held = [held_body(mesh) for mesh in meshes]
+    for name, given in (("names", names), ("colors", colors)):
+        if len(given) not in (0, len(held)):
+            raise ValueError(f"{name}: {len(given)} of {len(held)} meshes")
+    for color in colors:
+        if not re.fullmatch("#[0-9a-fA-F]{6}", color):
+            raise ValueError(f"colors: {color!r} is no '#rrggbb'")
+    known = None
+    if values is not None:
+        known = _arrays.floats(values, "values")
+        if known.shape != (len(held[0].vertices),):
+            raise ValueError(f"values: the shape is {known.shape}, not "
+                             f"({len(held[0].vertices)},)")
+        finite = known[np.isfinite(known)]
+        if limits is None:
+            limits = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    low, high = limits or (0.0, 1.0)
+    if not (np.isfinite(low) and np.isfinite(high) and low <= high):
+        raise ValueError(f"limits: {low} to {high}")
+    faces = sum(len(one.faces) for one in held)
+    points = sum(len(one.vertices) for one in held if one.is_cloud)
+    counts = [f"{n:,} {word}" for n, word in ((faces, "faces"), (points, "points")) if n]
+    first = "#8fa3bf" if len(held) == 1 else None
+    look = {"names": [str(name) for name in names] or [_name(i, held) for i in range(len(held))],
+            "colors": [str(c) for c in colors] or ([first] if first else _core.colors(len(held))),
+            "title": title, "verdict": ", ".join(counts) or "nothing", "y_is_up": bool(y_is_up),
+            "marked": np.ravel(_arrays.ids(marked, "marked")), "values": known,
+            "limits": (float(low), float(high)), "label": label}
+    return held, look
+
+
+def _name(i: int, held: Sequence[_core.HeldMesh]) -> str:
+    word = "points" if held[i].is_cloud else "mesh"
+    return word if len(held) == 1 else f"{word} {i}"
