@@ -174,3 +174,43 @@ def test_searches_of_files_are_those_of_the_tool(tmp_path):
                       tmp_path / "pairs.csv")
     found = tf.self_intersections_of_file(tmp_path / "soup.ply")
     assert len(found.pairs) == sum(report["files"][0]["pairs"].values()) > 100
+
+
+def test_robots_are_those_of_the_tool(folder):
+    shape = "<collision><geometry><mesh filename='{}.off' scale='{}'/></geometry></collision>"
+    links = "".join(f"<link name='{name}'>{shapes}</link>" for name, shapes in (
+        ("base", shape.format("cube", "1 1 1")), ("none", ""),
+        ("arm", shape.format("side", "0.5 1 1") + shape.format("near", "1 1 0.25")),
+        ("tip", shape.format("inside", "1 1 1"))))
+    (folder / "robot.urdf").write_text(
+        f"<robot name='r'>{links}"
+        "<joint name='weld' type='fixed'><parent link='base'/><child link='none'/></joint>"
+        "<joint name='lift' type='prismatic'><parent link='none'/><child link='arm'/>"
+        "<origin rpy='0.1 0.2 0.3'/><axis xyz='0 0 1'/><limit lower='0' upper='2'/></joint>"
+        "<joint name='bend' type='revolute'><parent link='arm'/><child link='tip'/>"
+        "<origin xyz='0.5 0 1'/><axis xyz='0 1 0'/></joint></robot>")
+    robot = tf.read_urdf(folder / "robot.urdf")
+    assert robot.links == ["base", "none", "arm", "tip"] and robot.link_of_part.tolist() == [0, 2, 3]
+    assert robot.joints[1] == ("lift", "prismatic", "none", "arm", (0.0, 2.0))
+    assert robot.adjacent.tolist() == [[0, 1], [1, 2]]
+    rng = np.random.default_rng(6)
+    values = {"lift": rng.random(50) * 4, "bend": rng.random(50) * 6}
+    lines = [json.dumps({"lift": lift, "bend": bend}) for lift, bend in zip(*values.values())]
+    (folder / "angles.jsonl").write_text("\n".join(lines) + "\n")
+    report = run_tool("tf-place", "check", folder / "robot.urdf", "--poses",
+                      folder / "angles.jsonl", "--clearance", "0.2")["files"][0]
+    poses = robot.poses(values)
+    assert poses.shape == (50, 3, 4, 4)
+    made = tf.check_poses(robot.parts, poses, 0.2, ignored=robot.adjacent)
+    theirs = [(one["pose"], pair["a"], pair["b"], pair["distance"])
+              for one in report["poses"]["list"] for pair in one["pairs"]]
+    names = [robot.links[link] for link in robot.link_of_part]
+    own = [(int(pose), names[a], names[b], far)
+           for pose, (a, b), far in zip(made.pose, made.parts, made.distance)]
+    assert own == theirs and 0 < made.clashing < 50
+    assert np.array_equal(robot.poses({"lift": values["lift"][7], "bend": values["bend"][7]}),
+                          poses[7])
+    with pytest.raises(ValueError, match="weld"):
+        robot.poses({"weld": 1.0})
+    with pytest.raises(ValueError, match="bend: numbers are needed"):
+        robot.poses({"bend": "x"})

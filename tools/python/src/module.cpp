@@ -85,8 +85,8 @@ void add_meshes(py::module_& module) {
 /// All functions of the module but those that only look something up, and what trees are asked.
 void make_jobs(py::module_& module) {
     module.def("build", &build);
-    for (const char* name :
-         {"read", "write", "self_intersections_of_file", "weld_stream", "wrap", "pack"})
+    for (const char* name : {"read", "write", "read_urdf", "self_intersections_of_file",
+                             "weld_stream", "wrap", "pack"})
         make_job(module, name, true);
     for (const char* name : {"self_intersections",
                              "group_pairs",
@@ -160,6 +160,7 @@ PYBIND11_MODULE(_core, module) {
     add_booleans(module);
     add_properties(module);
     add_repair(module);
+    add_robots(module);
     add_weld(module);
     add_streams(module);
     add_placement(module);
