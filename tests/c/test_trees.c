@@ -82,6 +82,9 @@ static void test_boxes(uint32_t dimensions) {
     uint32_t ids[2];
     double distances[2];
     const double far_away[3] = {100, 0.5, 0.5}, origin[3] = {-1, 0, 0}, along[3] = {1, 0, 0};
+    const double highest[3] = {(double)INFINITY, (double)INFINITY, (double)INFINITY};
+    const double lowest[3] = {-highest[0], -highest[0], -highest[0]};
+    const double no_number[3] = {(double)NAN, 0, 0};
     size_t i, j, count = 0, all = 0, with_first = 0;
     for (i = 0; i < POINTS * dimensions; ++i) {
         low[i] = next_number();
@@ -103,6 +106,13 @@ static void test_boxes(uint32_t dimensions) {
     OK(treeform_box_tree_query(tree, low, high, 1, &lists));
     CHECK(lists->count == 1 && lists->begin[1] == with_first && lists->ids[0] == 0);
     treeform_free(lists);
+    OK(treeform_box_tree_query(tree, lowest, highest, 1, &lists));
+    CHECK(lists->begin[1] == POINTS);
+    treeform_free(lists);
+    OK(treeform_box_tree_query(tree, highest, lowest, 1, &lists));
+    CHECK(lists->begin[1] == 0);
+    treeform_free(lists);
+    INVALID("NaN", treeform_box_tree_query(tree, no_number, highest, 1, &lists));
     OK(treeform_box_tree_rays(tree, low, along, 1, &lists));
     CHECK(lists->begin[1] >= 1 && lists->ids[0] == 0);
     treeform_free(lists);
@@ -119,7 +129,7 @@ static void test_boxes(uint32_t dimensions) {
     treeform_free(flat);
     treeform_free(tree);
     high[dimensions * 9] = -1.0;
-    INVALID("box 9", treeform_box_tree_create(low, high, POINTS, dimensions, &tree));
+    INVALID("box of element 9", treeform_box_tree_create(low, high, POINTS, dimensions, &tree));
     CHECK(tree == NULL);
 }
 

@@ -167,8 +167,9 @@ def test_points_that_are_not_finite_are_named():
     for verb in (lambda: tf.closest_point(CUBE, bad), lambda: tf.contains(CUBE, bad),
                  lambda: tf.PointTree(bad), lambda: tf.raycast(CUBE, bad, POINTS + 1),
                  lambda: tf.convex_hull(bad), lambda: tf.deviation(bad, CUBE)):
-        with pytest.raises(ValueError, match="2"):
+        with pytest.raises(ValueError, match="2") as caught:
             verb()
+        assert "treeform" not in str(caught.value)
 
 
 def test_words_that_are_none_are_refused_with_those_there_are():
@@ -213,6 +214,7 @@ def test_an_open_mesh_has_no_inside(verb):
     with pytest.raises(tf.NotSolidError) as caught:
         verb(SHEET, [[0.1, 0.1, 2.0]])
     assert caught.value.edges.shape == (3, 2, 3)
+    assert str(caught.value).endswith("at face 0")
     with pytest.raises(ValueError, match="finite") as caught:
         verb(CUBE, [[np.nan, 0, 0]])
     assert not isinstance(caught.value, tf.NotSolidError)

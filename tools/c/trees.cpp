@@ -44,7 +44,7 @@ struct boxes_and_tree {
     tf::tree<D> tree;
 };
 
-/// Boxes of a caller. Those that are not finite or have a min beyond their max are refused.
+/// Boxes of a caller. Which ones make no sense, `build` and `search_all` know.
 template <std::size_t D>
 std::vector<tf::aabb<double, D>> boxes_of(const double* mins, const double* maxs,
                                           std::size_t count) {
@@ -54,9 +54,6 @@ std::vector<tf::aabb<double, D>> boxes_of(const double* mins, const double* maxs
     for (std::size_t i = 0; i < count; ++i) {
         boxes[i].min = low[i];
         boxes[i].max = high[i];
-        for (std::size_t k = 0; k < D; ++k)
-            if (!std::isfinite(low[i][k]) || !std::isfinite(high[i][k]) || boxes[i].empty())
-                throw std::invalid_argument("box " + std::to_string(i) + " is empty or not finite");
     }
     return boxes;
 }

@@ -20,6 +20,7 @@ void add_pictures(pybind11::module_& module);
 void add_placement(pybind11::module_& module);
 void add_properties(pybind11::module_& module);
 void add_repair(pybind11::module_& module);
+void add_robots(pybind11::module_& module);
 void add_streams(pybind11::module_& module);
 void add_weld(pybind11::module_& module);
 

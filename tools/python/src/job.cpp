@@ -315,10 +315,12 @@ void make_job(const py::object& scope, const char* name, bool long_work) {
             progress = py::module_::import("treeform._progress").attr("of_bar")(progress);
         return call(function, arguments, progress, long_work);
     };
+    const auto doc = function.attr("__doc__").cast<std::string>();  // has the arguments
     if (py::isinstance<py::module_>(scope))
-        scope.attr(name) = py::cpp_function(job_of, py::name(name), py::scope(scope));
+        scope.attr(name) = py::cpp_function(job_of, py::name(name), py::scope(scope), doc.c_str());
     else
-        scope.attr(name) = py::cpp_function(job_of, py::name(name), py::is_method(scope));
+        scope.attr(name) =
+            py::cpp_function(job_of, py::name(name), py::is_method(scope), doc.c_str());
 }
 
 treeform::progress_callback report_of_job() {

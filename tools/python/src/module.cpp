@@ -8,8 +8,10 @@
 
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace binding {
 namespace {
@@ -20,15 +22,26 @@ void raise(const char* name, const char* text) {
     PyErr_SetString(type.ptr(), text);
 }
 
-/// What pybind11 does not know; it makes ValueError of std::invalid_argument, MemoryError of
-/// std::bad_alloc.
+/// A message without what only callers of C++ know: the function's name in front, options.
+std::string in_python(std::string message) {
+    if (message.starts_with("treeform:")) message.erase(0, message.find(": ") + 2);
+    for (const auto& [there, here] : {std::pair{"precision::float32", "precision='float32'"},
+                                      std::pair{"set write_options::round", "say round=True"}})
+        if (const std::size_t at = message.find(there); at != std::string::npos)
+            message.replace(at, std::string(there).size(), here);
+    return message;
+}
+
+/// What pybind11 does not know, or says in words of C++; it makes MemoryError of std::bad_alloc.
 void translate(std::exception_ptr thrown) {
     try {
         std::rethrow_exception(thrown);
     } catch (const cancelled&) {
         raise("Cancelled", "progress has returned False");
+    } catch (const std::invalid_argument& error) {
+        PyErr_SetString(PyExc_ValueError, in_python(error.what()).c_str());
     } catch (const tf::io_error& error) {
-        raise("FileError", error.what());
+        raise("FileError", in_python(error.what()).c_str());
     } catch (const tf::stream_error& error) {
         raise("FileError", error.what());
     } catch (const std::system_error& error) {
@@ -122,8 +135,8 @@ constexpr const char* jobs[] = {"self_intersections",
 /// All functions of the module but those that only look something up, and what trees are asked.
 void make_jobs(py::module_& module) {
     module.def("build", &build);
-    for (const char* name : {"read", "write", "self_intersections_of_file", "weld_stream", "wrap",
-                             "pack", "page", "picture"})
+    for (const char* name : {"read", "write", "read_urdf", "self_intersections_of_file",
+                             "weld_stream", "wrap", "pack", "page", "picture"})
         make_job(module, name, true);
     for (const char* name : jobs) make_job(module, name);
     for (const char* type : {"Cloud2", "Cloud3"})
@@ -148,6 +161,7 @@ PYBIND11_MODULE(_core, module) {
     add_booleans(module);
     add_properties(module);
     add_repair(module);
+    add_robots(module);
     add_weld(module);
     add_streams(module);
     add_placement(module);

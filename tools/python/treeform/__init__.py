@@ -35,6 +35,7 @@ from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_to
 from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, WrapResult, convex_hull,
                       find_rounding_defects, join_equal_points, repair,
                       resolve_self_intersections, rounded, wrap)
+from ._robots import Joint, Robot, read_urdf
 from ._show import Picture, View, plot, show
 from ._threads import thread_count, threads
 from ._trees import BoxTree, Neighbors, PointTree

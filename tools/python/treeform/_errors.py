@@ -33,12 +33,14 @@ class CertificateError(Error, ValueError):
     `certificate` says why. With `check=False`, the operation returns it with the result instead.
     """
 
-    def __init__(self, certificate: Certificate) -> None:
-        super().__init__(certificate.message)
+    def __init__(self, certificate: Certificate, of_one: bool = False) -> None:
+        message = certificate.message
+        super().__init__(message.replace(" of operand a", "") if of_one else message)
         self.certificate = certificate
+        self._of_one = of_one
 
-    def __reduce__(self) -> tuple[type[CertificateError], tuple[Certificate]]:
-        return type(self), (self.certificate,)
+    def __reduce__(self) -> tuple[type[CertificateError], tuple[Certificate, bool]]:
+        return type(self), (self.certificate, self._of_one)
 
 
 class NotSolidError(CertificateError):
@@ -64,13 +66,14 @@ class NotCertifiedError(CertificateError):
         return self.certificate.meeting
 
 
-def require(certificate: Certificate, *also: str) -> None:
-    """Raises what `certificate` says, unless it is ok or its status is one of `also`."""
+def require(certificate: Certificate, *also: str, of_one: bool = False) -> None:
+    """Raises what `certificate` says, unless it is ok or its status is one of `also`. `of_one`: of a
+    single mesh, which is no operand."""
     if certificate or certificate.status in also:
         return
     if certificate.status == "open_input":
-        raise NotSolidError(certificate)
-    raise NotCertifiedError(certificate)
+        raise NotSolidError(certificate, of_one)
+    raise NotCertifiedError(certificate, of_one)
 
 
 #: What annotations ask for, and how that is said.

@@ -63,7 +63,7 @@ def _located(mesh: MeshLike, points: ArrayLike,
         return _core.locate(held(mesh), _arrays.points(points, "points"), progress=progress)
     except ValueError:
         if len(as_mesh(mesh).faces):
-            require(as_mesh(mesh).solid_certificate)
+            require(as_mesh(mesh).solid_certificate, of_one=True)
         raise
 
 
@@ -125,7 +125,7 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     if made is None:
         return np.full(len(cloud), -np.inf)
     if not made["is_signed"]:
-        raise NotSolidError(as_mesh(mesh).solid_certificate)
+        raise NotSolidError(as_mesh(mesh).solid_certificate, True)
     return np.asarray(-made["distances"] + 0.0)
 
 

@@ -61,7 +61,7 @@ def _mesh_of(made: dict[str, Any], check: bool, *also: str) -> dict[str, Any]:
     """`made` with a mesh in place of arrays."""
     certificate = made["certificate"]
     if check:
-        require(certificate, *also)
+        require(certificate, *also, of_one=True)
     made["mesh"] = Mesh._of(made.pop("points"), made.pop("faces"), certificate, made.pop("data"))
     return made
 

@@ -92,7 +92,8 @@ typedef struct treeform_id_lists {
     size_t count;  ///< queries
 } treeform_id_lists;
 
-/// The boxes that have a point in common with each of the query boxes [count], ascending; exact.
+/// The boxes that have a point in common with each of the query boxes [count], ascending; exact. A
+/// query may be infinite; one whose min exceeds its max finds nothing.
 TREEFORM_C_API treeform_code treeform_box_tree_query(const treeform_box_tree* tree,
                                                      const double* mins, const double* maxs,
                                                      size_t count, treeform_id_lists** lists);

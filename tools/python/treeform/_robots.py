@@ -1,0 +1,103 @@
+"""Robots as URDF files describe them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Iterable, Mapping, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _arrays, _core
+from ._arrays import Floats, Ids
+from ._files import Path, path_of
+from ._mesh import Mesh
+from ._progress import Progress
+from ._results import Result
+
+
+class Joint(NamedTuple):
+    """What connects two links."""
+
+    name: str
+    #: 'fixed', 'revolute', 'continuous' or 'prismatic'.
+    kind: str
+    #: Names of links.
+    parent: str
+    child: str
+    #: Least and greatest value, in radians or meters; None where there are none.
+    limits: tuple[float, float] | None
+
+
+@dataclass(frozen=True, repr=False)
+class Robot(Result):
+    """Links and joints, with a mesh for each link that has any.
+
+    `clash(robot.parts, ...)` and `check_poses(robot.parts, robot.poses(values),
+    ignored=robot.adjacent)` take its parts.
+    """
+
+    name: str
+    #: Names, in the order of the file.
+    links: list[str]
+    #: Parents ahead of their children.
+    joints: list[Joint]
+    #: The meshes of a link as one, in the frame of the link.
+    parts: list[Mesh]
+    #: (N,) the link of each part.
+    link_of_part: Ids
+    #: (n, 2) parts that a joint connects, the lower number first: they always touch.
+    adjacent: Ids
+    #: What is no mesh, a sentence each.
+    skipped: list[str]
+    _data: _core.RobotData
+
+    def poses(self, values: Mapping[str, ArrayLike] | None = None) -> Floats:
+        """(N, 4, 4): where each part is, from its own frame to that of the robot; (P, N, 4, 4) where
+        a value is an array (P,).
+
+        values: of joints by name, radians or meters. Others are at 0, or follow the joint that they
+        mimic. Limits are not looked at.
+
+        Raises ValueError for a joint that is not there or fixed, or a value that is not finite.
+        """
+        given = dict(values or {})
+        columns = np.broadcast_arrays(*[_arrays.floats(v, name) for name, v in given.items()])
+        shape = columns[0].shape if columns else ()
+        if len(shape) > 1:
+            raise ValueError(f"values: the shape is {shape}, not (P,)")
+        count = shape[0] if shape else 1
+        table = np.empty((count, len(given)))
+        for j, column in enumerate(columns):
+            table[:, j] = column
+        made = self._data.poses(list(given), table)
+        return made if shape else np.asarray(made[0])
+
+
+def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool = False,
+              progress: Progress = None) -> Robot:
+    """The robot in a URDF file, with its meshes. Joints are fixed, revolute, continuous or
+    prismatic; spheres, cylinders and boxes are no meshes (`Robot.skipped`).
+
+    package_folders: where packages are: `package://name/rest` is FOLDER/name/rest or FOLDER/rest;
+    else it is looked for in the file's folder and those above. visual: the meshes that are for show,
+    not those for collisions. Faces that are not finite are left out, equal corners joined.
+
+    Raises FileError naming the path and the reason.
+
+    >>> import pathlib, tempfile, treeform
+    >>> mesh = f'<mesh filename="{pathlib.Path("data/cube.stl").resolve()}"/>'
+    >>> shape = f'<collision><geometry>{mesh}</geometry></collision>'
+    >>> text = (f'<robot name="r"><link name="a">{shape}</link><link name="b">{shape}</link>'
+    ...         '<joint name="j" type="prismatic"><parent link="a"/><child link="b"/>'
+    ...         '<axis xyz="1 0 0"/><limit lower="0" upper="3"/></joint></robot>')
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = pathlib.Path(folder, "r.urdf").write_text(text)
+    ...     robot = treeform.read_urdf(folder + "/r.urdf")
+    >>> treeform.check_poses(robot.parts, robot.poses({"j": [0.5, 2.0]})).in_collision(2).tolist()
+    [True, False]
+    """
+    data, name, links, joints, parts, link_of_part, adjacent, skipped = _core.read_urdf(
+        path_of(path), [path_of(folder) for folder in package_folders], visual, progress=progress)
+    return Robot(name, links, [Joint(*one) for one in joints], [Mesh._of(*one) for one in parts],
+                 np.array(link_of_part, np.uint32), adjacent, skipped, data)
