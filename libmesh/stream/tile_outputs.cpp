@@ -181,7 +181,7 @@ class giving_back {
                     point_writer(part("none"), head_, 0, points_out::options_of(*to)).has_parts());
         };
         return !all_.is_alone() && steps_.is_divided() && !asked_.map && asked_.label.empty() &&
-               !asked_.withhold && has_parts(asked_.welded) && has_parts(asked_.removed);
+               has_parts(asked_.welded) && has_parts(asked_.removed);
     }
     [[nodiscard]] fs::path part(const char* name) const {
         return work_.file(name + ("." + std::to_string(all_.rank())));
