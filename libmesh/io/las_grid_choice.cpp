@@ -10,7 +10,7 @@ namespace {
 
 constexpr double reach = 2147483000.0;
 
-double unit_of(int digits) { return 1.0 / std::pow(10.0, digits); }
+double las_unit_of(int digits) { return 1.0 / std::pow(10.0, digits); }
 double half_of(const las_grid_choice::range& r) { return 0.5 * r.high - 0.5 * r.low; }
 double largest_of(const las_grid_choice::range& r) {
     return std::max(std::abs(r.low), std::abs(r.high));
@@ -36,7 +36,7 @@ void las_grid_choice::add(std::size_t axis, const range& seen) {
 /// From the middle, both halves have 31 bits.
 double las_grid_choice::offset(std::size_t axis, int d) const {
     const range& r = ranges_[axis];
-    const bool near = largest_of(r) / unit_of(d) <= reach;
+    const bool near = largest_of(r) / las_unit_of(d) <= reach;
     return near ? 0.0 : std::nearbyint(r.low + half_of(r));
 }
 
@@ -44,11 +44,11 @@ bool las_grid_choice::may_be(std::size_t axis, int d) const {
     const range& r = ranges_[axis];
     if (!std::isfinite(r.low) || !std::isfinite(r.high)) return false;  // refused, or nothing there
     const double from = offset(axis, d);
-    return d <= most_digits && std::max(r.high - from, from - r.low) / unit_of(d) <= reach;
+    return d <= most_digits && std::max(r.high - from, from - r.low) / las_unit_of(d) <= reach;
 }
 
 bool las_grid_choice::holds(std::size_t axis, std::span<const point3> points) const {
-    const double unit = unit_of(digits_[axis]);
+    const double unit = las_unit_of(digits_[axis]);
     const double from = offset(axis, digits_[axis]);
     const double within = 2 * largest_of(ranges_[axis]) * std::numeric_limits<double>::epsilon();
     const las_grid grid{{unit, unit, unit}, {from, from, from}};
@@ -83,7 +83,7 @@ void las_grid_choice::put(las_header& header) const {
         int d = digits_[axis];
         while (d >= 0 && !may_be(axis, d)) --d;
         if (d >= 0) {
-            header.scale[axis] = unit_of(d);
+            header.scale[axis] = las_unit_of(d);
             header.offset[axis] = offset(axis, d);
         } else {
             header.scale[axis] =

@@ -120,15 +120,21 @@ write_result point_writer::commit() {
     return std::move(s.result);
 }
 
-bool point_writer::has_parts() const { return !state_->rows.finish; }
+bool point_writer::has_parts() const { return !state_->rows.finish || state_->rows.finish_part; }
 
-std::uint64_t point_writer::commit_part(write_result& result) {
+point_writer::part point_writer::commit_part(write_result& result) {
     state& s = *state_;
     if (!has_parts()) throw std::logic_error(s.file->name() + ": is not written in parts");
+    const std::uint64_t behind = s.rows.finish_part ? s.rows.finish_part() : 0;
     s.out->flush();
+    const part made{s.head_size, s.out->size() - s.head_size - behind};
     s.file->commit();
     result = std::move(s.result);
-    return s.head_size;
+    return made;
+}
+
+std::string point_writer::join_heads(const std::vector<std::string>& heads) {
+    return heads.front().starts_with("LASF") ? detail::io::join_las_heads(heads) : heads.front();
 }
 
 }  // namespace treeform

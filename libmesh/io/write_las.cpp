@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -92,6 +93,23 @@ class las_writer {
         put_pending();
         const std::uint64_t end_of_points = at_;
         if (is_packed()) put_table(end_of_points);
+        finish_behind_points();
+    }
+
+    /// What follows the points is told where it will be when all of them are there.
+    /// \pre plain records
+    std::uint64_t finish_part() {
+        put_pending();
+        const std::uint64_t end_of_points = job_.out.size();
+        at_ = first_point_ + count_ * plan_.record_size;
+        finish_behind_points();
+        return job_.out.size() - end_of_points;
+    }
+
+  private:
+    static constexpr std::size_t at_once = 8;  ///< chunks
+
+    void finish_behind_points() {
         put_extended();
         tally_.put(plan_.header.block, plan_.grid, count_, plan_.header.version_minor,
                    plan_.header.point_format);
@@ -100,9 +118,6 @@ class las_writer {
         job_.result.max_displacement =
             std::max(job_.result.max_displacement, tally_.max_displacement());
     }
-
-  private:
-    static constexpr std::size_t at_once = 8;  ///< chunks
 
     [[nodiscard]] bool is_packed() const { return !plan_.items.empty(); }
 
@@ -208,17 +223,51 @@ void write_all(const write_job& job, bool packed) {
     const sink& out = job.out;
     const auto writer = with_name(
         out, [&] { return std::make_shared<las_writer>(job, count, std::nullopt, packed); });
-    return {.rows =
-                [writer, &out](std::span<const point3> points, const element* vertices) {
-                    with_name(out, [&] { writer->put_points(points, vertices); });
-                },
-            .finish = [writer, &out] { with_name(out, [&] { writer->finish(); }); }};
+    point_sink sink{.rows =
+                        [writer, &out](std::span<const point3> points, const element* vertices) {
+                            with_name(out, [&] { writer->put_points(points, vertices); });
+                        },
+                    .finish = [writer, &out] { with_name(out, [&] { writer->finish(); }); }};
+    if (!packed)
+        sink.finish_part = [writer, &out] {
+            return with_name(out, [&] { return writer->finish_part(); });
+        };
+    return sink;
+}
+
+template <class T>
+T number_in(const std::string& head, std::size_t at) {
+    return base::load<T, std::endian::little>(head.data() + at);
+}
+
+/// Puts what `join` makes of the numbers there into the first head.
+template <class T, class Join>
+void join_at(std::vector<std::string>& heads, std::size_t at, const Join& join) {
+    T all = number_in<T>(heads.front(), at);
+    for (const std::string& head : heads) {
+        if (&head == &heads.front()) continue;
+        all = join(all, number_in<T>(head, at));
+    }
+    base::store<std::endian::little>(heads.front().data() + at, all);
 }
 
 }  // namespace
 
 void write_las(const write_job& job) { write_all(job, false); }
 void write_laz(const write_job& job) { write_all(job, true); }
+
+std::string join_las_heads(const std::vector<std::string>& heads) {
+    std::vector<std::string> all = heads;
+    for (std::size_t r = 0; r < 5; ++r) join_at<std::uint32_t>(all, 111 + 4 * r, std::plus<>());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        join_at<double>(all, 179 + 16 * axis, [](double a, double b) { return std::max(a, b); });
+        join_at<double>(all, 187 + 16 * axis, [](double a, double b) { return std::min(a, b); });
+    }
+    if (static_cast<unsigned char>(all.front()[25]) >= 4)
+        for (std::size_t r = 0; r < 15; ++r)
+            join_at<std::uint64_t>(all, 255 + 8 * r, std::plus<>());
+    return all.front();
+}
 
 point_sink start_las_points(const write_job& job, std::uint64_t count) {
     return start(job, count, false);

@@ -46,8 +46,13 @@ struct write_job {
 struct point_sink {
     /// The rows that belong to the points; null when the head has no element "vertex".
     std::function<void(std::span<const point3> points, const element* vertices)> rows{};
-    std::function<void()> finish{};
+    std::function<void()> finish{};  ///< none: nothing is left to do
+    /// Finishes a file that has only some of the points; returns the number of bytes behind them.
+    std::function<std::uint64_t()> finish_part{};
 };
+
+/// The head of a LAS file from those of files with some of its points each, none without any.
+[[nodiscard]] std::string join_las_heads(const std::vector<std::string>& heads);
 
 void write_stl_binary(const write_job& job);
 void write_stl_text(const write_job& job);

@@ -67,22 +67,35 @@ class points_out {
     write_result commit() {
         if (all_ == nullptr) return writer_.commit();
         write_result result;
-        const std::uint64_t head = writer_.commit_part(result);
-        const std::uint64_t skipped = all_->leads() ? 0 : head;
-        const std::uint64_t size = fs::file_size(path_) - skipped;
+        const point_writer::part part = writer_.commit_part(result);
+        std::string head(static_cast<std::size_t>(part.head), '\0');
+        if (read_from(path_, 0, std::as_writable_bytes(std::span(head))) != head.size())
+            fail_damaged(path_);
         state_writer mine;
-        mine.number(size);
+        mine.number(part.points);
         mine.real(result.max_displacement);
         mine.text(path_.string());
+        mine.text(head);
         std::vector<state_reader> told = all_->exchange(mine);
-        std::uint64_t at = 0;
+        std::uint64_t at = part.head;
+        fs::path whole;
+        std::vector<std::string> heads;
         for (std::size_t r = 0; r < told.size(); ++r) {
             const std::uint64_t bytes = told[r].number();
             if (r < all_->rank()) at += bytes;
             result.max_displacement = std::max(result.max_displacement, told[r].real());
+            const std::string path = told[r].text();
+            if (r == 0) whole = path;
+            if (bytes > 0) heads.push_back(told[r].text());
         }
-        const fs::path whole = told.front().text();
-        if (!all_->leads()) copy_bytes(path_, skipped, whole, at, size);
+        if (heads.empty()) heads.push_back(head);
+        const bool is_last = all_->rank() + 1 == all_->size();
+        const std::uint64_t size = is_last ? fs::file_size(path_) - part.head : part.points;
+        if (!all_->leads()) copy_bytes(path_, part.head, whole, at, size);
+        if (all_->leads()) {
+            const std::string joined = point_writer::join_heads(heads);
+            write_to(whole, 0, std::as_bytes(std::span(joined)));
+        }
         all_->meet();
         if (all_->leads())
             fs::rename(whole, target_);
@@ -111,6 +124,10 @@ class output_look {
     void write(const point_block& block) {
         single_ = single_ && fits_single(block.points);
         extended_ = extended_ || io::has_extended_values(block.properties);
+    }
+    void share(const team& all) {
+        single_ = all.sum(single_ ? 0 : 1) == 0;
+        extended_ = all.sum(extended_ ? 1 : 0) > 0;
     }
     void tell(mesh_file& head) const {
         if (!single_) head.stored_as = precision::float64;
@@ -164,7 +181,7 @@ class giving_back {
                     point_writer(part("none"), head_, 0, points_out::options_of(*to)).has_parts());
         };
         return !all_.is_alone() && steps_.is_divided() && !asked_.map && asked_.label.empty() &&
-               !asked_.withhold && has_parts(asked_.welded) && has_parts(asked_.removed);
+               has_parts(asked_.welded) && has_parts(asked_.removed);
     }
     [[nodiscard]] fs::path part(const char* name) const {
         return work_.file(name + ("." + std::to_string(all_.rank())));
@@ -251,6 +268,8 @@ class giving_back {
             give(block, &welded, asked_.removed ? &removed : nullptr);
             pace_.check();
         });
+        if (is_divided_) welded.share(all_);
+        if (is_divided_) removed.share(all_);
         welded.tell(head_);
         removed.tell(removed_head_);
     }

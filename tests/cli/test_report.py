@@ -10,8 +10,9 @@ OPTIONAL_COUNT = (int, type(None))
 HEAD = {"schema": str, "tool": str, "version": str, "command": list, "exit": int, "unit": str,
         "files": list, "seconds": dict, "threads": int, "peak_rss": int}
 FILE = {"input": str, "exit": int, "error": type(None), "format": str, "sha256": str,
-        "precision_in": str, "vertices": dict, "faces": int, "triangles": int, "searched": int,
-        "box": dict, "skipped": dict, "tolerance": dict, "pairs": dict, "complete": bool,
+        "precision_in": str, "tiles": type(None), "vertices": dict, "faces": int,
+        "triangles": int, "searched": int, "box": dict, "skipped": dict, "tolerance": dict,
+        "pairs": dict, "complete": bool,
         "faces_hit": int, "regions": list, "listed": int, "truncated": bool, "list": list,
         "repair": type(None), "output": (dict, type(None)), "warnings": list}
 PAIRS = dict.fromkeys(["crossing", "overlap", "fold", "duplicate", "pierce", "touching",

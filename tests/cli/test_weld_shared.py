@@ -195,7 +195,7 @@ class Shared(WeldTest):
         run = self.run_tool("in.ply", "-t", "0.03", "--plan", *work, status=4)
         self.assertIn("holds tiles of another input or of other options", run.err)
         self.write("cube.obj", obj_bytes(cube()))
-        self.assertIn("is no cloud",
+        self.assertIn("meshes are welded by one, in memory",
                       self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
 
     @unittest.skipIf(NO_MPI, NO_MPI)
@@ -207,14 +207,16 @@ class Shared(WeldTest):
                              (["-t", "0.02", "--order", "shade", "--map", "map.csv"], "out.ply"),
                              (["-t", "0.02", "--precision", "float"], "out.ply"),
                              (["-t", "0.02", "--keep", "mean"], "out.xyz"),
-                             (["-t", "0.02"], "out.laz")):
+                             (["-t", "0.02"], "out.laz"), (["-t", "0.02"], "out.las"),
+                             (["-t", "0.02", "--removed", "gone.las"], "out.las"),
+                             (["-t", "0.02", "--withhold"], "out.las")):
             given = "in.ply"
-            if out == "out.laz":
+            if out.startswith("out.la"):
                 given = "in.las"
                 finite = [p for p in cloud(self.rng, 1500) if p[0] == p[0]]
-                self.run_tool(self.cloud("in.xyz", finite), "-o", given, status=0)
+                self.run_tool(self.cloud("in.xyz", finite), "-o", given, "-f", status=0)
                 os.remove(self.path("in.xyz"))
-            names = (out, "gone.ply", "map.csv")
+            names = (out, "gone.ply", "gone.las", "map.csv")
             report = self.entry(given, *options, "-o", out, status=0)
             expected = self.written(names)
             sizes.reverse()

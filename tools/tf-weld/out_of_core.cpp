@@ -111,7 +111,9 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
     if (!cloud && asked && tiles.per_tile == 0)
         throw failure(
             bad_input, "read",
-            work.name + ": is no cloud that can be read by blocks, as several processes do");
+            work.name +
+                ": is no cloud that can be read by blocks, as several processes do; meshes are "
+                "welded by one, in memory");
     if (!cloud) return weld_mesh(work, request, tiles, size);
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +

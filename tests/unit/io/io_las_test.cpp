@@ -16,6 +16,8 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -357,6 +359,44 @@ TEST_CASE("LAS: a stream of blocks is the file") {
         }
     }
     std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("LAS: parts with a joined head are the file") {
+    const auto path = std::filesystem::temp_directory_path() / "treeform_io_las_part.las";
+    for (const unsigned format : {1u, 3u, 5u, 7u})
+        for (const std::size_t cut : {1u, 700u, 1999u, 2000u}) {
+            CAPTURE(format);
+            CAPTURE(cut);
+            test::las_bytes las = las_of(format, 3);
+            if (format == 7) las.add_extended("LASF_Spec", 65535, std::string(1000, 'w'));
+            const tf::mesh_file file = read(las.file(test::las_points(
+                test::las_family::scan, format, las.record_size, 2000, format + cut)));
+            std::vector<std::string> heads;
+            std::string points;
+            for (const auto& [first, last] : {std::pair{std::size_t{0}, cut}, {cut, 2000u}}) {
+                tf::point_block block;
+                std::vector<std::uint32_t> rows;
+                for (std::size_t i = first; i < last; ++i) {
+                    rows.push_back(static_cast<std::uint32_t>(i));
+                    block.points.push_back(file.mesh.points[i]);
+                }
+                block.properties = tf::gather(file.attributes.elements[0], rows);
+                tf::point_writer writer(path, file, 2000);
+                writer.write(block);
+                REQUIRE(writer.has_parts());
+                tf::write_result result;
+                const tf::point_writer::part part = writer.commit_part(result);
+                CHECK(part.points == las.record_size * (last - first));
+                std::ifstream in(path, std::ios::binary);
+                const std::string bytes(std::istreambuf_iterator<char>(in), {});
+                if (part.points > 0) heads.push_back(bytes.substr(0, part.head));
+                points +=
+                    first == cut ? bytes.substr(part.head) : bytes.substr(part.head, part.points);
+            }
+            CHECK(tf::point_writer::join_heads(heads) + points == written(file));
+        }
+    std::filesystem::remove(path);
+    CHECK_FALSE(tf::point_writer(path.string() + ".laz", read(las_of(1).file("")), 0).has_parts());
 }
 
 TEST_CASE("E57: a message names the program that converts it") {

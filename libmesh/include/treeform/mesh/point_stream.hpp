@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -82,13 +83,18 @@ class TREEFORM_API point_writer {
     /// \throws io_error, also when fewer than `count` points were written
     write_result commit();
 
-    /// Whether others can write the rest of the points: not in LAS, LAZ and compressed PCD.
+    /// Whether others can write the rest of the points: not in LAZ and compressed PCD.
     [[nodiscard]] bool has_parts() const;
-    /// Finishes a file that has only some of the points, and returns the number of bytes ahead of
-    /// them. The first part, and then the others without these bytes, are what one writer of all
-    /// points would have written.
+    struct part {
+        std::uint64_t head = 0;    ///< bytes ahead of its points
+        std::uint64_t points = 0;  ///< bytes of its points; what is behind them is that of the file
+    };
+    /// Finishes a file that has only some of the points. The joined head, the points of all parts,
+    /// and what is behind those of the last one are what one writer of all points would have written.
     /// \throws io_error, std::logic_error where it has no parts
-    std::uint64_t commit_part(write_result& result);
+    part commit_part(write_result& result);
+    /// The head of the whole from those of all parts that have points; if none has, from one.
+    [[nodiscard]] static std::string join_heads(const std::vector<std::string>& heads);
 
   private:
     struct state;
