@@ -280,32 +280,33 @@ def distance_of_plane(point, corners):
 
 
 class Numbers(PageTest):
-    def picked_texts(self):
-        """What is said where the view is clicked, at 60 x 60 places."""
-        return self.run_js("""(() => {
-            const view = document.querySelector('canvas'), texts = new Set();
-            for (let i = 0; i < 3600; ++i) {
-                viewer.pick((i % 60 + 0.5) / 60 * view.width, (Math.floor(i / 60) + 0.5) / 60 * view.height);
+    def picked_texts(self, steps):
+        """What is said where the view is clicked, so many places across and down."""
+        return self.run_js(f"""(() => {{
+            const view = document.querySelector('canvas'), texts = new Set(), steps = {steps};
+            for (let i = 0; i < steps * steps; ++i) {{
+                const x = (i % steps + 0.5) / steps, y = (Math.floor(i / steps) + 0.5) / steps;
+                viewer.pick(x * view.width, y * view.height);
                 texts.add(document.querySelector('.picked').textContent);
-            }
+            }}
             return [...texts];
-        })()""")
+        }})()""")
 
     def test_what_is_picked_lies_in_the_face_of_the_file_that_has_the_number(self):
         at = r" at (\S+), (\S+), (\S+)$"
         files = {"two_spheres.stl": SPHERES, "cube.stl": CUBE, "dirty.stl": DIRTY}
         for name, pattern, least in (
-                ("selfintersect", r"face (?P<face>\d+)(?: \(.*\))?" + at, 200),
-                ("boolean", r"face \d+ of the result \(from (?P<file>\S+), in face (?P<face>\d+)\)" + at, 200),
-                ("repair", r"face \d+ of the result \(.*in face (?P<face>\d+)\)" + at, 100),
-                ("repair_check", r"face (?P<face>\d+)(?: \(.*\))?" + at, 100),
-                ("touch", r"face (?P<face>\d+) of (?P<file>cube\.stl)(?: \(.*\))?" + at, 20)):
+                ("selfintersect", r"face (?P<face>\d+)(?: \(.*\))?" + at, 90),
+                ("boolean", r"face \d+ of the result \(from (?P<file>\S+), in face (?P<face>\d+)\)" + at, 90),
+                ("repair", r"face \d+ of the result \(.*in face (?P<face>\d+)\)" + at, 45),
+                ("repair_check", r"face (?P<face>\d+)(?: \(.*\))?" + at, 45),
+                ("touch", r"face (?P<face>\d+) of (?P<file>cube\.stl)(?: \(.*\))?" + at, 9)):
             with self.subTest(page=name):
                 self.show(name)
                 self.press_button("view", "front")
                 own = "two_spheres.stl" if name == "selfintersect" else "dirty.stl"
                 seen = set()
-                for picked in filter(None, (re.match(pattern, text) for text in self.picked_texts())):
+                for picked in filter(None, (re.match(pattern, text) for text in self.picked_texts(40))):
                     file = files[picked.groupdict().get("file") or own]
                     corners = triangles_of_stl(file)[int(picked["face"])]
                     point = [float(v) for v in picked.groups()[-3:]]
@@ -343,7 +344,7 @@ class Numbers(PageTest):
         found = {(pair[side], face) for pair in report["pairs"] for region in pair["regions"]
                  for side in "ab" for face in region["faces_" + side]}
         self.press_button("view", "front")
-        texts = self.picked_texts()
+        texts = self.picked_texts(60)
         seen = marked = 0
         for text in texts:
             picked = re.match(r"face (\d+) of (\S+)(?: \((.*)\))? at (\S+), (\S+), (\S+)$", text)
