@@ -42,7 +42,10 @@ MODEL
 } >"$work/root/commands"
 cat "$work/root/commands"
 status=0
-chroot "$work/root" bash -c '. /commands' || status=$?
+# Of the environment, only how the network is reached.
+mapfile -t reach < <(env | grep -i '^https\?_proxy=' || true)
+chroot "$work/root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin "${reach[@]}" \
+    bash -c '. /commands' || status=$?
 picture=$work/root/treeform/picture.png
 # 1: something was found.
 if ((status == 1)) && [[ $(head -c 4 "$picture" | tail -c 3) == PNG ]]; then

@@ -139,7 +139,10 @@ std::vector<curve> curves_of(const std::vector<outcome>& outcomes, const std::st
         for (const measured& row : outcome.rows) {
             auto found = std::ranges::find(curves, row.who, &curve::name);
             if (found == curves.end()) {
-                curves.push_back({row.who, {}, static_cast<int>(curves.size()) % 8 + 1});
+                curves.push_back({row.who,
+                                  {},
+                                  static_cast<int>(curves.size()) % 8 + 1,
+                                  curves.size() >= 8});  // there are 8 colors
                 found = std::prev(curves.end());
             }
             if (const double y = value(row); y > 0)

@@ -78,6 +78,8 @@ class Help(ToolTest):
         for mode in MODES["place"]:
             if mode != "drop":
                 self.assertNotIn("drop with", self.help_of("place", mode))
+            if mode not in ("arrange", "fit"):
+                self.assertNotRegex(self.help_of("place", mode), "all fit|converged")
         self.assertIn("drop with --fixed has none", self.help_of("place", "drop"))
         self.assertIn("Translate along --direction until contact (less --clearance).\n",
                       self.help_of("place", "slide"))

@@ -3,6 +3,7 @@
 With KEEP_PICTURES=1, the small pictures beside this file are made anew."""
 
 import base64
+import functools
 import html
 import json
 import os
@@ -96,6 +97,7 @@ window.small = () => {
 """
 
 
+@functools.cache
 def triangles_of_stl(path):
     """Of a binary STL, or an ASCII one."""
     data = pathlib.Path(path).read_bytes()
@@ -269,7 +271,49 @@ class Pages(PageTest):
                 self.assertLess(far, 0.01 * w * h)
 
 
+def distance_of_plane(point, corners):
+    """How far a point is from the plane of a face."""
+    u, v = ([c - a for a, c in zip(corners[0], corner)] for corner in corners[1:])
+    normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    size = sum(n * n for n in normal) ** 0.5
+    return abs(sum(n * (p - a) for n, p, a in zip(normal, point, corners[0]))) / size if size else 0.0
+
+
 class Numbers(PageTest):
+    def picked_texts(self, steps):
+        """What is said where the view is clicked, so many places across and down."""
+        return self.run_js(f"""(() => {{
+            const view = document.querySelector('canvas'), texts = new Set(), steps = {steps};
+            for (let i = 0; i < steps * steps; ++i) {{
+                const x = (i % steps + 0.5) / steps, y = (Math.floor(i / steps) + 0.5) / steps;
+                viewer.pick(x * view.width, y * view.height);
+                texts.add(document.querySelector('.picked').textContent);
+            }}
+            return [...texts];
+        }})()""")
+
+    def test_what_is_picked_lies_in_the_face_of_the_file_that_has_the_number(self):
+        at = r" at (\S+), (\S+), (\S+)$"
+        files = {"two_spheres.stl": SPHERES, "cube.stl": CUBE, "dirty.stl": DIRTY}
+        for name, pattern, least in (
+                ("selfintersect", r"face (?P<face>\d+)(?: \(.*\))?" + at, 90),
+                ("boolean", r"face \d+ of the result \(from (?P<file>\S+), in face (?P<face>\d+)\)" + at, 90),
+                ("repair", r"face \d+ of the result \(.*in face (?P<face>\d+)\)" + at, 45),
+                ("repair_check", r"face (?P<face>\d+)(?: \(.*\))?" + at, 45),
+                ("touch", r"face (?P<face>\d+) of (?P<file>cube\.stl)(?: \(.*\))?" + at, 9)):
+            with self.subTest(page=name):
+                self.show(name)
+                self.press_button("view", "front")
+                own = "two_spheres.stl" if name == "selfintersect" else "dirty.stl"
+                seen = set()
+                for picked in filter(None, (re.match(pattern, text) for text in self.picked_texts(40))):
+                    file = files[picked.groupdict().get("file") or own]
+                    corners = triangles_of_stl(file)[int(picked["face"])]
+                    point = [float(v) for v in picked.groups()[-3:]]
+                    self.assertLess(distance_of_plane(point, corners), 2e-5, picked[0])
+                    seen.add(picked[0])
+                self.assertGreater(len(seen), least)
+
     def test_a_face_is_picked_with_its_number_in_the_file(self):
         report = self.show("selfintersect")["files"][0]
         found = {f for pair in report["list"] for f in pair[:2]}
@@ -300,14 +344,7 @@ class Numbers(PageTest):
         found = {(pair[side], face) for pair in report["pairs"] for region in pair["regions"]
                  for side in "ab" for face in region["faces_" + side]}
         self.press_button("view", "front")
-        texts = self.run_js("""(() => {
-            const view = document.querySelector('canvas'), texts = new Set();
-            for (let i = 0; i < 3600; ++i) {
-                viewer.pick((i % 60 + 0.5) / 60 * view.width, (Math.floor(i / 60) + 0.5) / 60 * view.height);
-                texts.add(document.querySelector('.picked').textContent);
-            }
-            return [...texts];
-        })()""")
+        texts = self.picked_texts(60)
         seen = marked = 0
         for text in texts:
             picked = re.match(r"face (\d+) of (\S+)(?: \((.*)\))? at (\S+), (\S+), (\S+)$", text)

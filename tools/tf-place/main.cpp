@@ -41,9 +41,9 @@ const char* const epilogue =
     "  tf-place pack a.stl b.stl --count b.stl:20 --size 250,210 --plates 3 -o p.3mf\n"
     "  tf-place fit scan.ply --fixed part.stl --trim 0.2 --starts 50 -o fitted.ply\n"
     "\n"
-    "Exit status: 0 placed, or measured; 1 no such place (no contact, penetrating at\n"
-    "  the start, not all fit, not converged, in doubt); 2 usage; 3 input; 4 output;\n"
-    "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
+    "Exit status: 0 placed, or measured; 1 no such place, or in doubt: as MODE --help\n"
+    "  says; 2 usage; 3 input; 4 output; 5 stopped (memory, timeout, signal); 70 bug.\n"
+    "  Of several inputs, the highest.\n";
 
 }  // namespace
 
