@@ -181,7 +181,8 @@ def test_robots_are_those_of_the_tool(folder):
     links = "".join(f"<link name='{name}'>{shapes}</link>" for name, shapes in (
         ("base", shape.format("cube", "1 1 1")), ("none", ""),
         ("arm", shape.format("side", "0.5 1 1") + shape.format("near", "1 1 0.25")),
-        ("tip", shape.format("inside", "1 1 1"))))
+        ("tip", shape.format("inside", "1 1 1") + "<collision><origin xyz='0 0 1'/><geometry>"
+                "<sphere radius='0.2'/></geometry></collision>")))
     (folder / "robot.urdf").write_text(
         f"<robot name='r'>{links}"
         "<joint name='weld' type='fixed'><parent link='base'/><child link='none'/></joint>"
@@ -193,6 +194,7 @@ def test_robots_are_those_of_the_tool(folder):
     assert robot.links == ["base", "none", "arm", "tip"] and robot.link_of_part.tolist() == [0, 2, 3]
     assert robot.joints[1] == ("lift", "prismatic", "none", "arm", (0.0, 2.0))
     assert robot.adjacent.tolist() == [[0, 1], [1, 2]]
+    assert robot.approximated == ["link tip: a sphere is 5120 triangles around it"]
     rng = np.random.default_rng(6)
     values = {"lift": rng.random(50) * 4, "bend": rng.random(50) * 6}
     lines = [json.dumps({"lift": lift, "bend": bend}) for lift, bend in zip(*values.values())]

@@ -33,10 +33,10 @@ void add_part(robot& to, std::uint32_t link) {
     tf::mesh joined;
     for (const tf::urdf_mesh& one : to.content.meshes) {
         if (one.link != link) continue;
-        const tf::usable_mesh read = tf::as_mesh(tf::read(one.file));
+        const tf::mesh mesh = one.file.empty() ? one.shape : tf::as_mesh(tf::read(one.file)).mesh;
         const auto first = static_cast<std::uint32_t>(joined.points.size());
-        for (const tf::point3& p : read.mesh.points) joined.points.push_back(one.place(p));
-        for (const auto& [a, b, c] : read.mesh.faces)
+        for (const tf::point3& p : mesh.points) joined.points.push_back(one.place(p));
+        for (const auto& [a, b, c] : mesh.faces)
             joined.faces.push_back({first + a, first + b, first + c});
     }
     if (joined.faces.empty()) return;
@@ -70,7 +70,8 @@ py::list joints_of(const tf::urdf_robot& of) {
     return all;
 }
 
-/// The robot, its name, links, joints, parts, links of parts, adjacent parts, and what is no mesh.
+/// The robot, its name, links, joints, parts, links of parts, adjacent parts, and what is approximated or
+/// no mesh.
 py::tuple read_urdf(const std::filesystem::path& path,
                     const std::vector<std::filesystem::path>& package_folders, bool visual) {
     robot made = run([&](const tf::progress_callback& report) {
@@ -90,7 +91,8 @@ py::tuple read_urdf(const std::filesystem::path& path,
     const py::list joints = joints_of(made.content);
     py::array adjacent = column(adjacent_parts(made), [](const auto& pair) { return pair; });
     return py::make_tuple(made, made.content.name, made.content.links, joints, parts,
-                          made.link_of_part, adjacent, made.content.skipped);
+                          made.link_of_part, adjacent, made.content.approximated,
+                          made.content.skipped);
 }
 
 /// [P][N][4][4] where the parts are, for values [P][J] of the joints of these names.

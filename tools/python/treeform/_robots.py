@@ -48,7 +48,9 @@ class Robot(Result):
     link_of_part: Ids
     #: (n, 2) parts that a joint connects, the lower number first: they always touch.
     adjacent: Ids
-    #: What is no mesh, a sentence each.
+    #: Cylinders and spheres, for which triangles around them stand, a sentence each.
+    approximated: list[str]
+    #: What else is no mesh, a sentence each.
     skipped: list[str]
     _data: _core.RobotData
 
@@ -77,7 +79,8 @@ class Robot(Result):
 def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool = False,
               progress: Progress = None) -> Robot:
     """The robot in a URDF file, with its meshes. Joints are fixed, revolute, continuous or
-    prismatic; spheres, cylinders and boxes are no meshes (`Robot.skipped`).
+    prismatic. Boxes are exact; cylinders and spheres are triangles around them, up to 0.13 % of the
+    radius too far out, so that no clash is missed.
 
     package_folders: where packages are: `package://name/rest` is FOLDER/name/rest or FOLDER/rest;
     else it is looked for in the file's folder and those above. visual: the meshes that are for show,
@@ -97,7 +100,7 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     >>> treeform.check_poses(robot.parts, robot.poses({"j": [0.5, 2.0]})).in_collision(2).tolist()
     [True, False]
     """
-    data, name, links, joints, parts, link_of_part, adjacent, skipped = _core.read_urdf(
+    data, name, links, joints, parts, link_of_part, adjacent, approximated, skipped = _core.read_urdf(
         path_of(path), [path_of(folder) for folder in package_folders], visual, progress=progress)
     return Robot(name, links, [Joint(*one) for one in joints], [Mesh._of(*one) for one in parts],
-                 np.array(link_of_part, np.uint32), adjacent, skipped, data)
+                 np.array(link_of_part, np.uint32), adjacent, approximated, skipped, data)
