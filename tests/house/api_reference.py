@@ -14,7 +14,7 @@ import sys
 # The question that a group answers, and the headers that do; of treeform/mesh/ or treeform/tree/.
 GROUPS = {
     "files": ("How do I read and write files?", "mesh",
-              "read write mesh_file point_stream"),
+              "read write mesh_file point_stream process_team"),
     "meshes": ("What is a mesh, and what does it carry?", "mesh",
                "mesh as_mesh properties attributes carry prepared_mesh"),
     "meeting": ("Which faces meet?", "mesh",
