@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -51,6 +52,11 @@ class way_out_search {
           work_(work),
           box_a_(bounding_box(a.mesh().points).value()),
           box_b_(bounding_box(b.mesh().points).value()) {
+        const auto largest = [](const box3& box) {
+            return std::max(detail::base::largest_of(box.min), detail::base::largest_of(box.max));
+        };
+        least_ = std::max(0x1p-53 * std::max(largest(box_a_), largest(box_b_)),
+                          std::numeric_limits<double>::min());
         if (b.closed()) parts_a_ = corner_of_each_part(a.joined());
         if (a.closed()) parts_b_ = corner_of_each_part(b.joined());
     }
@@ -138,8 +144,9 @@ class way_out_search {
         options.limit = 1;
         const impact back =
             time_of_impact(a_.whose(), b_.whose(), scaled(direction, -1.0), options);
-        const double time = back.end == motion_end::contact ? out - back.time : out;
-        if (!(time > 0.0)) return false;
+        const double time =
+            std::max(back.end == motion_end::contact ? out - back.time : out, least_);
+        if (!(time < length_)) return false;
         best_ = scaled(direction, time);
         length_ = time;
         ways_.push_back(best_);
@@ -179,6 +186,7 @@ class way_out_search {
     std::vector<point3> parts_a_, parts_b_;
     point3 best_{};
     double length_ = 0.0;
+    double least_ = 0.0;        ///< shorter moves are lost in the rounding of the coordinates
     std::vector<point3> ways_;  ///< each shorter than the one before
 };
 

@@ -122,6 +122,18 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("depth: of a flat body on a face the moves that lead out are as small as numbers are") {
+    const tf::mesh flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 2}}};
+    const tf::mesh cube = box(1, 1, 1);
+    REQUIRE(tf::relation(flat, cube).relation == tf::mesh_relation::penetrating);
+    const auto found = tf::penetration_depth(flat, cube);
+    REQUIRE(found.has_value());
+    CHECK(found->status == tf::status::ok);
+    CHECK(found->depth > 0.0);
+    CHECK(found->depth < 1e-15);
+    CHECK(tf::relation(moved(flat, found->move), cube).relation != tf::mesh_relation::penetrating);
+}
+
 TEST_CASE("depth: it stops when told to, and names a bad face") {
     const tf::mesh a = ball(3, 1.0), b = moved(a, {0.5, 0, 0});
     const auto pa = tf::prepared_mesh::borrow(a), pb = tf::prepared_mesh::borrow(b);
