@@ -112,8 +112,6 @@ void add_counts(self_intersection_result& sum, const self_intersection_result& o
     sum.box_pairs += one.box_pairs;
     sum.exact_pairs += one.exact_pairs;
     sum.predicates += one.predicates;
-    sum.tree_seconds += one.tree_seconds;
-    sum.pair_seconds += one.pair_seconds;
 }
 
 }  // namespace
@@ -272,6 +270,8 @@ void tile_search::search_as(std::size_t tile) {
     self_intersection_result all = self_intersections(
         m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
     if (all.cancelled) throw cancelled{};
+    survey_.found.tree_seconds += all.tree_seconds;  // of the tiles that this process searches
+    survey_.found.pair_seconds += all.pair_seconds;
     const std::string pairs_name = work_folder::own_name(std::to_string(tile) + ".pairs");
     const std::string hits_name = work_folder::own_name(std::to_string(tile) + ".hits");
     record_writer<tile_pair> pairs(folder_.file(pairs_name), piece_bytes);

@@ -85,6 +85,12 @@ class Tiles(ToolTest):
         self.assertEqual(self.listing(), ["curves.obj", "double.ply", "float.ply", "in.stl",
                                           "pairs.csv"])
 
+    def test_the_time_of_searching_is_not_that_of_reading(self):
+        self.put_all(heap(40))
+        seconds = self.report("float.ply", "--tile-faces", 100)["seconds"]
+        for step in ("read", "tree", "pairs"):
+            self.assertGreater(seconds[step], 0, msg=step)
+
     def test_a_killed_run_goes_on(self):
         self.put_all(heap(40))
         expected = self.look("in.stl")
