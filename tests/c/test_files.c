@@ -82,6 +82,7 @@ static void test_write(void) {
     treeform_bytes* bytes = NULL;
     treeform_write_options options;
     const char* const path = path_in_work("cube.ply");
+    int calls = 0;
     OK(treeform_file_create(mesh, &file));
     OK(treeform_write(path, file, NULL, &written));
     CHECK(is(written->format, "ply-binary-le") && written->written_as == TREEFORM_FLOAT64);
@@ -104,6 +105,12 @@ static void test_write(void) {
     OK(treeform_write_mesh(path_in_work("cube.stl"), mesh, &options, &written));
     CHECK(written->written_as == TREEFORM_FLOAT32 && written->max_displacement > 0.0);
     treeform_free(written);
+    options.progress = stop;
+    options.progress_data = &calls;
+    ENDS(TREEFORM_CANCELLED, "", treeform_write(path_in_work("none.stl"), file, &options, NULL));
+    CHECK(calls == 1);
+    ENDS(TREEFORM_FILE, "none", treeform_read(path_in_work("none.stl"), NULL, &back));
+    options.progress = NULL;
     options.precision = 5;
     INVALID("precision", treeform_write(path, file, &options, NULL));
     ENDS(TREEFORM_FILE, "nowhere", treeform_write("/nowhere/at/all.ply", file, NULL, NULL));

@@ -35,8 +35,8 @@ const char* const check_epilogue =
     "  matrices     16 numbers for each part, pose after pose, as --matrix writes\n"
     "  a report     of tf-place, whose matrices are poses of the first part\n"
     "A robot is a URDF file, with fixed, revolute, continuous and prismatic joints;\n"
-    "its links are the parts, and those that a joint connects are not held against\n"
-    "each other. Boxes are exact; cylinders and spheres are triangles around them, so\n"
+    "its links are the parts; two that a joint connects are not tested against each\n"
+    "other. Boxes are exact; cylinders and spheres are triangles around them, so\n"
     "that no clash is missed. Corners are moved and rounded once; for these the\n"
     "answer is exact.\n"
     "\n"
@@ -53,7 +53,7 @@ void add_shared_options(command_line& line, assembly_settings& s) {
     line.option(s.clearance, {"--clearance", "DIST",
                               "least distance of parts; \"0.1%\" is of the diagonal of\nall", "0"});
     line.repeatable_option(s.ignored, {"--ignore", "A:B",
-                                       "do not hold A against B (repeatable); * stands for\n"
+                                       "do not test A against B (repeatable); * stands for\n"
                                        "any characters, ? for one"});
 }
 

@@ -110,10 +110,12 @@ tf::write_options glue::write_options_of(const treeform_write_options* options) 
     result.format = text(o.format);
     result.ascii = o.ascii != 0;
     if (o.precision != -1) result.precision = precision(o.precision);
+    result.progress = progress(o);
     return result;
 }
 
 void glue::give_written(tf::write_result from, treeform_written** out) {
+    if (from.cancelled) throw cancelled{};
     if (!out) return;
     auto made = make<treeform_written>();
     const tf::write_result& kept = made->keep(std::move(from));

@@ -171,6 +171,10 @@ typedef struct treeform_write_options {
     int32_t precision;   ///< a `treeform_precision`; -1: as the coordinates were stored
     /// The coordinates are certified: fail rather than round them. For `treeform_write_mesh`.
     int32_t certified;
+    /// Told 0 when the writing begins, and 1 before the file appears, which it does not where this
+    /// returns other than 0. May be null.
+    treeform_progress progress;
+    void* progress_data;
 } treeform_write_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_write_options_init(treeform_write_options* options, size_t size);
