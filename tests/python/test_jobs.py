@@ -173,6 +173,7 @@ def test_ctrl_c_stops_the_work(verb):
     A job that does not notice is left alone, and the next one runs beside it."""
     program = f"""
 import os, signal, sys, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
 import numpy as np
 import treeform as tf
 sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
@@ -203,6 +204,7 @@ os._exit(0)
 def test_a_process_ends_after_ctrl_c():
     program = """
 import os, signal, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
 import numpy as np
 import treeform as tf
 soup = (np.random.default_rng(2).random((3_000, 3)), np.arange(3_000).reshape(-1, 3))
