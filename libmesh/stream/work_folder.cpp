@@ -64,9 +64,13 @@ bool work_folder::try_to(use how) const {
     return ::flock(lock_, (how == use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
 }
 
+/// One that ends has a shared folder alone for a moment, to see whether it may go.
 void work_folder::hold(use how) {
-    if (how != use::member && !try_to(how))
-        refuse(reason::folder_in_use, path_, "is in use by another process");
+    if (how == use::member) return;
+    for (int left = how == use::shared ? 25 : 0; !try_to(how); --left) {
+        if (left == 0) refuse(reason::folder_in_use, path_, "is in use by another process");
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
 }
 
 /// Several that wait hold nothing meanwhile, so that one of them gets it.
@@ -133,13 +137,18 @@ void work_folder::clear() const {
 
 /// Not where another holds it, or where the folder of that name is another by now.
 void work_folder::remove_unused() noexcept {
+    const auto is_unused = [&] {
+        std::error_code error;
+        fs::directory_iterator entries(path_, error);
+        for (; !error && entries != fs::directory_iterator(); entries.increment(error))
+            if (entries->path().filename() != lock_name) return false;
+        return !error;
+    };
+    if (!is_unused()) return;  // before the lock: others may want a part of it
     struct stat lock {};
     if (!try_to(use::alone) || ::fstat(lock_, &lock) != 0 || lock.st_nlink == 0) return;
+    if (!is_unused()) return;
     std::error_code error;
-    fs::directory_iterator entries(path_, error);
-    for (; !error && entries != fs::directory_iterator(); entries.increment(error))
-        if (entries->path().filename() != lock_name) return;
-    if (error) return;
     fs::remove(path_ / lock_name, error);
     fs::remove(path_, error);
 }
