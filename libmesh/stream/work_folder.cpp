@@ -64,13 +64,9 @@ bool work_folder::try_to(use how) const {
     return ::flock(lock_, (how == use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
 }
 
-/// One that ends has a shared folder alone for a moment, to see whether it may go.
 void work_folder::hold(use how) {
-    if (how == use::member) return;
-    for (int left = how == use::shared ? 25 : 0; !try_to(how); --left) {
-        if (left == 0) refuse(reason::folder_in_use, path_, "is in use by another process");
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+    if (how != use::member && !try_to(how))
+        refuse(reason::folder_in_use, path_, "is in use by another process");
 }
 
 /// Several that wait hold nothing meanwhile, so that one of them gets it.
