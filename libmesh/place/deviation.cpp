@@ -214,6 +214,9 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
     }
     if (!work.reach(options.both_ways ? 0.55 : 0.95)) return stopped();
     r.winding_numbers = sides.winding_numbers;
+    if (r.is_signed) r.sides.emplace();
+    for (const std::int8_t side : sides.side)
+        ++(side < 0 ? r.sides->inside : side == 0 ? r.sides->on : r.sides->outside);
     r.distances.resize(from.points.size());
     r.faces.resize(from.points.size());
     for (std::size_t i = 0; i < found.order.size(); ++i) {

@@ -27,10 +27,12 @@ void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixe
                     in_words(found->move) + " it is out of " + fixed.label(other));
 }
 
-void enter_points(job& work, const tf::body_set& moving, const tf::body_set& fixed) {
+/// `known` of all points, if it is.
+void enter_points(job& work, const tf::body_set& moving, const tf::body_set& fixed,
+                  const std::optional<tf::side_counts>& known) {
     if (!moving.file_of(0).cloud) return;
     const tf::points_view points = moving.shapes[0].view().points;
-    const tf::side_counts counts = tf::count_sides(points, fixed.shapes);
+    const tf::side_counts counts = known ? *known : tf::count_sides(points, fixed.shapes);
     work.call_ended();
     work.entry["points"] = {
         {"inside", counts.inside}, {"on", counts.on}, {"outside", counts.outside}};
@@ -126,15 +128,16 @@ void add_deviation_options(command_line& line, deviation_settings& settings) {
 exit_status enter_measured(job& work, const deviation_settings& settings,
                            const tf::body_set& moving, const tf::body_set& fixed,
                            const tf::placement& at, std::optional<tf::deviation_result>& found) {
-    enter_points(work, moving, fixed);
-    enter_depth(work, moving, fixed, at);
-    if (!settings.wanted()) return done;
-    {
+    if (settings.wanted()) {
         const auto timing = work.time("search");
         found = tf::deviation(moving.shapes[0], fixed.shapes,
                               {.band = settings.band, .progress = work.progress("distances")});
     }
     work.call_ended(found && found->cancelled);
+    // Several solids count one by one, their distances as one surface.
+    const bool same = found && fixed.shapes.size() == 1;
+    enter_points(work, moving, fixed, same ? found->sides : std::nullopt);
+    enter_depth(work, moving, fixed, at);
     if (!found) return done;
     if (!found->is_signed)
         work.warn("unsigned", "--fixed is open or a cloud: distances have no sign");

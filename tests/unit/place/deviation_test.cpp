@@ -123,6 +123,12 @@ TEST_CASE("deviation: each distance and side is that of the point alone") {
         a.points.insert(a.points.end(), b.points.begin(), b.points.end());
         const auto found = found_for(a, b);
         check_each(a, b, found);
+        const tf::prepared_mesh solid = tf::prepared_mesh::borrow(b);
+        const auto counts = tf::count_sides(a.points, std::span(&solid, 1));
+        REQUIRE(found.sides.has_value());
+        CHECK(found.sides->inside == counts.inside);
+        CHECK(found.sides->on == counts.on);
+        CHECK(found.sides->outside == counts.outside);
         CHECK(found.winding_numbers < a.points.size());
     }
 }

@@ -3,6 +3,7 @@
 /// How far the points of a mesh or cloud are from a surface, each with its sign, and what that comes
 /// to: means, percentiles, a histogram, the share within a tolerance band.
 
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/placement.hpp>
@@ -59,8 +60,9 @@ struct deviation_result {
     std::vector<std::uint32_t> faces{};  ///< [V] the nearest face of `b`
     /// Whether `b` is closed, so that distances have a sign.
     bool is_signed = false;
-    double mean = 0.0;           ///< of the signed distances
-    double mean_absolute = 0.0;  ///< of their magnitudes, as are the six below
+    std::optional<side_counts> sides{};  ///< of the points of `a`, where distances have a sign
+    double mean = 0.0;                   ///< of the signed distances
+    double mean_absolute = 0.0;          ///< of their magnitudes, as are the six below
     double rms = 0.0;
     double p50 = 0.0;  ///< the least value that half of the magnitudes do not exceed
     double p95 = 0.0;
