@@ -127,6 +127,10 @@ struct guard::state {
     std::thread watcher;
 
     void watch();
+    [[nodiscard]] bool is_late() const {
+        const std::chrono::duration<double> elapsed = clock::now() - start;
+        return bounds.seconds > 0.0 && elapsed.count() > bounds.seconds;
+    }
     [[nodiscard]] reason next_reason(bool signalled) const;
     [[nodiscard]] clock::duration time_to_end();
     [[nodiscard]] std::string memory_text() const;
@@ -164,8 +168,7 @@ reason guard::state::next_reason(bool signalled) const {
             return info.ssi_signo == SIGHUP ? reason::hang_up : reason::terminate;
         }
     }
-    const std::chrono::duration<double> elapsed = clock::now() - start;
-    if (bounds.seconds > 0.0 && elapsed.count() > bounds.seconds) return reason::time;
+    if (is_late()) return reason::time;
     if (bounds.memory > 0 && memory_of_process().used > bounds.memory + before.used)
         return reason::memory;
     return reason::none;
@@ -251,7 +254,10 @@ guard::~guard() {
 bool guard::stop_requested() const { return state_->why != reason::none; }
 
 void guard::check() const {
-    const reason why = state_->why;
+    // The watcher looks every 20 ms; work that is done sooner has to keep its time, too.
+    reason why = reason::none;
+    if (state_->is_late()) state_->why.compare_exchange_strong(why, reason::time);
+    why = state_->why;
     if (why != reason::none) throw failure(stopped, code_of(why), state_->text());
 }
 
