@@ -4,6 +4,7 @@
 #include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/boolean/winding_beside.hpp>
 #include <libmesh/intersect/pairs_by_tree.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/build.hpp>
@@ -270,20 +271,13 @@ int surface_components::sign_of_volume(std::size_t c) const {
 
 std::vector<operand_winding> surface_components::windings_beside(const arrange::corner_line& line,
                                                                  bool ahead) const {
-    const auto along = static_cast<std::size_t>(line.along());
-    box3 way = line.start();
-    (ahead ? way.max : way.min)[along] = ahead ? infinite : -infinite;
-    const int sign = ahead ? 1 : -1;
+    const box3 way = way_along(line, ahead);
     std::vector<operand_winding> found;
     search(boxes_, way, [&](std::uint32_t c) {
         const component& of = components_[c];
         const std::uint32_t* const own = faces_.data() + of.begin;
-        std::int64_t winding = 0;
-        search(of.index, way, [&](std::uint32_t i) {
-            const triangle3 t = corners(own[i]);
-            if (const int facing = line.passes(t); facing != 0 && line.place(t, facing) == sign)
-                winding += sign * facing;
-        });
+        const std::int64_t winding = winding_beside(
+            of.index, [&](std::uint32_t i) { return corners(own[i]); }, line, way, ahead);
         if (winding != 0) found.push_back({of.operand, winding});
     });
     std::ranges::sort(found, {}, &operand_winding::operand);
