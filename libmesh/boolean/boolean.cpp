@@ -289,9 +289,9 @@ std::pair<operand_kind, double> kind_of(const detail::boolean::prepared_pair& op
     };
     operand_kind least = operand_kind::sound;
     for (const prepared_mesh* operand : operands) {
-        least = std::min(least, detail::boolean::examine_operand(
-                                    *operand, part_of(report, looked, looked + 0.3))
-                                    .is);
+        least = std::min(
+            least,
+            detail::boolean::examine_operand(*operand, part_of(report, looked, looked + 0.3)).is);
         if (least == operand_kind::unknown) break;
     }
     return {least, looked};

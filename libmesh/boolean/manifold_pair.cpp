@@ -97,18 +97,18 @@ std::optional<round::solid_faces> choose_near(const near_faces& near, const mesh
             asked.push_back(p);
         }
     std::vector<std::uint8_t> inside(regions.size(), 0);
-    for_chunks(asked.size(), questions_a_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   partial_expression state = at_nowhere;
-                   for (std::size_t i = begin; i < end; ++i) {
-                       const std::uint32_t p = asked[i];
-                       const auto found = windings.at(near.local, cut, patches.first_face(p));
-                       regions.spread({found.in_front ? regions.patches().front(p)
-                                                      : regions.patches().behind(p),
-                                       {{0, found.of[0]}, {1, found.of[1]}}},
-                                      state, inside);
-                   }
-               });
+    for_chunks(
+        asked.size(), questions_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+            partial_expression state = at_nowhere;
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::uint32_t p = asked[i];
+                const auto found = windings.at(near.local, cut, patches.first_face(p));
+                regions.spread(
+                    {found.in_front ? regions.patches().front(p) : regions.patches().behind(p),
+                     {{0, found.of[0]}, {1, found.of[1]}}},
+                    state, inside);
+            }
+        });
     arrangement_cells cells;
     cells.cell_of_side.resize(cut.faces.size());
     for_chunks(cut.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {

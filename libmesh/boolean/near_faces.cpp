@@ -272,8 +272,8 @@ void keep_pairs(std::vector<face_pair>&& pairs, const own_pairs& own, std::size_
     pairs.resize(left);
     for (std::size_t k = 0; k < 2; ++k)
         for (const auto& [a, b, kind] : own[k])
-            pairs.push_back({local((k == 0 ? 0 : faces_of_a) + a),
-                             local((k == 0 ? 0 : faces_of_a) + b), kind});
+            pairs.push_back(
+                {local((k == 0 ? 0 : faces_of_a) + a), local((k == 0 ? 0 : faces_of_a) + b), kind});
     if (pairs.size() > left) std::sort(pairs.begin(), pairs.end());
     near.pairs = std::move(pairs);
 }

@@ -34,11 +34,8 @@ enum class fate : std::uint8_t { cut, dropped, kept, turned };
 /// \pre   each operand has one closed fan of faces at each vertex, and no two equal points
 /// \return none where rounding has broken something
 /// \same  on any number of threads
-[[nodiscard]] std::optional<pair_result> surface_of_pair(const prepared_pair& operands,
-                                                         const near_faces& near,
-                                                         arrange_faces_result& arranged,
-                                                         round::solid_faces chosen,
-                                                         const buffer<fate>& fates,
-                                                         const boolean_options& options);
+[[nodiscard]] std::optional<pair_result> surface_of_pair(
+    const prepared_pair& operands, const near_faces& near, arrange_faces_result& arranged,
+    round::solid_faces chosen, const buffer<fate>& fates, const boolean_options& options);
 
 }  // namespace treeform::detail::boolean

@@ -57,7 +57,7 @@ fate choice_of(const near_faces& near, const mesh_arrangement& cut, std::size_t 
 }
 
 round::solid_faces choose(const near_faces& near, const mesh_arrangement& cut,
-                    const std::vector<std::uint8_t>& inside, const choice& choice) {
+                          const std::vector<std::uint8_t>& inside, const choice& choice) {
     const auto kept_of = [&](std::size_t f) {
         return choice_of(near, cut, f, inside[f] != 0, choice);
     };

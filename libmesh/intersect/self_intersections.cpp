@@ -140,9 +140,9 @@ self_intersection_result detail::intersect::pairs_by_tree(
     return find_pairs(mesh, ours, options);
 }
 
-self_intersection_result detail::intersect::pairs_by_tree(
-    mesh_view mesh, const tree<3>& tree, const self_intersection_options& options,
-    std::size_t most) {
+self_intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, const tree<3>& tree,
+                                                          const self_intersection_options& options,
+                                                          std::size_t most) {
     return find_pairs(mesh, tree, options, most);
 }
 

@@ -79,9 +79,8 @@ tf::mesh random_bipyramid(test::random& source) {
     solid.points = {{0, 0, 1}, {0, 0, -1}};
     for (std::uint32_t i = 0; i < corners; ++i) {
         const double turn = 4 * std::numbers::pi * (i + source.in(-0.2, 0.2)) / corners;
-        solid.points.push_back(is_twice
-                                   ? tf::point3{std::cos(turn), std::sin(turn), 0}
-                                   : tf::point3{source.in(-1, 1), source.in(-1, 1), 0});
+        solid.points.push_back(is_twice ? tf::point3{std::cos(turn), std::sin(turn), 0}
+                                        : tf::point3{source.in(-1, 1), source.in(-1, 1), 0});
         const std::uint32_t here = 2 + i, next = 2 + (i + 1) % corners;
         solid.faces.push_back({here, next, 0});
         solid.faces.push_back({next, here, 1});
@@ -155,8 +154,8 @@ TEST_CASE("manifold operands: heaps of solids that wind as they like give the ge
         REQUIRE(general.certificate);
         std::array<std::vector<tf::face_pair>, 2> own;
         for (std::size_t k = 0; k < 2; ++k)
-            own[k] = tf::self_intersections(pair[k], {.vertices = tf::vertex_identity::by_index})
-                         .pairs;
+            own[k] =
+                tf::self_intersections(pair[k], {.vertices = tf::vertex_identity::by_index}).pairs;
         const auto a = tf::prepared_mesh::borrow(pair[0]), b = tf::prepared_mesh::borrow(pair[1]);
         const auto made = tf::detail::boolean::boolean_of_manifold_pair(
             {&a, &b}, {own[0], own[1]}, true, {text, 2}, {.inside = rule});
