@@ -297,30 +297,34 @@ std::pair<operand_kind, double> kind_of(const detail::boolean::prepared_pair& op
     return {least, looked};
 }
 
-/// What `expression` makes of two operands if few of their own faces meet and nothing else is asked
-/// for.
+/// What `expression` makes of one or two operands if few of their own faces meet and nothing else is
+/// asked for.
 std::optional<boolean_result> result_of_pair(std::span<const mesh_operand> operands,
                                              const boolean_expression& expression,
                                              const boolean_options& options) {
-    if (operands.size() != 2 || options.simplify || options.precision == precision::float32)
+    if (operands.empty() || operands.size() > 2 || options.simplify ||
+        options.precision == precision::float32)
         return std::nullopt;
     std::array<prepared_mesh, 2> own;
-    detail::boolean::prepared_pair pair;
+    detail::boolean::prepared_pair pair{&own[0], &own[1]};
+    bool once = false;
     for (std::size_t k = 0; k < 2; ++k) {
-        pair[k] = operands[k].prepared();
-        if (pair[k] != nullptr) continue;
-        own[k] = prepared_mesh::borrow(operands[k].view());
-        pair[k] = &own[k];
+        const bool is_given = k < operands.size();
+        if (is_given && operands[k].prepared() != nullptr) {
+            pair[k] = operands[k].prepared();
+            continue;
+        }
+        own[k] = prepared_mesh::borrow(is_given ? operands[k].view() : mesh_view{});
+        once = true;
     }
     const auto [kind, looked] = kind_of(pair, options.progress);
     if (kind == operand_kind::unknown) return std::nullopt;
     boolean_options rest = options;
     rest.progress = part_of(options.progress, looked, 1.0);
-    const bool once = operands[0].prepared() == nullptr || operands[1].prepared() == nullptr;
     const auto pairs_of = [&](std::size_t k) -> std::span<const face_pair> {
         return detail::boolean::examine_operand(*pair[k], {}).pairs;
     };
-    auto made = kind == operand_kind::sound
+    auto made = kind == operand_kind::sound && operands.size() == 2
                     ? detail::boolean::boolean_of_sound_pair(pair, once, expression, rest)
                     : detail::boolean::boolean_of_manifold_pair(pair, {pairs_of(0), pairs_of(1)},
                                                                 once, expression, rest);
@@ -406,10 +410,8 @@ boolean_result detail::boolean::resolve_by_split(mesh_view mesh, const boolean_o
 }
 
 boolean_result detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
-    return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, true,
-                    [](auto given, const auto& how) {
-                        return boolean_of(given, boolean_expression::union_of(1), how);
-                    });
+    return evaluate("resolve_self_intersections", std::array{mesh_operand(mesh)},
+                    boolean_expression::union_of(1), options);
 }
 
 detail::boolean::labeled_result detail::boolean::resolve_by_labels(mesh_view mesh,

@@ -33,6 +33,14 @@ class pair_windings {
     struct beside_face {
         bool in_front;  ///< of the face, or behind it
         std::array<std::int64_t, 2> of{};
+
+        /// Those that are not 0: there may be no second operand.
+        [[nodiscard]] std::vector<operand_winding> windings() const {
+            std::vector<operand_winding> result;
+            for (std::uint32_t k = 0; k < 2; ++k)
+                if (of[k] != 0) result.push_back({k, of[k]});
+            return result;
+        }
     };
 
     explicit pair_windings(const prepared_pair& operands) {
@@ -105,7 +113,7 @@ std::optional<round::solid_faces> choose_near(const near_faces& near, const mesh
                 const auto found = windings.at(near.local, cut, patches.first_face(p));
                 regions.spread(
                     {found.in_front ? regions.patches().front(p) : regions.patches().behind(p),
-                     {{0, found.of[0]}, {1, found.of[1]}}},
+                     found.windings()},
                     state, inside);
             }
         });
@@ -124,16 +132,18 @@ std::optional<round::solid_faces> choose_near(const near_faces& near, const mesh
 fate fate_of(std::size_t k, std::uint32_t f, const pair_windings& windings,
              partial_expression& state) {
     const auto found = windings.at(k, f);
-    const auto add = [&](std::size_t operand, std::int64_t change) {
-        state.add(static_cast<std::uint32_t>(operand), winding_range::only(change));
+    const auto operand = static_cast<std::uint32_t>(k);
+    const auto add = [&](std::uint32_t which, std::int64_t change) {
+        state.add(which, winding_range::only(change));
     };
+    const std::vector<operand_winding> around = found.windings();
     const std::int64_t across = found.in_front ? 1 : -1;  // more of k on the other side
-    for (std::size_t j = 0; j < 2; ++j) add(j, found.of[j]);
+    for (const auto& [which, winding] : around) add(which, winding);
     const bool here = *state.value();
-    add(k, across);
+    add(operand, across);
     const bool there = *state.value();
-    add(k, -across);
-    for (std::size_t j = 0; j < 2; ++j) add(j, -found.of[j]);
+    add(operand, -across);
+    for (const auto& [which, winding] : around) add(which, -winding);
     if (here == there) return fate::dropped;
     return there == found.in_front ? fate::kept : fate::turned;
 }

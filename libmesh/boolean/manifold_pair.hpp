@@ -18,6 +18,7 @@ namespace treeform::detail::boolean {
 /// patches near it that look into one region. One line for each of these sets tells how often both
 /// operands wind around it.
 ///
+/// \param operands  of one alone, the second is a mesh without faces
 /// \param own  of each operand, all pairs of its faces that meet beyond shared corners, ascending
 /// \param once as in `find_near_faces`
 /// \return none where only the general way will do: float32 or volumes are asked for, or rounding

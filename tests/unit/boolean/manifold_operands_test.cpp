@@ -1,6 +1,7 @@
 #include <libmesh/boolean/manifold_pair.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -70,6 +71,21 @@ void check_both_ways(const operands& pair) {
         }
 }
 
+/// Of one operand alone, too.
+void check_alone(const tf::mesh& mesh) {
+    for (const tf::fill_rule rule : rules) {
+        CAPTURE(static_cast<int>(rule));
+        const tf::boolean_result general = evaluate({mesh, tf::mesh{}}, "a", rule);
+        const tf::boolean_result result = tf::boolean({mesh}, {"a", 1}, {.inside = rule});
+        if (general.statistics.rounding_steps == 0 && rule != tf::fill_rule::odd)
+            CHECK(result.statistics.cells == 0);
+        check_equal(result, general);
+        CHECK(
+            tf::resolve_self_intersections(mesh, tf::resolve_mode::outer, {.inside = rule}).mesh ==
+            general.mesh);
+    }
+}
+
 /// Two points, and a closed line that runs around between them, twice or as it likes: it may meet
 /// itself, and wind around space several times or the other way round.
 tf::mesh random_bipyramid(test::random& source) {
@@ -129,6 +145,7 @@ TEST_CASE("manifold operands: parts that cross, nest, or are inside out give the
         const tf::mesh b = together(moved(ball(5, 0.9), {source.in(0.5, 1.5), 0.1, 0.2}),
                                     moved(wart(0.2), {0.1, 0, 0}));
         REQUIRE(kind_of(a) == kind::manifold);
+        check_alone(a);
         check_both_ways({a, clean});
         check_both_ways({clean, a});
         check_both_ways({a, b});
