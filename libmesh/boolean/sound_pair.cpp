@@ -131,10 +131,9 @@ std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& pair, bool
     if (options.precision == precision::float32 || !can_be_counted_through(pair))
         return std::nullopt;
     pair_result made;
-    boolean_result& result = made.result;
     const auto goes_on = [&](double done) {
         if (!options.progress || options.progress(done)) return true;
-        result.certificate.status = status::cancelled;
+        made.result.certificate.status = status::cancelled;
         return false;
     };
     if (!goes_on(0.1)) return made;
@@ -144,7 +143,8 @@ std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& pair, bool
     mesh_arrangement& cut = arranged.cut;
     auto inside = find_insides(pair, near, cut);
     if (!inside) return std::nullopt;
-    if (options.volumes) result.volumes = find_volumes(pair, near, cut, *inside);
+    std::optional<operand_volumes> volumes;
+    if (options.volumes) volumes = find_volumes(pair, near, cut, *inside);
     near.local = {};  // as large as the operands, perhaps
     if (!goes_on(0.6)) return made;
 
@@ -152,7 +152,9 @@ std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& pair, bool
     round::solid_faces chosen = choose(near, cut, *inside, choice);
     inside.reset();
     const buffer<fate> fates = fates_of(near, operands[0].faces.size(), choice);
-    return surface_of_pair(pair, near, arranged, std::move(chosen), fates, options);
+    auto surface = surface_of_pair(pair, near, arranged, std::move(chosen), fates, options);
+    if (surface) surface->result.volumes = volumes;
+    return surface;
 }
 
 }  // namespace treeform::detail::boolean

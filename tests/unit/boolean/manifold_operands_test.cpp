@@ -132,17 +132,17 @@ TEST_CASE("manifold operands: what is examined is told") {
 }
 
 TEST_CASE("manifold operands: parts that cross, nest, or are inside out give the general result") {
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
         const auto wart = [&](double size) {
             return moved(ball(1, size), {1.0, source.in(-0.2, 0.2), source.in(-0.2, 0.2)});
         };
-        tf::mesh a = together(ball(5, 1.0), wart(0.1));
+        tf::mesh a = together(ball(4, 1.0), wart(0.1));
         if (seed % 2 == 0) a = together(a, moved(ball(3, 0.3), {0.1, 0.2, source.in(-0.1, 0.1)}));
         if (seed % 3 == 0) a = together(a, inside_out(moved(ball(2, 0.2), {-0.5, 0, 0})));
         const tf::mesh clean = moved(ball(4, 1.0), {source.in(0.5, 1.5), source.in(-0.3, 0.3), 0});
-        const tf::mesh b = together(moved(ball(5, 0.9), {source.in(0.5, 1.5), 0.1, 0.2}),
+        const tf::mesh b = together(moved(ball(4, 0.9), {source.in(0.5, 1.5), 0.1, 0.2}),
                                     moved(wart(0.2), {0.1, 0, 0}));
         REQUIRE(kind_of(a) == kind::manifold);
         check_alone(a);
@@ -158,7 +158,7 @@ TEST_CASE("manifold operands: parts that cross, nest, or are inside out give the
 
 TEST_CASE("manifold operands: heaps of solids that wind as they like give the general result") {
     std::size_t compared = 0, refused = 0;
-    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
         operands pair;
@@ -184,7 +184,7 @@ TEST_CASE("manifold operands: heaps of solids that wind as they like give the ge
         ++compared;
         check_equal(made->result, general);
     }
-    CHECK(compared > 150);
+    CHECK(compared > 110);
     CHECK(refused < 10);
 }
 
