@@ -87,16 +87,28 @@ std::optional<winding_range> range_seen_from(const point3& q, std::size_t count,
 template <class Corners>
 int sign_of(std::size_t count, const Corners& corners) {
     const point3 origin = count > 0 ? corners(0)[0] : point3{};
+    struct sums {
+        double volume = 0.0, size = 0.0;
+    };
+    std::vector<sums> parts(chunk_count(count, light_grain));
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t part) {
+        sums sum;
+        for (std::size_t i = begin; i < end; ++i) {
+            const triangle3 t = corners(i);
+            const point3 a = base::minus(t[0], origin), b = base::minus(t[1], origin);
+            const point3 c = base::minus(t[2], origin);
+            sum.volume += base::dot(a, base::cross(b, c));
+            const auto length = [](const point3& p) {
+                return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+            };
+            sum.size += length(a) * length(b) * length(c);
+        }
+        parts[part] = sum;
+    });
     double volume = 0.0, size = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const triangle3 t = corners(i);
-        const point3 a = base::minus(t[0], origin), b = base::minus(t[1], origin);
-        const point3 c = base::minus(t[2], origin);
-        volume += base::dot(a, base::cross(b, c));
-        const auto length = [](const point3& p) {
-            return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
-        };
-        size += length(a) * length(b) * length(c);
+    for (const sums& sum : parts) {
+        volume += sum.volume;
+        size += sum.size;
     }
     const double off = size * (0x1p-48 + static_cast<double>(count) * 0x1p-52);
     if (!(off < infinite)) return 0;
