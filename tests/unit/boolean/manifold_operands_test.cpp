@@ -188,6 +188,21 @@ TEST_CASE("manifold operands: heaps of solids that wind as they like give the ge
     CHECK(refused < 10);
 }
 
+TEST_CASE(
+    "manifold operands: boxes on a lattice, that touch in every way, give the general result") {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        operands pair{inside_out(test::lattice_box(source)), test::lattice_box(source)};
+        if (source.below(2) == 0) std::swap(pair[0], pair[1]);
+        REQUIRE(kind_of(pair[source.below(2)]) != kind::unknown);
+        for (const tf::fill_rule rule : rules)
+            for (const std::string text : formulas)
+                check_equal(tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule}),
+                            evaluate(pair, text, rule));
+    }
+}
+
 TEST_CASE("manifold operands: the same bytes on any number of threads, and progress can say stop") {
     const operands pair{together(ball(5, 1.0), moved(ball(1, 0.1), {1, 0.01, 0.02})),
                         moved(together(ball(5, 1.0), ball(4, 0.5)), {0.4, 0.3, 0.2})};
