@@ -244,12 +244,13 @@ void tile_steps::tell(tiles_welded& w, kept_points& followed) const {
 }
 
 void tile_steps::follow(const tiles_welded& w, kept_points& kept, kept_points& followed) const {
+    const bool has_all = w.points.size() == survey_.cloud.points;
     for (const tiles_welded::file& from : w.drops) {
         record_reader<tile_drop> reader(from.path, from.count, piece);
         for (auto drops = reader.next(); !drops.empty(); drops = reader.next()) {
             for (const tile_drop& d : drops) {
                 kept.drop(d.id);
-                if (team_.is_alone()) followed.drop(w.border.leader_of(d.leader));
+                if (has_all) followed.drop(w.border.leader_of(d.leader));
             }
             pace_.check();
         }
@@ -280,8 +281,9 @@ void tile_steps::tell_first(tiles_welded& w) const {
     w.kept = kept_points(w.points.size(), w.points.first);
     if (!team_.leads()) return;
     for (const auto& from : w.told) w.drops.insert(w.drops.end(), from.begin(), from.end());
-    kept_points ignored(0);
-    follow(w, w.kept, ignored);
+    kept_points followed = w.kept;
+    follow(w, w.kept, followed);
+    if (w.followed) w.followed.emplace(std::move(followed));
 }
 
 kept_points tile_steps::number_kept(const kept_points& by_rank) const {

@@ -1,4 +1,6 @@
 #include <libmesh/io/las_plan.hpp>
+#include <libmesh/stream/joined_parts.hpp>
+#include <libmesh/stream/new_numbers.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/tile_outputs.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -21,19 +23,6 @@ bool is_special(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     return fs::exists(status) && !fs::is_regular_file(status);
-}
-
-/// Copies bytes from one file into another, which is there.
-void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, std::uint64_t at,
-                std::uint64_t count) {
-    std::vector<std::byte> some(piece);
-    for (std::uint64_t done = 0; done < count;) {
-        const std::span<std::byte> block = std::span(some).first(
-            static_cast<std::size_t>(std::min<std::uint64_t>(piece, count - done)));
-        if (read_from(from, first + done, block) != block.size()) fail_damaged(from);
-        write_to(to, at + done, block);
-        done += block.size();
-    }
 }
 
 /// Rows of a block on their way to a file of points.
@@ -156,13 +145,13 @@ class giving_back {
           head_(steps.source().header()) {
         head_.stored_as = survey_.single ? precision::float32 : precision::float64;
         is_divided_ = may_divide();
-        if (!is_divided_) steps.tell_first(welded);
-        if (!is_divided_ && !all_.leads()) return;
-        if (asked_.map || !asked_.label.empty()) welded_.kept.number();
+        if (is_divided_) return;
+        steps.tell_first(welded);
+        if (rows != nullptr) rows->tell_first(welded);
     }
 
     [[nodiscard]] weld_stream_written run() {
-        const bool asked = asked_.welded || asked_.removed || asked_.map;
+        const bool asked = asked_.welded || asked_.removed || wants_map();
         if (!asked || (!is_divided_ && !all_.leads())) return {};
         add_columns();
         if (task_.options.as_las) look_at_outputs();
@@ -172,17 +161,18 @@ class giving_back {
     }
 
   private:
-    /// Whether each of a team writes what it is told of. Not where a number of a group is asked for,
-    /// which depends on all points before it.
+    /// Whether each of a team writes what it is told of.
     [[nodiscard]] bool may_divide() const {
         const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
             return !to ||
                    (to->path != "-" && !is_special(to->path) &&
                     point_writer(part("none"), head_, 0, points_out::options_of(*to)).has_parts());
         };
-        return !all_.is_alone() && steps_.is_divided() && !asked_.map && asked_.label.empty() &&
-               has_parts(asked_.welded) && has_parts(asked_.removed);
+        return !all_.is_alone() && steps_.is_divided() && !asked_.map && has_parts(asked_.welded) &&
+               has_parts(asked_.removed);
     }
+    [[nodiscard]] bool wants_map() const { return asked_.map || !asked_.map_path.empty(); }
+    [[nodiscard]] bool wants_numbers() const { return wants_map() || !asked_.label.empty(); }
     [[nodiscard]] fs::path part(const char* name) const {
         return work_.file(name + ("." + std::to_string(all_.rank())));
     }
@@ -193,6 +183,7 @@ class giving_back {
     void open_files() {
         const std::uint64_t dropped = welded_.dropped;
         const team* const parts = is_divided_ ? &all_ : nullptr;
+        if (!asked_.map_path.empty()) map_.emplace(asked_.map_path, parts, part("map"));
         if (asked_.removed)
             removed_.emplace(*asked_.removed, removed_head_, dropped, parts, part("removed"));
         if (asked_.welded)
@@ -233,7 +224,8 @@ class giving_back {
         const share& mine = welded_.points;
         source.rewind(is_divided_ ? mine : share{});
         if (rows_ != nullptr) rows_->rewind();
-        if (asked_.map || !asked_.label.empty()) leaders_.emplace(steps_, welded_);
+        if (wants_numbers())
+            numbers_.emplace(pace_, work_, is_divided_ ? all_ : lone_, steps_, welded_);
         first_ = mine.first;
         given_ = 0;
         point_block block;
@@ -279,17 +271,20 @@ class giving_back {
         each_block([&](point_block& block) {
             give(block, result_ ? &*result_ : nullptr, removed_ ? &*removed_ : nullptr);
             if (asked_.map) asked_.map(groups_);
+            if (map_) map_->write(asked_.map_text(first_, groups_));
             pace_.show("write", static_cast<double>(first_ - mine.first + block.points.size()) /
                                     static_cast<double>(mine.size()));
         });
         steps_.step_done();
         if (removed_) written_.removed = removed_->commit();
         if (result_) written_.welded = result_->commit();
+        if (map_) map_->commit();
+        if (is_divided_) written_.las_moved = all_.most(written_.las_moved);
     }
 
     template <class Out>
     void give(point_block& block, Out* welded, Out* removed) {
-        if (leaders_) number(block.points.size());
+        if (numbers_) number(block.points.size());
         kept_.clear();
         gone_.clear();
         for (std::uint32_t row = 0; row < block.points.size(); ++row) {
@@ -342,8 +337,7 @@ class giving_back {
     /// The groups of the points of a block.
     void number(std::size_t count) {
         groups_.resize(count);
-        for (std::size_t row = 0; row < count; ++row)
-            groups_[row] = welded_.kept.number_of(leaders_->of(first_ + row));
+        for (std::size_t row = 0; row < count; ++row) groups_[row] = numbers_->of(first_ + row);
     }
 
     pacer& pace_;
@@ -360,7 +354,9 @@ class giving_back {
     weld_stream_written written_{};
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};
-    std::optional<tile_steps::leaders> leaders_{};
+    std::optional<text_out> map_{};
+    std::optional<new_numbers> numbers_{};
+    const team lone_{process_team{}};
     bool is_divided_ = false;
     std::uint64_t first_ = 0;  ///< number of the block's first point
     std::uint64_t given_ = 0;

@@ -86,9 +86,7 @@ class tile_steps {
     void check_finished();
     [[nodiscard]] tiles_welded weld_borders();
     /// Whether each of a team is told of its points, in the order of the files.
-    [[nodiscard]] bool is_divided() const {
-        return !has_order() && task_.options.keep == weld_keep::first && source_.count();
-    }
+    [[nodiscard]] bool is_divided() const { return !has_order() && source_.count(); }
     /// Tells the first of a team of all points, and the others of none.
     void tell_first(tiles_welded& w) const;
 

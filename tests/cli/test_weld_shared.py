@@ -207,6 +207,10 @@ class Shared(WeldTest):
                              (["-t", "0.02", "--order", "shade", "--map", "map.csv"], "out.ply"),
                              (["-t", "0.02", "--precision", "float"], "out.ply"),
                              (["-t", "0.02", "--keep", "mean"], "out.xyz"),
+                             (["-t", "0.02", "--keep", "max:shade", "--removed", "gone.ply",
+                               "--map", "map.csv"], "out.ply"),
+                             (["-t", "0.03", "--rule", "chain", "--label", "group"], "out.ply"),
+                             (["-t", "0.02", "--keep", "last"], "out.laz"),
                              (["-t", "0.02"], "out.laz"), (["-t", "0.02"], "out.las"),
                              (["-t", "0.02", "--removed", "gone.las"], "out.las"),
                              (["-t", "0.02", "--withhold"], "out.las")):

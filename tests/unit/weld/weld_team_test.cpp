@@ -22,6 +22,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -230,12 +231,18 @@ void check_counts(const tf::weld_stream_result& a, const tf::weld_stream_result&
 
 using change = std::function<void(tf::weld_stream_options&)>;
 const std::vector<change> choices{
-    [](auto&) {}, [](auto& o) { o.same = {{.property = "shade", .tolerance = 0.25}}; },
+    [](auto&) {},
+    [](auto& o) { o.same = {{.property = "shade", .tolerance = 0.25}}; },
     [](auto& o) {
         o.order = tf::weld_order::highest;
         o.order_by = "shade";
     },
     [](auto& o) { o.keep = tf::weld_keep::mean; },
+    [](auto& o) { o.keep = tf::weld_keep::last; },
+    [](auto& o) {
+        o.keep = tf::weld_keep::highest;
+        o.keep_by = "shade";
+    },
     [](auto& o) {
         o.tolerance = 0.01;
         o.relative = true;
@@ -304,32 +311,60 @@ TEST_CASE("weld_team: killed at any step, another number of processes goes on to
 }
 
 TEST_CASE("weld_team: maps and labels are those of one") {
+    enum class asked { label, map, map_file };
     test::random random(13);
     const team_folder folder;
     const auto all = families(600, random);
-    for (const bool label : {false, true}) {
-        folder.put(all[0], random);
-        job work = folder.work("ply");
-        work.options.tolerance = 0.05;
-        work.options.points_per_tile = 60;
-        std::vector<std::uint64_t> map;
-        work.outputs = [&, files = work.outputs] {
-            tf::weld_stream_outputs outputs = files();
-            if (label) {
-                outputs.label = "group";
-                outputs.removed.reset();
-            } else {
-                outputs.map = [&](auto next) { map.insert(map.end(), next.begin(), next.end()); };
-            }
-            return outputs;
-        };
-        weld_alone(work);
-        const auto expected = folder.take("ply");
-        const auto expected_map = std::exchange(map, {});
-        REQUIRE(weld_as_team(work, 3));
-        CHECK(folder.take("ply") == expected);
-        CHECK(map == expected_map);
-    }
+    std::size_t turn = 0;
+    for (const asked what : {asked::label, asked::map, asked::map_file, asked::map_file})
+        for (const change& choose : choices) {
+            CAPTURE(++turn);
+            folder.put(all[turn % all.size()], random);
+            job work = folder.work("ply");
+            work.options.tolerance = 0.05;
+            work.options.rule = turn % 2 == 0 ? tf::weld_rule::first : tf::weld_rule::chain;
+            choose(work.options);
+            work.options.points_per_tile = 60;
+            std::vector<std::uint64_t> map;
+            std::mutex one_at_a_time;
+            std::set<std::thread::id> writers;
+            work.outputs = [&, files = work.outputs] {
+                tf::weld_stream_outputs outputs = files();
+                if (what == asked::label) {
+                    outputs.label = "group";
+                } else if (what == asked::map) {
+                    outputs.map = [&](auto next) {
+                        map.insert(map.end(), next.begin(), next.end());
+                    };
+                } else {
+                    outputs.map_path = folder.path / "map.csv";
+                    outputs.map_text = [&](std::uint64_t first, auto numbers) {
+                        const std::lock_guard lock(one_at_a_time);
+                        writers.insert(std::this_thread::get_id());
+                        std::string text;
+                        for (const std::uint64_t n : numbers)
+                            text += std::to_string(first++) + "," + std::to_string(n) + "\n";
+                        return text;
+                    };
+                }
+                return outputs;
+            };
+            weld_alone(work);
+            const auto expected = folder.take("ply");
+            const auto expected_text = contents(folder.path, {"map.csv"});
+            CHECK(expected_text.front().empty() == (what != asked::map_file));
+            fs::remove(folder.path / "map.csv");
+            const auto expected_map = std::exchange(map, {});
+            writers.clear();
+            const std::size_t size = std::array{2U, 3U, 7U}[turn % 3];
+            REQUIRE(weld_as_team(work, size));
+            if (what == asked::map_file && work.options.order == tf::weld_order::given)
+                CHECK(writers.size() == size);
+            CHECK(folder.take("ply") == expected);
+            CHECK(map == expected_map);
+            CHECK(contents(folder.path, {"map.csv"}) == expected_text);
+            fs::remove(folder.path / "map.csv");
+        }
 }
 
 TEST_CASE("weld_team: what is not there, or of another job, is refused in words") {
