@@ -127,7 +127,7 @@ kept_rows::kept_rows(pacer& pace, const work_folder& folder, const team& all, co
 }
 
 void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
-    tile_steps::leaders leaders(steps, w);
+    tile_steps::leaders leaders(steps, all_, w);
     joined_points& source = steps.source();
     source.rewind(w.points);
     point_block block;

@@ -12,7 +12,7 @@ constexpr std::uint64_t points_a_check = 65536;
 
 new_numbers::new_numbers(pacer& pace, const work_folder& folder, const team& all, tile_steps& steps,
                          tiles_welded& welded)
-    : welded_(welded), leaders_(steps, welded) {
+    : welded_(welded), leaders_(steps, all, welded) {
     welded.kept.number();
     if (!all.is_alone()) ask_others(pace, folder, all, steps);
 }
