@@ -96,6 +96,8 @@ class tile_steps {
       public:
         /// All of `all` come here, each with its points.
         leaders(const tile_steps& steps, const team& all, const tiles_welded& welded);
+        leaders(const tile_steps& steps, const tiles_welded& welded)
+            : leaders(steps, steps.all(), welded) {}
         [[nodiscard]] std::uint64_t of(std::uint64_t point);
 
       private:
