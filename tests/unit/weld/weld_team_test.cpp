@@ -11,10 +11,10 @@
 #include <doctest/doctest.h>
 #include <support/own_folder.hpp>
 #include <support/random.hpp>
+#include <support/thread_team.hpp>
 
 #include <algorithm>
 #include <array>
-#include <condition_variable>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -32,49 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct killed : std::runtime_error {
-    killed() : std::runtime_error("killed") {}
-};
-
-/// A team of threads: where one is killed, none goes on.
-class threads_of_team {
-  public:
-    explicit threads_of_team(std::size_t size) : mine_(size) {}
-
-    [[nodiscard]] tf::process_team as(std::size_t rank) {
-        return {rank, mine_.size(),
-                [this, rank](const std::string& told) { return exchange(rank, told); }};
-    }
-    void kill() {
-        const std::lock_guard lock(mutex_);
-        broken_ = true;
-        changed_.notify_all();
-    }
-
-  private:
-    std::vector<std::string> exchange(std::size_t rank, const std::string& told) {
-        std::unique_lock lock(mutex_);
-        const std::size_t round = round_;
-        mine_[rank] = told;
-        if (++here_ == mine_.size()) {
-            here_ = 0;
-            ++round_;
-            all_ = mine_;
-            changed_.notify_all();
-        }
-        changed_.wait(lock, [&] { return broken_ || round_ != round; });
-        if (round_ == round) throw killed();
-        return all_;
-    }
-
-    std::mutex mutex_{};
-    std::condition_variable changed_{};
-    std::vector<std::string> mine_;
-    std::vector<std::string> all_{};
-    std::size_t here_ = 0;
-    std::size_t round_ = 0;
-    bool broken_ = false;
-};
+using test::killed;
 
 /// What a run has written: files by their names.
 std::vector<std::string> contents(const fs::path& folder, const std::vector<std::string>& names) {
@@ -99,34 +57,18 @@ tf::weld_stream_result weld_alone(const job& work) {
 /// As a team; one is killed after so many steps, if any. Returns what the first one knows.
 std::optional<tf::weld_stream_result> weld_as_team(const job& work, std::size_t size,
                                                    std::size_t victim = 0, int steps = 0) {
-    threads_of_team all(size);
     std::optional<tf::weld_stream_result> first;
-    std::vector<std::exception_ptr> thrown(size);
-    std::vector<std::thread> threads;
-    for (std::size_t rank = 0; rank < size; ++rank)
-        threads.emplace_back([&, rank] {
-            try {
-                tf::weld_stream_options options = work.options;
-                options.team = all.as(rank);
-                if (rank == victim && steps > 0)
-                    options.step_done = [left = steps]() mutable {
-                        if (--left == 0) throw killed();
-                    };
-                auto result = tf::weld_stream(work.inputs, work.outputs(), options);
-                if (rank == 0) first = std::move(result);
-            } catch (...) {
-                thrown[rank] = std::current_exception();
-                all.kill();
-            }
-        });
-    for (std::thread& t : threads) t.join();
-    bool was_killed = false;
-    for (const std::exception_ptr& error : thrown) try {
-            if (error) std::rethrow_exception(error);
-        } catch (const killed&) {
-            was_killed = true;
-        }
-    return was_killed ? std::nullopt : first;
+    const bool all_lived = test::run_as_team(size, [&](const tf::process_team& team) {
+        tf::weld_stream_options options = work.options;
+        options.team = team;
+        if (team.rank == victim && steps > 0)
+            options.step_done = [left = steps]() mutable {
+                if (--left == 0) throw killed();
+            };
+        auto result = tf::weld_stream(work.inputs, work.outputs(), options);
+        if (team.rank == 0) first = std::move(result);
+    });
+    return all_lived ? first : std::nullopt;
 }
 
 /// As processes that do not know of each other.
