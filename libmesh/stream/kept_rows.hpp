@@ -48,6 +48,8 @@ class kept_rows {
 
     /// Whether the point gives its properties to what is kept.
     [[nodiscard]] bool gives(std::uint64_t point) const { return givers_.keeps(point); }
+    /// Points that do not, of those that the process is told of.
+    [[nodiscard]] std::uint64_t dropped() const { return givers_.dropped(); }
     /// Whether float32 holds the coordinates of all rows.
     [[nodiscard]] bool single() const { return single_; }
 

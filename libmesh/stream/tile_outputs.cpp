@@ -1,5 +1,6 @@
 #include <libmesh/io/las_plan.hpp>
 #include <libmesh/stream/joined_parts.hpp>
+#include <libmesh/stream/leading_points.hpp>
 #include <libmesh/stream/new_numbers.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/tile_outputs.hpp>
@@ -50,13 +51,31 @@ class points_out {
         some_.points.clear();
         for (const std::uint32_t row : rows) some_.points.push_back(block.points[row]);
         some_.properties = gather(block.properties, rows);
+        if (leading_) leading_->take_off(some_);
         writer_.write(some_);
     }
-    void write(const point_block& block) { writer_.write(block); }
+    void write(const point_block& block) {
+        if (!leading_) return writer_.write(block);
+        some_ = block;
+        leading_->take_off(some_);
+        writer_.write(some_);
+    }
+    /// The process has `mine` of the points. All come here.
+    void start_part(const work_folder& folder, const mesh_file& header, const std::string& name,
+                    std::uint64_t mine) {
+        const std::uint64_t together = writer_.points_together();
+        if (all_ != nullptr && together > 1)
+            leading_.emplace(folder, *all_, "leading." + name, header, mine, together);
+    }
     write_result commit() {
         if (all_ == nullptr) return writer_.commit();
+        if (leading_) leading_->give([&](const point_block& block) { writer_.write(block); });
+        state_writer chunks;
+        chunks.text(writer_.tell_part());
+        std::vector<std::string> parts;
+        for (state_reader& one : all_->exchange(chunks)) parts.push_back(one.text());
         write_result result;
-        const point_writer::part part = writer_.commit_part(result);
+        const point_writer::part part = writer_.commit_part(result, parts);
         std::string head(static_cast<std::size_t>(part.head), '\0');
         if (read_from(path_, 0, std::as_writable_bytes(std::span(head))) != head.size())
             fail_damaged(path_);
@@ -98,6 +117,7 @@ class points_out {
     fs::path path_;
     const team* all_;
     point_writer writer_;
+    std::optional<leading_points> leading_{};
     point_block some_{};
 };
 
@@ -163,10 +183,16 @@ class giving_back {
   private:
     /// Whether each of a team writes what it is told of.
     [[nodiscard]] bool may_divide() const {
+        const element* const vertices = find_element(head_.attributes, "vertex");
+        const bool has_lists =
+            vertices != nullptr && std::ranges::any_of(vertices->columns, [](const column& c) {
+                return c.list_length.has_value();
+            });
         const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
-            return !to ||
-                   (to->path != "-" && !is_special(to->path) &&
-                    point_writer(part("none"), head_, 0, points_out::options_of(*to)).has_parts());
+            if (!to) return true;
+            if (to->path == "-" || is_special(to->path)) return false;
+            const point_writer writer(part("none"), head_, 0, points_out::options_of(*to));
+            return writer.has_parts() && !(has_lists && writer.points_together() > 1);
         };
         return !all_.is_alone() && steps_.is_divided() && !asked_.map && has_parts(asked_.welded) &&
                has_parts(asked_.removed);
@@ -184,12 +210,19 @@ class giving_back {
         const std::uint64_t dropped = welded_.dropped;
         const team* const parts = is_divided_ ? &all_ : nullptr;
         if (!asked_.map_path.empty()) map_.emplace(asked_.map_path, parts, part("map"));
-        if (asked_.removed)
+        const std::uint64_t mine = welded_.points.size();
+        if (asked_.removed) {
             removed_.emplace(*asked_.removed, removed_head_, dropped, parts, part("removed"));
+            removed_->start_part(work_, removed_head_, "removed",
+                                 rows_ != nullptr ? rows_->dropped() : welded_.kept.dropped());
+        }
         if (asked_.welded)
             result_.emplace(*asked_.welded, head_,
                             drops_nothing() ? survey_.points : survey_.points - dropped, parts,
                             part("welded"));
+        if (result_)
+            result_->start_part(work_, head_, "welded",
+                                drops_nothing() ? mine : mine - welded_.kept.dropped());
     }
 
     /// What the outputs have that the input has not.

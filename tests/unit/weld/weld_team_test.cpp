@@ -312,6 +312,40 @@ TEST_CASE("weld_team: maps and labels are those of one") {
         }
 }
 
+TEST_CASE("weld_team: LAZ has whole chunks, whoever has the points of each") {
+    test::random random(17);
+    const team_folder folder;
+    std::size_t turn = 0;
+    // Of points that are mostly dropped at first, several processes have less than a chunk.
+    for (const double equal : {0.0, 0.6})
+        for (const change& choose : {choices[0], choices[3], choices[4]}) {
+            CAPTURE(++turn);
+            std::vector<tf::point3> points(180'000);
+            for (std::size_t i = 0; i < points.size(); ++i)
+                if (static_cast<double>(i) >= equal * static_cast<double>(points.size()))
+                    points[i] = {random.unit(), random.unit(), random.unit()};
+            folder.put(points, random);
+            job work = folder.work("laz");
+            work.options.as_las = true;
+            work.options.tolerance = 0.01;
+            choose(work.options);
+            work.options.points_per_tile = 60'000;
+            if (turn % 3 == 0)
+                work.outputs = [files = work.outputs] {
+                    tf::weld_stream_outputs outputs = files();
+                    outputs.label = "group";
+                    return outputs;
+                };
+            weld_alone(work);
+            const auto expected = folder.take("laz");
+            CHECK(expected[0].size() > 100'000);
+            const std::size_t size = std::array{2U, 4U, 7U}[turn % 3];
+            CAPTURE(size);
+            REQUIRE(weld_as_team(work, size));
+            CHECK(folder.take("laz") == expected);
+        }
+}
+
 TEST_CASE("weld_team: what is not there, or of another job, is refused in words") {
     test::random random(14);
     const team_folder folder;
