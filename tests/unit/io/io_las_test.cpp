@@ -446,6 +446,39 @@ TEST_CASE("LAZ: parts of whole chunks with a joined head and all chunks are the 
         }
 }
 
+TEST_CASE("LAZ: chunks ahead of the first point are not read") {
+    const auto path = std::filesystem::temp_directory_path() / "treeform_io_laz_first.laz";
+    constexpr std::size_t count = 110'000;
+    test::las_bytes las = las_of(1, 3);
+    const tf::mesh_file file =
+        read(las.file(test::las_points(test::las_family::scan, 1, las.record_size, count, 5)));
+    std::string bytes = tf::write_to_memory(file, {.format = "laz"});
+    for (const bool damaged : {false, true}) {
+        if (damaged)  // within the first of three chunks
+            std::fill_n(bytes.begin() + std::ptrdiff_t(bytes.size() / 4), 1000, '\x55');
+        std::ofstream(path, std::ios::binary) << bytes;
+        for (const std::size_t first : {49'999u, 50'000u, 50'001u, 100'000u, 109'999u, 110'000u}) {
+            CAPTURE(first);
+            std::vector<tf::point3> points;
+            const auto read_all = [&] {
+                tf::point_reader reader(path, "", first);
+                tf::point_block block;
+                while (reader.read(block, 30'000))
+                    points.insert(points.end(), block.points.begin(), block.points.end());
+            };
+            if (damaged && first < 50'000) {
+                CHECK_THROWS_AS(read_all(), tf::io_error);
+                continue;
+            }
+            read_all();
+            const std::vector<tf::point3> expected(file.mesh.points.begin() + std::ptrdiff_t(first),
+                                                   file.mesh.points.end());
+            CHECK(points == expected);
+        }
+    }
+    std::filesystem::remove(path);
+}
+
 TEST_CASE("E57: a message names the program that converts it") {
     CHECK(holds(complaint(std::string_view("ASTM-E57\1\0\0\0", 12)), "pdal translate"));
 }

@@ -30,7 +30,7 @@ class TREEFORM_API point_reader {
     /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
     /// input, a pipe) is copied to an unnamed file in /var/tmp first, and so are the unpacked
     /// points of a compressed PCD. The `first` points, no more than there are, are passed over:
-    /// unread in binary PLY without lists, binary PCD and LAS.
+    /// unread in binary PLY without lists, binary PCD, LAS, and whole chunks of LAZ.
     ///
     /// \throws io_error for a format without points, for a file with faces or other elements that
     ///         have rows, and as `read`
