@@ -1,5 +1,6 @@
 #include <libmesh/io/las_plan.hpp>
 #include <libmesh/stream/joined_parts.hpp>
+#include <libmesh/stream/las_grid.hpp>
 #include <libmesh/stream/leading_points.hpp>
 #include <libmesh/stream/new_numbers.hpp>
 #include <libmesh/stream/record_file.hpp>
@@ -124,6 +125,8 @@ class points_out {
 /// Rows on their way to a file, of which something has to be known before it is begun.
 class output_look {
   public:
+    explicit output_look(std::function<void(points_view)> take = {}) : take_(std::move(take)) {}
+
     void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
         point_block some;
         for (const std::uint32_t row : rows) some.points.push_back(block.points[row]);
@@ -131,6 +134,7 @@ class output_look {
         write(some);
     }
     void write(const point_block& block) {
+        if (take_) take_(block.points);
         single_ = single_ && fits_single(block.points);
         extended_ = extended_ || io::has_extended_values(block.properties);
     }
@@ -144,6 +148,7 @@ class output_look {
     }
 
   private:
+    std::function<void(points_view)> take_;
     bool single_ = true;
     bool extended_ = false;
 };
@@ -175,6 +180,7 @@ class giving_back {
         if (!asked || (!is_divided_ && !all_.leads())) return {};
         add_columns();
         if (task_.options.as_las) look_at_outputs();
+        if (asked_.removed && !removed_head_.las && is_las(*asked_.removed)) look_at_removed();
         open_files();
         give_all();
         return std::move(written_);
@@ -191,7 +197,9 @@ class giving_back {
         const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
             if (!to) return true;
             if (to->path == "-" || is_special(to->path)) return false;
-            const point_writer writer(part("none"), head_, 0, points_out::options_of(*to));
+            mesh_file head = head_;
+            if (!head.las) head.las.emplace();
+            const point_writer writer(part("none"), head, 0, points_out::options_of(*to));
             return writer.has_parts() && !(has_lists && writer.points_together() > 1);
         };
         return !all_.is_alone() && steps_.is_divided() && !asked_.map && has_parts(asked_.welded) &&
@@ -297,6 +305,27 @@ class giving_back {
         if (is_divided_) removed.share(all_);
         welded.tell(head_);
         removed.tell(removed_head_);
+    }
+
+    [[nodiscard]] static bool is_las(const weld_stream_outputs::file& to) {
+        const std::string format = points_out::options_of(to).format;
+        return format == "las" || format == "laz";
+    }
+
+    /// The steps of LAS that hold the dropped points, where no other file has any.
+    void look_at_removed() {
+        const team& all = is_divided_ ? all_ : lone_;
+        output_look seen;
+        const auto each = [&](const std::function<void(points_view)>& take) {
+            seen = output_look(take);
+            each_block([&](point_block& block) {
+                give(block, static_cast<output_look*>(nullptr), &seen);
+                pace_.check();
+            });
+        };
+        removed_head_.las = las_grid_of(each, all);
+        seen.share(all);
+        seen.tell(removed_head_);
     }
 
     void give_all() {

@@ -208,7 +208,7 @@ class Shared(WeldTest):
                              (["-t", "0.03", "--order", "max:x", "--rule", "chain",
                                "--label", "group"], "out.ply"),
                              (["-t", "0.02", "--precision", "float"], "out.ply"),
-                             (["-t", "0.02", "--keep", "mean"], "out.xyz"),
+                             (["-t", "0.02", "--keep", "mean", "--removed", "gone.las"], "out.xyz"),
                              (["-t", "0.02", "--keep", "max:shade", "--removed", "gone.ply",
                                "--map", "map.csv"], "out.ply"),
                              (["-t", "0.03", "--rule", "chain", "--label", "group"], "out.ply"),
