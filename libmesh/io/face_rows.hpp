@@ -3,7 +3,6 @@
 /// The faces of a file from the front to the back, a run at a time, with the places of their
 /// corners; for meshes larger than memory.
 
-#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/source.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -25,14 +24,45 @@ struct placed_triangle {
     std::array<point3, 3> at{};
 };
 
+/// Which part of a file is read: of `size` parts that have about as many points, and as many faces.
+struct file_part {
+    std::uint64_t rank = 0;
+    std::uint64_t size = 1;
+    bool from_front = false;  ///< whether faces that are ahead must be read, too
+
+    [[nodiscard]] std::uint64_t first(std::uint64_t count) const {
+        return count / size * rank + count % size * rank / size;
+    }
+    [[nodiscard]] std::uint64_t last(std::uint64_t count) const {
+        return file_part{rank + 1, size}.first(count);
+    }
+    [[nodiscard]] bool is_last() const { return rank + 1 == size; }
+};
+
+/// Where the points of a PLY are while its faces are read.
+class point_store {
+  public:
+    virtual ~point_store() = default;
+    /// Those of the part, from its first one on.
+    virtual void put(points_view points) = 0;
+    /// A point of the file, when all parts have put theirs.
+    [[nodiscard]] virtual point3 at(std::uint32_t point) = 0;
+};
+
+/// Of a part; together all parts have the triangles of the file.
 struct face_rows {
-    mesh_file head{};  ///< format, precision and warnings
-    std::uint64_t points = 0;
-    std::uint64_t stored_faces = 0;
-    std::optional<box3> bounds{};  ///< of all finite points, where these come ahead of the faces
-    std::vector<point3> sample{};  ///< finite corners from all over the file; at most `sample_size`
+    mesh_file
+        head{};  ///< format, precision and warnings; that of PLY is single where the part's is
+    std::uint64_t points = 0;        ///< of the file
+    std::uint64_t stored_faces = 0;  ///< of the file
+    std::optional<box3> bounds{};    ///< of all finite points, where these come ahead of the faces
+    std::vector<point3>
+        sample{};  ///< finite corners from all over it; at most `sample_size` of the file
+    /// Whether it is taken for granted that all faces ahead are as long as the first one. If so, any
+    /// error of `append`, of this part or another, may come from faces that are not.
+    bool jumped = false;
     /// Appends the next triangles, about `most` of them. Returns false when there are none left; then
-    /// the file has been read to its end, and `warnings` got what was to be said.
+    /// the last part has been read to its end, and `warnings` got what was to be said.
     std::function<bool(std::vector<placed_triangle>& triangles, std::size_t most,
                        std::vector<io_warning>& warnings)>
         append{};
@@ -40,14 +70,14 @@ struct face_rows {
 
 inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 
-/// What is read by runs. `in` must outlive what comes back. The points of a PLY are meanwhile in
-/// what `make_scratch` gives for their bytes; at most about `memory` bytes of it are held in memory.
+/// What is read by runs. `in` must outlive what comes back. The points of a PLY are put into what
+/// `make_store` gives for so many of them.
 ///
 /// \throws io_error, also for a PLY that `has_face_runs` is not true of
-[[nodiscard]] face_rows open_stl_faces(const source& in);
+[[nodiscard]] face_rows open_stl_faces(const source& in, const file_part& part = {});
 [[nodiscard]] face_rows open_ply_faces(
-    const source& in, const std::function<std::unique_ptr<scratch>(std::size_t)>& make_scratch,
-    std::uint64_t memory);
+    const source& in, const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,
+    const file_part& part = {});
 
 /// Whether vertices come ahead of faces, and these are no triangle strips. \throws io_error
 [[nodiscard]] bool has_face_runs(const source& ply);

@@ -2,11 +2,9 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/io/face_rows.hpp>
 #include <libmesh/io/ply_body.hpp>
-#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,44 +13,9 @@
 namespace treeform::detail::io {
 namespace {
 
-/// Bytes of points held while they are written, and rows read at a time.
-constexpr std::size_t held_at_most = std::size_t{1} << 26;
-constexpr std::size_t rows_a_run = std::size_t{1} << 15;
+constexpr std::size_t rows_a_run = std::size_t{1} << 15;  ///< read at a time
 
-using scratch_maker = std::function<std::unique_ptr<scratch>(std::size_t)>;
-
-/// The points of a file, in a file of their own.
-class placed_points {
-  public:
-    placed_points(std::unique_ptr<scratch> file, std::uint64_t memory)
-        : file_(std::move(file)),
-          at_once_(std::max<std::size_t>(1024, static_cast<std::size_t>(memory / page))) {}
-
-    void put(points_view points) {
-        std::memcpy(file_->data() + size_, points.data(), points.size_bytes());
-        size_ += points.size_bytes();
-        if ((looked_at_ += points.size_bytes()) < held_at_most) return;
-        file_->give_back();
-        looked_at_ = 0;
-    }
-    [[nodiscard]] point3 at(std::uint32_t point) {
-        if (++looked_at_ > at_once_) {
-            file_->give_back();
-            looked_at_ = 0;
-        }
-        point3 p;
-        std::memcpy(&p, file_->data() + point * sizeof p, sizeof p);
-        return p;
-    }
-
-  private:
-    static constexpr std::uint64_t page = 4096;  ///< what one look may bring into memory, at least
-
-    std::unique_ptr<scratch> file_;
-    std::size_t at_once_;
-    std::size_t size_ = 0;
-    std::size_t looked_at_ = 0;  ///< since memory was given back: bytes, later points
-};
+using store_maker = std::function<std::unique_ptr<point_store>(std::size_t)>;
 
 bool have_runs(const source& in, std::vector<element>& elements) {
     const element& vertices = vertices_of(in, elements);
@@ -64,19 +27,26 @@ bool have_runs(const source& in, std::vector<element>& elements) {
 template <class Values>
 class ply_faces {
   public:
-    ply_faces(const source& in, Values values, std::vector<element> elements)
-        : in_(in), values_(std::move(values)), elements_(std::move(elements)) {}
+    ply_faces(const source& in, Values values, std::vector<element> elements, const file_part& part)
+        : in_(in), values_(std::move(values)), elements_(std::move(elements)), part_(part) {}
 
     /// Reads up to the first face.
-    void read_vertices(face_rows& rows, const scratch_maker& make_scratch, std::uint64_t memory) {
+    void read_vertices(face_rows& rows, const store_maker& make_store) {
         check_header(rows);
         for (; next_ < elements_.size(); ++next_) {
             const element& e = elements_[next_];
             check_room(values_, e);
-            if (&e == faces_) return;
-            if (e.name == "vertex") points_.emplace(make_scratch(e.rows * sizeof(point3)), memory);
-            each_run(e, [&](const std::vector<point3>& points) {
-                if (e.name != "vertex") return;
+            if (&e == faces_) return find_first_face(rows);
+            if (e.name != "vertex") {
+                skip_rows(e, e.rows);
+                continue;
+            }
+            points_ = make_store(e.rows);
+            read_ = part_.first(e.rows);
+            next_of_sample_ = (read_ + step_ - 1) / step_ * step_;
+            skip_rows(e, read_);
+            const std::size_t last = part_.last(e.rows);
+            each_run(e, last - read_, [&](const std::vector<point3>& points) {
                 if (!fits_single(points)) rows.head.stored_as = precision::float64;
                 base::add_to_box(rows.bounds, bounding_box(points));
                 points_->put(points);
@@ -85,6 +55,7 @@ class ply_faces {
                         rows.sample.push_back(p);
                 read_ += points.size();
             });
+            skip_rows(e, e.rows - last);
         }
     }
 
@@ -92,10 +63,10 @@ class ply_faces {
                 std::vector<io_warning>& warnings) {
         const std::size_t before = triangles.size();
         if (faces_ != nullptr) append_faces(triangles, most);
-        if (triangles.size() > before) return true;
+        if (triangles.size() > before || !part_.is_last()) return triangles.size() > before;
         while (++next_ < elements_.size()) {
             check_room(values_, elements_[next_]);
-            each_run(elements_[next_], [](const auto&) {});
+            skip_rows(elements_[next_], elements_[next_].rows);
         }
         look_behind(values_, warnings);
         return false;
@@ -104,19 +75,26 @@ class ply_faces {
   private:
     void append_faces(std::vector<placed_triangle>& triangles, std::size_t most) {
         const std::size_t before = triangles.size();
-        start_columns(*faces_, 0);
-        while (stored_ < faces_->rows && triangles.size() - before < most) {
+        forget_data();
+        const std::uint64_t first = part_.first(faces_->rows);
+        const std::uint64_t last = part_.last(faces_->rows);
+        while (stored_ < last && triangles.size() - before < most) {
             values_.begin_row();
             for (column& c : faces_->columns) {
                 if (c.role == column_role::corners) {
-                    append_face(c, triangles);
+                    read_face(c, stored_ >= first ? &triangles : nullptr);
                 } else {
                     read_data(values_, c);
                 }
             }
             values_.end_row();
-            ++stored_;
+            if (++stored_ % rows_a_run == 0) forget_data();
         }
+        forget_data();
+    }
+
+    void forget_data() {
+        start_columns(*faces_, 0);
         for (column& c : faces_->columns) c.values.clear();
     }
 
@@ -138,12 +116,53 @@ class ply_faces {
         }
     }
 
-    /// All rows of `e`; calls `take` with the points of each run.
+    void skip_rows(const element& e, std::size_t count) {
+        if constexpr (has_bytes) {
+            if (const std::size_t size = fixed_row_size(e); size > 0) {
+                static_cast<void>(values_.take_bytes(count * size));
+                return values_.end_row();
+            }
+        }
+        each_run(e, count, [](const auto&) {});
+    }
+
+    /// Goes to the first face of the part, if all faces ahead of it may be alike, by the bytes that
+    /// they take.
+    void find_first_face(face_rows& rows) {
+        if constexpr (has_bytes) {
+            const std::uint64_t first = part_.first(faces_->rows);
+            if (part_.size == 1 || part_.from_front) return;
+            Values one = values_;
+            std::size_t behind = 0;
+            for (const element& e : elements_) {
+                if (&e <= faces_ || e.rows == 0) continue;
+                if (fixed_row_size(e) == 0) return;
+                behind += e.rows * fixed_row_size(e);
+            }
+            for (const column& c : faces_->columns) {
+                if (c.list_length && c.role != column_role::corners) return;
+                const std::size_t count = c.list_length ? one.length(c) : 1;
+                if (c.list_length) length_ = count;
+                static_cast<void>(one.take_bytes(count * size_of(c.type)));
+            }
+            const std::size_t size = values_.bytes_left() - one.bytes_left();
+            rows.jumped = values_.bytes_left() == faces_->rows * size + behind;
+            if (!rows.jumped) {
+                length_.reset();
+                return;
+            }
+            static_cast<void>(values_.take_bytes(first * size));
+            values_.end_row();
+            stored_ = first;
+        }
+    }
+
+    /// The next `count` rows of `e`; calls `take` with the points of each run.
     template <class Take>
-    void each_run(const element& e, const Take& take) {
+    void each_run(const element& e, std::size_t count, const Take& take) {
         element run;
         std::vector<point3> points;
-        for (std::size_t left = e.columns.empty() ? 0 : e.rows; left > 0;) {
+        for (std::size_t left = e.columns.empty() ? 0 : count; left > 0;) {
             const std::size_t rows = std::min(left, rows_a_run);
             restart(run, e);
             points.clear();
@@ -153,8 +172,14 @@ class ply_faces {
         }
     }
 
-    void append_face(const column& c, std::vector<placed_triangle>& triangles) {
+    /// Those of other parts, which have no `triangles`, are passed over.
+    void read_face(const column& c, std::vector<placed_triangle>* triangles) {
         const std::size_t count = values_.length(c);
+        if (length_.value_or(count) != count) values_.fail("a face of another length");
+        if (triangles == nullptr) {
+            for (std::size_t i = 0; i < count; ++i) static_cast<void>(values_.index(c));
+            return;
+        }
         if (count < 3) values_.fail("face with " + std::to_string(count) + " corners");
         placed_triangle t{.stored = static_cast<std::uint32_t>(stored_)};
         for (std::size_t i = 0; i < count; ++i) {
@@ -165,7 +190,7 @@ class ply_faces {
             }
             t.corners[corner] = vertex(values_.index(c));
             t.at[corner] = points_->at(t.corners[corner]);
-            if (i >= 2) triangles.push_back(t);
+            if (i >= 2) triangles->push_back(t);
         }
     }
 
@@ -175,11 +200,15 @@ class ply_faces {
         return static_cast<std::uint32_t>(index);
     }
 
+    static constexpr bool has_bytes = requires(Values v) { v.take_bytes(0); };
+
     const source& in_;
     Values values_;
     std::vector<element> elements_;
+    file_part part_;
     element* faces_ = nullptr;
-    std::optional<placed_points> points_{};
+    std::optional<std::size_t> length_{};  ///< of all faces, where they must be alike
+    std::unique_ptr<point_store> points_{};
     std::int64_t points_of_file_ = 0;
     std::size_t next_ = 0;  ///< element
     std::size_t step_ = 1;
@@ -195,8 +224,7 @@ bool has_face_runs(const source& ply) {
     return have_runs(ply, header.elements);
 }
 
-face_rows open_ply_faces(const source& in, const scratch_maker& make_scratch,
-                         std::uint64_t memory) {
+face_rows open_ply_faces(const source& in, const store_maker& make_store, const file_part& part) {
     ply_header header = read_ply_header(in);
     face_rows rows;
     rows.head.stored_as = precision::float32;
@@ -204,8 +232,8 @@ face_rows open_ply_faces(const source& in, const scratch_maker& make_scratch,
         rows.head.format = format;
         using reader = ply_faces<decltype(values)>;
         const auto faces =
-            std::make_shared<reader>(in, std::move(values), std::move(header.elements));
-        faces->read_vertices(rows, make_scratch, memory);
+            std::make_shared<reader>(in, std::move(values), std::move(header.elements), part);
+        faces->read_vertices(rows, make_store);
         rows.append = [faces](auto& triangles, std::size_t most, auto& warnings) {
             return faces->append(triangles, most, warnings);
         };

@@ -122,10 +122,17 @@ write_result point_writer::commit() {
 
 bool point_writer::has_parts() const { return !state_->rows.finish || state_->rows.finish_part; }
 
-point_writer::part point_writer::commit_part(write_result& result) {
+std::uint64_t point_writer::points_together() const { return state_->rows.together; }
+
+std::string point_writer::tell_part() {
+    return state_->rows.tell_part ? state_->rows.tell_part() : std::string();
+}
+
+point_writer::part point_writer::commit_part(write_result& result,
+                                             const std::vector<std::string>& told) {
     state& s = *state_;
     if (!has_parts()) throw std::logic_error(s.file->name() + ": is not written in parts");
-    const std::uint64_t behind = s.rows.finish_part ? s.rows.finish_part() : 0;
+    const std::uint64_t behind = s.rows.finish_part ? s.rows.finish_part(told) : 0;
     s.out->flush();
     const part made{s.head_size, s.out->size() - s.head_size - behind};
     s.file->commit();

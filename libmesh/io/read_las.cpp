@@ -96,6 +96,14 @@ class chunk_run {
           size_(file.record_size),
           chunks_(find_chunks(in, file)) {}
 
+    /// Passes over the chunks ahead of that of a point; returns how many points they have.
+    [[nodiscard]] std::uint64_t pass_over(std::uint64_t point) {
+        std::uint64_t passed = 0;
+        for (; next_ < chunks_.size() && passed + chunks_[next_].points <= point; ++next_)
+            passed += chunks_[next_].points;
+        return passed;
+    }
+
     /// The next records, at most `most`; none at the end.
     [[nodiscard]] std::span<const char> next(std::size_t most) {
         if (taken_ == records_.size()) unpack_some();
@@ -193,7 +201,9 @@ point_rows open_las_points(const source& in, std::uint64_t first) {
     las_file file = open_las(in, rows.head.warnings);
     rows.count = file.count;
     if (file.packing) {
-        rows.append = rows_of(std::make_shared<chunk_run>(in, file), file);
+        const auto chunks = std::make_shared<chunk_run>(in, file);
+        rows.left_out = chunks->pass_over(first);
+        rows.append = rows_of(chunks, file);
     } else {
         rows.left_out = first;
         file.first_point += first * file.record_size;

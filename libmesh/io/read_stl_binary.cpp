@@ -128,7 +128,7 @@ mesh_file read_stl_binary(const source& in) {
     return file;
 }
 
-face_rows open_stl_faces(const source& in) {
+face_rows open_stl_faces(const source& in, const file_part& part) {
     face_rows rows;
     const std::uint32_t count = facet_count(in, rows.head.warnings);
     rows.head.indexed = false;
@@ -139,15 +139,17 @@ face_rows open_stl_faces(const source& in) {
     const char* const facets = in.begin() + header_bytes;
     // No multiple of three, so that all corners have their turn.
     const std::size_t step = (count / sample_size / 3) * 3 + 1;
-    for (std::size_t i = 0; i < count; i += step) {
+    const auto first = static_cast<std::uint32_t>(part.first(count));
+    const auto last = static_cast<std::uint32_t>(part.last(count));
+    for (std::size_t i = (first + step - 1) / step * step; i < last; i += step) {
         const point3 corner = corners_of(facets + record_bytes * i)[i % 3];
         if (base::is_finite(corner)) rows.sample.push_back(corner);
         in.release_before(facets + record_bytes * i);
     }
     in.rewind();
-    rows.append = [&in, facets, count, done = std::uint32_t{0}](auto& triangles, std::size_t most,
-                                                                auto&) mutable {
-        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(count, done + most));
+    rows.append = [&in, facets, last, done = first](auto& triangles, std::size_t most,
+                                                    auto&) mutable {
+        const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(last, done + most));
         const bool some = done < end;
         for (; done < end; ++done)
             triangles.push_back({done,

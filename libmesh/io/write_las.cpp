@@ -96,12 +96,37 @@ class las_writer {
         finish_behind_points();
     }
 
+    /// The chunks, as numbers of 32 bits.
+    std::string tell_part() {
+        put_pending();
+        std::string told;
+        for (const laz::chunk& c : chunks_)
+            for (const std::uint32_t n : {c.points, c.bytes}) {
+                std::array<char, 4> bytes;
+                base::store<std::endian::little>(bytes.data(), n);
+                told.append(bytes.data(), bytes.size());
+            }
+        return told;
+    }
+
     /// What follows the points is told where it will be when all of them are there.
-    /// \pre plain records
-    std::uint64_t finish_part() {
+    std::uint64_t finish_part(const std::vector<std::string>& told) {
         put_pending();
         const std::uint64_t end_of_points = job_.out.size();
         at_ = first_point_ + count_ * plan_.record_size;
+        if (is_packed()) {
+            at_ = first_point_ + 8;
+            chunks_.clear();
+            for (const std::string& part : told)
+                for (std::size_t i = 0; i + 8 <= part.size(); i += 8) {
+                    const auto number = [&](std::size_t at) {
+                        return base::load<std::uint32_t, std::endian::little>(part.data() + at);
+                    };
+                    chunks_.push_back({number(i), number(i + 4)});
+                    at_ += chunks_.back().bytes;
+                }
+            put_table(at_);
+        }
         finish_behind_points();
         return job_.out.size() - end_of_points;
     }
@@ -228,10 +253,12 @@ void write_all(const write_job& job, bool packed) {
                             with_name(out, [&] { writer->put_points(points, vertices); });
                         },
                     .finish = [writer, &out] { with_name(out, [&] { writer->finish(); }); }};
-    if (!packed)
-        sink.finish_part = [writer, &out] {
-            return with_name(out, [&] { return writer->finish_part(); });
-        };
+    sink.finish_part = [writer, &out](const std::vector<std::string>& told) {
+        return with_name(out, [&] { return writer->finish_part(told); });
+    };
+    if (!packed) return sink;
+    sink.tell_part = [writer, &out] { return with_name(out, [&] { return writer->tell_part(); }); };
+    sink.together = laz_chunk;
     return sink;
 }
 

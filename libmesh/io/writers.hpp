@@ -48,7 +48,10 @@ struct point_sink {
     std::function<void(std::span<const point3> points, const element* vertices)> rows{};
     std::function<void()> finish{};  ///< none: nothing is left to do
     /// Finishes a file that has only some of the points; returns the number of bytes behind them.
-    std::function<std::uint64_t()> finish_part{};
+    /// `told` is what `tell_part` gave for each part.
+    std::function<std::uint64_t(const std::vector<std::string>& told)> finish_part{};
+    std::function<std::string()> tell_part{};  ///< none: nothing
+    std::uint64_t together = 1;  ///< parts but the last have a multiple of so many points
 };
 
 /// The head of a LAS file from those of files with some of its points each, none without any.

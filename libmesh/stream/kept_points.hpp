@@ -56,8 +56,9 @@ class kept_points {
             sum += count_ones(dropped_[w]);
         }
     }
-    /// Kept points ahead of `point`. \pre the lowest of all is 0
+    /// Kept points ahead of `point`, from the lowest of all on.
     [[nodiscard]] std::uint64_t number_of(std::uint64_t point) const {
+        point -= first_;
         const std::size_t last = point / 64;
         std::uint64_t sum = dropped_before_[last / words_a_step];
         for (std::size_t w = last / words_a_step * words_a_step; w < last; ++w)

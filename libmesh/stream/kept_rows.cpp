@@ -108,27 +108,32 @@ void packed_points::unpack(numbers from, point_block& block, std::size_t point) 
     }
 }
 
-kept_rows::kept_rows(pacer& pace, const work_folder& folder, const tile_task& task,
+kept_rows::kept_rows(pacer& pace, const work_folder& folder, const team& all, const tile_task& task,
                      tile_steps& steps, tiles_welded& w)
-    : keep_(task.options.keep),
+    : folder_(folder),
+      all_(all),
+      keep_(task.options.keep),
+      points_(steps.survey().points),
       packed_(steps.source().header()),
-      members_(folder, "members.of", {.width = before_point + packed_.width(), .keys = 2},
+      members_(folder, all, "members.of", {.width = before_point + packed_.width(), .keys = 2},
                steps.sorting_memory()),
+      changes_(folder, all, "givers", 2, steps.sorting_memory() / 4),
       givers_(w.kept),
-      path_(folder.file("kept.rows")) {
+      has_all_(all.is_alone()) {
     gather(pace, steps, w);
     choose(pace);
-    w.max_displacement = longest_move(pace);
+    tell_givers();
+    w.max_displacement = all.most(longest_move(pace));
 }
 
 void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
-    tile_steps::leaders leaders(steps, w);
+    tile_steps::leaders leaders(steps, all_, w);
     joined_points& source = steps.source();
-    source.rewind();
+    source.rewind(w.points);
     point_block block;
     std::vector<std::uint64_t> keys;
     std::vector<std::uint64_t> member;
-    std::uint64_t id = 0;
+    std::uint64_t id = w.points.first;
     while (source.read(block, points_a_block)) {
         steps.keys().choice_of(block, keys);
         for (std::size_t i = 0; i < block.points.size(); ++i, ++id) {
@@ -136,7 +141,7 @@ void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
             if (w.kept.keeps(id) && w.followed->keeps(id)) continue;  // alone
             member.assign({leader, id, keys[i]});
             packed_.pack(block, i, member);
-            members_.put(member);
+            members_.put(owner_of(leader), member);
         }
         pace.check();
     }
@@ -144,7 +149,7 @@ void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
 
 /// Of points of equal keys the first is kept, as by `kept_points`.
 void kept_rows::choose(pacer& pace) {
-    row_writer rows(path_, piece);
+    row_writer rows(path(all_.rank()), piece);
     mean_point mean(packed_);
     std::vector<std::uint64_t> best;
     const auto finish = [&] {
@@ -153,7 +158,7 @@ void kept_rows::choose(pacer& pace) {
             keep_ == weld_keep::mean ? mean.finish() : numbers(best).subspan(before_point);
         if (best[0] != best[1]) {
             givers_.drop(best[0]);
-            givers_.keep(best[1]);
+            changes_.put(owner_of(best[1]), numbers(best).first(2));
         }
         const point3 at = place_of(point);
         single_ = single_ && fits_single({&at, 1});
@@ -176,7 +181,36 @@ void kept_rows::choose(pacer& pace) {
         if (++count % rows_a_check == 0) pace.check();
     }
     finish();
-    count_ = rows.finish_unsynced();
+    share_rows(rows.finish_unsynced());
+}
+
+void kept_rows::share_rows(const record_count& mine) {
+    state_writer told;
+    store_count(mine, told);
+    told.number(single_ ? 1 : 0);
+    for (state_reader& one : all_.exchange(told)) {
+        counts_.push_back(load_count(one));
+        single_ = one.number() != 0 && single_;
+    }
+}
+
+void kept_rows::tell_givers() {
+    changes_.send();
+    for (row_reader& from : changes_.received())
+        for (; !from.empty(); from.pop()) givers_.keep(from.front()[1]);
+}
+
+void kept_rows::tell_first(const tiles_welded& w) {
+    if (has_all_) return;
+    next_.reset();
+    has_all_ = all_.leads();
+    if (!has_all_) return;
+    givers_ = w.kept;
+    for (row_reader& from : changes_.received_by_all())
+        for (; !from.empty(); from.pop()) {
+            givers_.drop(from.front()[0]);
+            givers_.keep(from.front()[1]);
+        }
 }
 
 double kept_rows::longest_move(pacer& pace) {
@@ -193,7 +227,17 @@ double kept_rows::longest_move(pacer& pace) {
     return longest.length();
 }
 
-void kept_rows::rewind() { next_.emplace(path_, count_, 1 + packed_.width(), piece); }
+std::filesystem::path kept_rows::path(std::size_t rank) const {
+    return folder_.file("kept.rows." + std::to_string(rank));
+}
+
+void kept_rows::rewind() {
+    std::vector<row_reader> readers;
+    for (std::size_t r = 0; r < counts_.size(); ++r)
+        if (has_all_ || r == all_.rank())
+            readers.emplace_back(path(r), counts_[r], 1 + packed_.width(), piece);
+    next_.emplace(std::move(readers), 1);
+}
 
 void kept_rows::replace(point_block& block, std::size_t point) {
     if (next_->empty()) throw std::logic_error("a group without what is kept of it");

@@ -2,6 +2,7 @@
 /// \file
 /// What is kept of groups of several points, where it is not simply the first of them.
 
+#include <libmesh/stream/posted_rows.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <cstddef>
@@ -33,15 +34,22 @@ class packed_points {
     std::vector<field> fields_{};
 };
 
-/// The rows that stand for the groups of several points, by ascending number of their first.
+/// The rows that stand for the groups of several points, by ascending number of their first. Of a
+/// team, each has those of the first points that it is told of.
 class kept_rows {
   public:
-    /// Reads the cloud once. Replaces the longest move of `w` by that to what is kept.
-    kept_rows(pacer& pace, const work_folder& folder, const tile_task& task, tile_steps& steps,
-              tiles_welded& w);
+    /// Reads the points that the process is told of. Replaces the longest move of `w` by that to
+    /// what is kept. All of `all` come here.
+    kept_rows(pacer& pace, const work_folder& folder, const team& all, const tile_task& task,
+              tile_steps& steps, tiles_welded& w);
+
+    /// The first of a team gets the rows of all. \pre it has been told of all points
+    void tell_first(const tiles_welded& w);
 
     /// Whether the point gives its properties to what is kept.
     [[nodiscard]] bool gives(std::uint64_t point) const { return givers_.keeps(point); }
+    /// Points that do not, of those that the process is told of.
+    [[nodiscard]] std::uint64_t dropped() const { return givers_.dropped(); }
     /// Whether float32 holds the coordinates of all rows.
     [[nodiscard]] bool single() const { return single_; }
 
@@ -53,16 +61,26 @@ class kept_rows {
   private:
     void gather(pacer& pace, tile_steps& steps, const tiles_welded& w);
     void choose(pacer& pace);
+    void tell_givers();
+    void share_rows(const record_count& mine);
     [[nodiscard]] double longest_move(pacer& pace);
+    [[nodiscard]] std::size_t owner_of(std::uint64_t point) const {
+        return all_.owner_of(point, points_);
+    }
+    [[nodiscard]] std::filesystem::path path(std::size_t rank) const;
 
+    const work_folder& folder_;
+    const team& all_;
     weld_keep keep_;
+    std::uint64_t points_;
     packed_points packed_;
-    row_sorter members_;  ///< leader, number, key, and the packed point
+    shared_sorter members_;  ///< leader, number, key, and the packed point
+    posted_rows changes_;    ///< first points of groups, and those that give instead
     kept_points givers_;
     bool single_ = true;
-    std::filesystem::path path_;
-    record_count count_{};
-    std::optional<row_reader> next_{};  ///< leader, and the packed point
+    bool has_all_;
+    std::vector<record_count> counts_{};  ///< of the rows of each: leader, and the packed point
+    std::optional<row_merge> next_{};
 };
 
 }  // namespace treeform::detail::stream

@@ -9,19 +9,8 @@ namespace {
 
 using io::las_grid_choice;
 
-template <class Take>
-void each_block(joined_points& points, const share& mine, pacer& pace, const Take& take) {
-    point_block block;
-    points.rewind(mine);
-    while (points.read(block, points_a_block)) {
-        take(block.points);
-        pace.check();
-    }
-}
-
-void look_at_all(las_grid_choice& choice, joined_points& points, const team& all, const share& mine,
-                 pacer& pace) {
-    each_block(points, mine, pace, [&](const auto& some) { choice.look(some); });
+void look_at_all(las_grid_choice& choice, const pass_of_points& each, const team& all) {
+    each([&](points_view some) { choice.look(some); });
     state_writer told;
     for (const las_grid_choice::range& r : choice.ranges()) {
         told.real(r.low);
@@ -35,9 +24,8 @@ void look_at_all(las_grid_choice& choice, joined_points& points, const team& all
 }
 
 /// Whether all agree that the scales hold all points.
-bool try_on_all(las_grid_choice& choice, joined_points& points, const team& all, const share& mine,
-                pacer& pace) {
-    each_block(points, mine, pace, [&](const auto& some) { choice.try_on(some); });
+bool try_on_all(las_grid_choice& choice, const pass_of_points& each, const team& all) {
+    each([&](points_view some) { choice.try_on(some); });
     state_writer told;
     told.number(choice.must_try_again() ? 1 : 0);
     for (const int d : choice.tried()) told.number(static_cast<std::uint64_t>(d));
@@ -59,14 +47,26 @@ bool try_on_all(las_grid_choice& choice, joined_points& points, const team& all,
 
 }  // namespace
 
-las_header las_grid_of(joined_points& points, const team& all, const share& mine, pacer& pace) {
+las_header las_grid_of(const pass_of_points& each, const team& all) {
     las_grid_choice choice;
-    look_at_all(choice, points, all, mine, pace);
-    while (!try_on_all(choice, points, all, mine, pace)) {
+    look_at_all(choice, each, all);
+    while (!try_on_all(choice, each, all)) {
     }
     las_header header;
     choice.put(header);
     return header;
+}
+
+las_header las_grid_of(joined_points& points, const team& all, const share& mine, pacer& pace) {
+    const auto each = [&](const std::function<void(points_view)>& take) {
+        point_block block;
+        points.rewind(mine);
+        while (points.read(block, points_a_block)) {
+            take(block.points);
+            pace.check();
+        }
+    };
+    return las_grid_of(each, all);
 }
 
 }  // namespace treeform::detail::stream

@@ -6,7 +6,15 @@
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/team.hpp>
 
+#include <functional>
+
 namespace treeform::detail::stream {
+
+/// Gives the points of a process to what it is called with, some at a time.
+using pass_of_points = std::function<void(const std::function<void(points_view)>&)>;
+
+/// Those that `round_to_las` chooses for all points, those of each of the team, in two passes or more.
+[[nodiscard]] las_header las_grid_of(const pass_of_points& each, const team& all);
 
 /// Those that `round_to_las` chooses for all points, of which each of the team reads its share twice,
 /// or more often where the first ones have fewer digits than later ones.

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::stream {
@@ -44,6 +45,42 @@ class row_reader {
     record_reader<std::uint64_t> reader_;
     std::size_t width_;
     std::span<const std::uint64_t> left_{};
+};
+
+/// The rows of several files, one file after the other.
+class row_chain {
+  public:
+    struct file {
+        std::filesystem::path path{};
+        record_count count{};  ///< of numbers
+        share some{};          ///< of its rows; others are left out
+    };
+    row_chain(std::vector<file> files, std::size_t width, std::size_t bytes)
+        : files_(std::move(files)), width_(width), bytes_(bytes) {
+        open_next();
+    }
+
+    [[nodiscard]] bool empty() const { return !reader_ || reader_->empty(); }
+    /// \pre not empty
+    [[nodiscard]] numbers front() const { return reader_->front(); }
+    void pop() {
+        reader_->pop();
+        open_next();
+    }
+
+  private:
+    void open_next() {
+        for (; empty() && next_ < files_.size(); ++next_) {
+            const file& f = files_[next_];
+            reader_.emplace(f.path, f.count, width_, bytes_, f.some);
+        }
+    }
+
+    std::vector<file> files_;
+    std::size_t width_;
+    std::size_t bytes_;
+    std::size_t next_ = 0;
+    std::optional<row_reader> reader_{};
 };
 
 /// The rows of several files, each ascending by its first `keys` numbers, as one such file; of

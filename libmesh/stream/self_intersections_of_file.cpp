@@ -26,7 +26,7 @@ struct stream_search::state {
     state(const fs::path& input, const stream_search_options& options)
         : pace(options.progress),
           folder(folder_of(input, options), "search", work_folder::use::shared),
-          search(pace, folder, input, options) {}
+          search(pace, folder, lone, input, options) {}
 
     /// Where the work is cancelled, says so.
     template <class Work>
@@ -39,6 +39,7 @@ struct stream_search::state {
         return status::ok;
     }
 
+    detail::stream::team lone{process_team{}};
     detail::stream::pacer pace;
     work_folder folder;
     detail::stream::tile_search search;
@@ -104,14 +105,10 @@ stream_search_result self_intersections_of_file(const fs::path& input,
     work_folder folder(folder_of(input, options), "search",
                        all.leads() ? work_folder::use::alone : work_folder::use::member);
     if (all.leads()) all.meet();
-    detail::stream::tile_search search(pace, folder, input, options);
+    detail::stream::tile_search search(pace, folder, all, input, options);
     stream_search_result result;
     try {
-        if (all.leads()) search.scatter();
-        all.meet();
-        const bool known = search.is_known();
-        all.meet();  // a tile that is finished has no faces any more
-        if (!known) folder.fail_without_tiles();
+        search.scatter();
         for (std::size_t t = all.rank(); t < search.tiles(); t += all.size()) {
             search.search(t, t, search.tiles());
             search.drop_faces(t);

@@ -41,6 +41,14 @@ class team {
         return {begin(rank), begin(rank + 1)};
     }
 
+    /// Whose share has thing `i` of `count`.
+    [[nodiscard]] std::size_t owner_of(std::uint64_t i, std::uint64_t count) const {
+        const std::uint64_t each = count / size();
+        const std::uint64_t larger = count % size() * (each + 1);  // things in shares of one more
+        return static_cast<std::size_t>(i < larger ? i / (each + 1)
+                                                   : count % size() + (i - larger) / each);
+    }
+
     /// Tells all, and returns what each has told. All come here, or none goes on.
     [[nodiscard]] std::vector<state_reader> exchange(const state_writer& mine) const {
         std::vector<state_reader> told;
@@ -52,6 +60,12 @@ class team {
     }
     /// Goes on when all are here.
     void meet() const { static_cast<void>(exchange({})); }
+    [[nodiscard]] double most(double mine) const {
+        state_writer told;
+        told.real(mine);
+        for (state_reader& one : exchange(told)) mine = std::max(mine, one.real());
+        return mine;
+    }
     [[nodiscard]] std::uint64_t sum(std::uint64_t mine) const {
         state_writer told;
         told.number(mine);

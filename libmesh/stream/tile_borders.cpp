@@ -183,13 +183,13 @@ tiles_welded tile_steps::weld_borders() {
     if (kept.shares_a_drop(followed))
         throw std::logic_error("a point belongs to one that was dropped");
     sum_up(w, kept, followed, longest);
-    w.kept = has_order() && w.points.size() > 0 ? number_kept(kept) : std::move(kept);
+    w.kept = has_order() ? number_kept_by_all(w.points, kept) : std::move(kept);
     if (task_.options.keep != weld_keep::first) w.followed.emplace(std::move(followed));
     step_done();
     return w;
 }
 
-/// Others need the first of a team for all that is not done in the order of the files.
+/// By rank, and by number; the first of a team of all where others read nothing.
 share tile_steps::told_to(std::size_t rank) const {
     const std::uint64_t count = survey_.cloud.points;
     if (is_divided()) return team_.share_of(count, rank);
@@ -244,12 +244,13 @@ void tile_steps::tell(tiles_welded& w, kept_points& followed) const {
 }
 
 void tile_steps::follow(const tiles_welded& w, kept_points& kept, kept_points& followed) const {
+    const bool has_all = w.points.size() == survey_.cloud.points;
     for (const tiles_welded::file& from : w.drops) {
         record_reader<tile_drop> reader(from.path, from.count, piece);
         for (auto drops = reader.next(); !drops.empty(); drops = reader.next()) {
             for (const tile_drop& d : drops) {
                 kept.drop(d.id);
-                if (team_.is_alone()) followed.drop(w.border.leader_of(d.leader));
+                if (has_all) followed.drop(w.border.leader_of(d.leader));
             }
             pace_.check();
         }
@@ -280,16 +281,10 @@ void tile_steps::tell_first(tiles_welded& w) const {
     w.kept = kept_points(w.points.size(), w.points.first);
     if (!team_.leads()) return;
     for (const auto& from : w.told) w.drops.insert(w.drops.end(), from.begin(), from.end());
-    kept_points ignored(0);
-    follow(w, w.kept, ignored);
-}
-
-kept_points tile_steps::number_kept(const kept_points& by_rank) const {
-    kept_points kept(survey_.cloud.points);
-    std::uint64_t rank = 0;
-    for (row_reader all = numbers_by_rank(); !all.empty(); all.pop(), ++rank)
-        if (!by_rank.keeps(rank)) kept.drop(all.front()[0]);
-    return kept;
+    kept_points followed = w.kept;
+    follow(w, w.kept, followed);
+    if (w.followed) w.followed.emplace(std::move(followed));
+    if (has_order()) w.kept = number_kept(w.kept);
 }
 
 row_reader tile_steps::border_rows(const std::filesystem::path& path,
@@ -303,42 +298,6 @@ row_merge tile_steps::sorted_drops(const std::vector<tiles_welded::file>& files)
         readers.emplace_back(f.path, record_count{2 * f.count.records, f.count.digest}, 2,
                              bytes_per_reader());
     return {std::move(readers), 1};
-}
-
-tile_steps::leaders::leaders(const tile_steps& steps, const tiles_welded& welded)
-    : border_(welded.border) {
-    drops_.emplace(steps.sorted_drops(welded.drops));
-    if (steps.has_order()) number(steps, *drops_);
-}
-
-/// From the ranks of points and of their leaders to the numbers of both: by way of the leaders'.
-void tile_steps::leaders::number(const tile_steps& s, row_merge& ranks) {
-    row_sorter by_leader(s.folder_, "leaders", {.width = 2, .keys = 2}, s.sorting_memory());
-    sorter_ =
-        std::make_unique<row_sorter>(s.folder_, "led", row_sorter::shape{2, 1}, s.sorting_memory());
-    std::uint64_t rank = 0;
-    for (row_reader all = s.numbers_by_rank(); !ranks.empty(); all.pop(), ++rank) {
-        std::optional<std::uint64_t> leader;
-        for (; !ranks.empty() && ranks.front()[0] == rank; ranks.pop())
-            leader = border_.leader_of(ranks.front()[1]);
-        if (leader) by_leader.put(std::array{*leader, all.front()[0]});
-        if (rank % records_a_check == 0) s.pace_.check();
-    }
-    rank = 0;
-    row_reader all = s.numbers_by_rank();
-    for (row_merge led = by_leader.sorted(); !led.empty(); led.pop()) {
-        for (; rank < led.front()[0]; ++rank) all.pop();
-        sorter_->put(std::array{led.front()[1], all.front()[0]});
-    }
-    is_by_number_ = true;
-    drops_.emplace(sorter_->sorted());
-}
-
-std::uint64_t tile_steps::leaders::of(std::uint64_t point) {
-    std::uint64_t leader = point;
-    for (; !drops_->empty() && drops_->front()[0] == point; drops_->pop())
-        leader = drops_->front()[1];
-    return is_by_number_ ? leader : border_.leader_of(leader);
 }
 
 }  // namespace treeform::detail::stream

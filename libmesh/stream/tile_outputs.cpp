@@ -1,4 +1,8 @@
 #include <libmesh/io/las_plan.hpp>
+#include <libmesh/stream/joined_parts.hpp>
+#include <libmesh/stream/las_grid.hpp>
+#include <libmesh/stream/leading_points.hpp>
+#include <libmesh/stream/new_numbers.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/tile_outputs.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -21,19 +25,6 @@ bool is_special(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     return fs::exists(status) && !fs::is_regular_file(status);
-}
-
-/// Copies bytes from one file into another, which is there.
-void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, std::uint64_t at,
-                std::uint64_t count) {
-    std::vector<std::byte> some(piece);
-    for (std::uint64_t done = 0; done < count;) {
-        const std::span<std::byte> block = std::span(some).first(
-            static_cast<std::size_t>(std::min<std::uint64_t>(piece, count - done)));
-        if (read_from(from, first + done, block) != block.size()) fail_damaged(from);
-        write_to(to, at + done, block);
-        done += block.size();
-    }
 }
 
 /// Rows of a block on their way to a file of points.
@@ -61,13 +52,31 @@ class points_out {
         some_.points.clear();
         for (const std::uint32_t row : rows) some_.points.push_back(block.points[row]);
         some_.properties = gather(block.properties, rows);
+        if (leading_) leading_->take_off(some_);
         writer_.write(some_);
     }
-    void write(const point_block& block) { writer_.write(block); }
+    void write(const point_block& block) {
+        if (!leading_) return writer_.write(block);
+        some_ = block;
+        leading_->take_off(some_);
+        writer_.write(some_);
+    }
+    /// The process has `mine` of the points. All come here.
+    void start_part(const work_folder& folder, const mesh_file& header, const std::string& name,
+                    std::uint64_t mine) {
+        const std::uint64_t together = writer_.points_together();
+        if (all_ != nullptr && together > 1)
+            leading_.emplace(folder, *all_, "leading." + name, header, mine, together);
+    }
     write_result commit() {
         if (all_ == nullptr) return writer_.commit();
+        if (leading_) leading_->give([&](const point_block& block) { writer_.write(block); });
+        state_writer chunks;
+        chunks.text(writer_.tell_part());
+        std::vector<std::string> parts;
+        for (state_reader& one : all_->exchange(chunks)) parts.push_back(one.text());
         write_result result;
-        const point_writer::part part = writer_.commit_part(result);
+        const point_writer::part part = writer_.commit_part(result, parts);
         std::string head(static_cast<std::size_t>(part.head), '\0');
         if (read_from(path_, 0, std::as_writable_bytes(std::span(head))) != head.size())
             fail_damaged(path_);
@@ -109,12 +118,15 @@ class points_out {
     fs::path path_;
     const team* all_;
     point_writer writer_;
+    std::optional<leading_points> leading_{};
     point_block some_{};
 };
 
 /// Rows on their way to a file, of which something has to be known before it is begun.
 class output_look {
   public:
+    explicit output_look(std::function<void(points_view)> take = {}) : take_(std::move(take)) {}
+
     void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
         point_block some;
         for (const std::uint32_t row : rows) some.points.push_back(block.points[row]);
@@ -122,6 +134,7 @@ class output_look {
         write(some);
     }
     void write(const point_block& block) {
+        if (take_) take_(block.points);
         single_ = single_ && fits_single(block.points);
         extended_ = extended_ || io::has_extended_values(block.properties);
     }
@@ -135,6 +148,7 @@ class output_look {
     }
 
   private:
+    std::function<void(points_view)> take_;
     bool single_ = true;
     bool extended_ = false;
 };
@@ -156,33 +170,43 @@ class giving_back {
           head_(steps.source().header()) {
         head_.stored_as = survey_.single ? precision::float32 : precision::float64;
         is_divided_ = may_divide();
-        if (!is_divided_) steps.tell_first(welded);
-        if (!is_divided_ && !all_.leads()) return;
-        if (asked_.map || !asked_.label.empty()) welded_.kept.number();
+        if (is_divided_) return;
+        steps.tell_first(welded);
+        if (rows != nullptr) rows->tell_first(welded);
     }
 
     [[nodiscard]] weld_stream_written run() {
-        const bool asked = asked_.welded || asked_.removed || asked_.map;
+        const bool asked = asked_.welded || asked_.removed || wants_map();
         if (!asked || (!is_divided_ && !all_.leads())) return {};
         add_columns();
         if (task_.options.as_las) look_at_outputs();
+        if (asked_.removed && !removed_head_.las && is_las(*asked_.removed)) look_at_removed();
         open_files();
         give_all();
         return std::move(written_);
     }
 
   private:
-    /// Whether each of a team writes what it is told of. Not where a number of a group is asked for,
-    /// which depends on all points before it.
+    /// Whether each of a team writes what it is told of.
     [[nodiscard]] bool may_divide() const {
+        const element* const vertices = find_element(head_.attributes, "vertex");
+        const bool has_lists =
+            vertices != nullptr && std::ranges::any_of(vertices->columns, [](const column& c) {
+                return c.list_length.has_value();
+            });
         const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
-            return !to ||
-                   (to->path != "-" && !is_special(to->path) &&
-                    point_writer(part("none"), head_, 0, points_out::options_of(*to)).has_parts());
+            if (!to) return true;
+            if (to->path == "-" || is_special(to->path)) return false;
+            mesh_file head = head_;
+            if (!head.las) head.las.emplace();
+            const point_writer writer(part("none"), head, 0, points_out::options_of(*to));
+            return writer.has_parts() && !(has_lists && writer.points_together() > 1);
         };
-        return !all_.is_alone() && steps_.is_divided() && !asked_.map && asked_.label.empty() &&
-               has_parts(asked_.welded) && has_parts(asked_.removed);
+        return !all_.is_alone() && steps_.is_divided() && !asked_.map && has_parts(asked_.welded) &&
+               has_parts(asked_.removed);
     }
+    [[nodiscard]] bool wants_map() const { return asked_.map || !asked_.map_path.empty(); }
+    [[nodiscard]] bool wants_numbers() const { return wants_map() || !asked_.label.empty(); }
     [[nodiscard]] fs::path part(const char* name) const {
         return work_.file(name + ("." + std::to_string(all_.rank())));
     }
@@ -193,12 +217,20 @@ class giving_back {
     void open_files() {
         const std::uint64_t dropped = welded_.dropped;
         const team* const parts = is_divided_ ? &all_ : nullptr;
-        if (asked_.removed)
+        if (!asked_.map_path.empty()) map_.emplace(asked_.map_path, parts, part("map"));
+        const std::uint64_t mine = welded_.points.size();
+        if (asked_.removed) {
             removed_.emplace(*asked_.removed, removed_head_, dropped, parts, part("removed"));
+            removed_->start_part(work_, removed_head_, "removed",
+                                 rows_ != nullptr ? rows_->dropped() : welded_.kept.dropped());
+        }
         if (asked_.welded)
             result_.emplace(*asked_.welded, head_,
                             drops_nothing() ? survey_.points : survey_.points - dropped, parts,
                             part("welded"));
+        if (result_)
+            result_->start_part(work_, head_, "welded",
+                                drops_nothing() ? mine : mine - welded_.kept.dropped());
     }
 
     /// What the outputs have that the input has not.
@@ -233,7 +265,8 @@ class giving_back {
         const share& mine = welded_.points;
         source.rewind(is_divided_ ? mine : share{});
         if (rows_ != nullptr) rows_->rewind();
-        if (asked_.map || !asked_.label.empty()) leaders_.emplace(steps_, welded_);
+        if (wants_numbers())
+            numbers_.emplace(pace_, work_, is_divided_ ? all_ : lone_, steps_, welded_);
         first_ = mine.first;
         given_ = 0;
         point_block block;
@@ -274,22 +307,46 @@ class giving_back {
         removed.tell(removed_head_);
     }
 
+    [[nodiscard]] static bool is_las(const weld_stream_outputs::file& to) {
+        const std::string format = points_out::options_of(to).format;
+        return format == "las" || format == "laz";
+    }
+
+    /// The steps of LAS that hold the dropped points, where no other file has any.
+    void look_at_removed() {
+        const team& all = is_divided_ ? all_ : lone_;
+        output_look seen;
+        const auto each = [&](const std::function<void(points_view)>& take) {
+            seen = output_look(take);
+            each_block([&](point_block& block) {
+                give(block, static_cast<output_look*>(nullptr), &seen);
+                pace_.check();
+            });
+        };
+        removed_head_.las = las_grid_of(each, all);
+        seen.share(all);
+        seen.tell(removed_head_);
+    }
+
     void give_all() {
         const share& mine = welded_.points;
         each_block([&](point_block& block) {
             give(block, result_ ? &*result_ : nullptr, removed_ ? &*removed_ : nullptr);
             if (asked_.map) asked_.map(groups_);
+            if (map_) map_->write(asked_.map_text(first_, groups_));
             pace_.show("write", static_cast<double>(first_ - mine.first + block.points.size()) /
                                     static_cast<double>(mine.size()));
         });
         steps_.step_done();
         if (removed_) written_.removed = removed_->commit();
         if (result_) written_.welded = result_->commit();
+        if (map_) map_->commit();
+        if (is_divided_) written_.las_moved = all_.most(written_.las_moved);
     }
 
     template <class Out>
     void give(point_block& block, Out* welded, Out* removed) {
-        if (leaders_) number(block.points.size());
+        if (numbers_) number(block.points.size());
         kept_.clear();
         gone_.clear();
         for (std::uint32_t row = 0; row < block.points.size(); ++row) {
@@ -342,8 +399,7 @@ class giving_back {
     /// The groups of the points of a block.
     void number(std::size_t count) {
         groups_.resize(count);
-        for (std::size_t row = 0; row < count; ++row)
-            groups_[row] = welded_.kept.number_of(leaders_->of(first_ + row));
+        for (std::size_t row = 0; row < count; ++row) groups_[row] = numbers_->of(first_ + row);
     }
 
     pacer& pace_;
@@ -360,7 +416,9 @@ class giving_back {
     weld_stream_written written_{};
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};
-    std::optional<tile_steps::leaders> leaders_{};
+    std::optional<text_out> map_{};
+    std::optional<new_numbers> numbers_{};
+    const team lone_{process_team{}};
     bool is_divided_ = false;
     std::uint64_t first_ = 0;  ///< number of the block's first point
     std::uint64_t given_ = 0;

@@ -1,6 +1,7 @@
 #include <libmesh/base/add_to_box.hpp>
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
+#include <libmesh/stream/point_places.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -21,23 +22,27 @@ constexpr std::uint64_t bytes_a_face = 250;                    // that `search` 
 constexpr std::uint64_t base_bytes = std::uint64_t{48} << 20;  // the program, threads and code
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
-io::face_rows open_faces(const io::source& in, const std::filesystem::path& path,
-                         const std::string& format, const work_folder& folder,
-                         std::uint64_t memory) {
+/// `make_store` as for PLY.
+io::face_rows open_faces(
+    const io::source& in, const std::filesystem::path& path, const std::string& format,
+    const std::function<std::unique_ptr<io::point_store>(std::size_t)>& make_store,
+    const io::file_part& part) {
     const auto found = io::detect(in, io::plain_extension(format), io::extension_of(path));
-    if (found.kind == io::file_kind::stl_binary) return io::open_stl_faces(in);
-    if (found.kind == io::file_kind::ply) {
-        const auto make_scratch = [&](std::size_t bytes) {
-            try {
-                return std::make_unique<io::scratch>(bytes, io::scratch_place::file, in.name(),
-                                                     folder.path());
-            } catch (const io_error& error) {  // not of the input
-                throw stream_error(stream_error::reason::write, folder.path(), error.what());
-            }
-        };
-        return io::open_ply_faces(in, make_scratch, memory);
-    }
+    if (found.kind == io::file_kind::stl_binary) return io::open_stl_faces(in, part);
+    if (found.kind == io::file_kind::ply) return io::open_ply_faces(in, make_store, part);
     in.fail("only binary STL and PLY are searched in tiles");
+}
+
+std::unique_ptr<io::point_store> place_for(std::size_t points, const io::source& in,
+                                           const work_folder& folder, std::uint64_t memory) {
+    try {
+        return std::make_unique<placed_points>(
+            std::make_unique<io::scratch>(points * sizeof(point3), io::scratch_place::file,
+                                          in.name(), folder.path()),
+            memory);
+    } catch (const io_error& error) {  // not of the input
+        throw stream_error(stream_error::reason::write, folder.path(), error.what());
+    }
 }
 
 template <class Real>
@@ -116,9 +121,13 @@ void add_counts(self_intersection_result& sum, const self_intersection_result& o
 
 }  // namespace
 
-tile_search::tile_search(pacer& pace, const work_folder& folder, std::filesystem::path input,
-                         stream_search_options options)
-    : pace_(pace), folder_(folder), input_(std::move(input)), options_(std::move(options)) {
+tile_search::tile_search(pacer& pace, const work_folder& folder, const team& of,
+                         std::filesystem::path input, stream_search_options options)
+    : pace_(pace),
+      folder_(folder),
+      all_(of),
+      input_(std::move(input)),
+      options_(std::move(options)) {
     const std::uint64_t all = options_.memory == 0 ? default_memory() : options_.memory;
     memory_ = all - std::min(base_bytes, all / 2);
 }
@@ -127,36 +136,64 @@ std::filesystem::path tile_search::file(std::size_t tile, const char* what) cons
     return folder_.file(std::to_string(tile) + what);
 }
 
+std::filesystem::path tile_search::faces_file(std::size_t tile, std::size_t part) const {
+    return file(tile, ".faces").string() + (part == 0 ? "" : "." + std::to_string(part));
+}
+
+void tile_search::drop_faces(std::size_t tile) const {
+    for (std::size_t r = 0; r < faces_[tile].size(); ++r)
+        std::filesystem::remove(faces_file(tile, r));
+}
+
 /// With room for tiles that are larger than the sample said, and some tiles for each of a team.
 std::size_t tile_search::tile_count(std::uint64_t faces) const {
     std::uint64_t most = options_.faces_per_tile;
     if (most == 0) {
         most = memory_ / 3 * 2 / bytes_a_face;
-        if (options_.team.size > 1) most = std::min(most, faces / (8 * options_.team.size));
+        if (!all_.is_alone()) most = std::min(most, faces / (8 * all_.size()));
         most = std::max<std::uint64_t>(most, 1000);
     }
     return static_cast<std::size_t>(faces / most + 1);
 }
 
 void tile_search::scatter() {
-    if (is_known()) return;
-    survey_.started_anew = has_plan();
-    folder_.clear();
+    const bool had_plan = has_plan();
+    if (all_.sum(is_known() ? 0 : 1) == 0) return;
+    forget_tiles();
+    if (all_.leads()) folder_.clear();
+    all_.meet();
     try {
-        give_tiles();
+        if (!give_tiles(false)) static_cast<void>(give_tiles(true));
+        survey_.started_anew = had_plan;
         check_memory();
-        store_plan();
+        if (all_.leads()) store_plan();
+        all_.meet();
     } catch (...) {  // half of the faces are of no use
-        faces_.clear();
-        folder_.clear();
+        forget_tiles();
+        if (all_.leads()) folder_.clear();
         throw;
     }
     if (options_.step_done) options_.step_done();
 }
 
-void tile_search::give_tiles() {
+void tile_search::forget_tiles() {
+    survey_ = {};
+    bounds_known_ = false;
+    cells_.reset();
+    faces_.clear();
+    firsts_.clear();
+}
+
+bool tile_search::give_tiles(bool from_front) {
+    forget_tiles();
     const io::source in = io::source::open(input_, io::scratch_place::file);
-    io::face_rows rows = open_faces(in, input_, options_.format, folder_, memory_ / 4);
+    const auto make_store = [&](std::size_t points) -> std::unique_ptr<io::point_store> {
+        if (all_.is_alone()) return place_for(points, in, folder_, memory_ / 4);
+        return std::make_unique<shared_points>(folder_, all_, points, memory_ / 4);
+    };
+    io::face_rows rows =
+        open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size(), from_front});
+    share_head(rows);
     vertices_ = options_.vertices.value_or(rows.head.indexed ? vertex_identity::by_index
                                                              : vertex_identity::by_coordinates);
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
@@ -168,17 +205,81 @@ void tile_search::give_tiles() {
     bounds_known_ = rows.bounds.has_value();
     survey_.stored_faces = rows.stored_faces;
     cells_.emplace(std::move(rows.sample), tile_count(rows.stored_faces));
-    if (rows.head.stored_as == precision::float32)
-        give_all<float>(rows);
-    else
-        give_all<double>(rows);
+    bool failed = false;
+    try {
+        if (rows.head.stored_as == precision::float32)
+            give_all<float>(rows);
+        else
+            give_all<double>(rows);
+    } catch (const io_error&) {
+        if (!rows.jumped) throw;
+        failed = true;
+    }
     survey_.header = std::move(rows.head);
+    const bool done = share_counts(failed);
+    shared_points::remove(folder_, all_.rank());
+    return done;
+}
+
+/// What all have found ahead of the faces. When all are here, all points are where they are looked
+/// for.
+void tile_search::share_head(io::face_rows& rows) const {
+    state_writer mine;
+    mine.number(rows.head.stored_as == precision::float64 ? 1 : 0);
+    store_box(rows.bounds, mine);
+    mine.number(rows.sample.size());
+    for (const point3& p : rows.sample) mine.point(p);
+    rows.sample.clear();
+    for (state_reader& one : all_.exchange(mine)) {
+        if (one.number() != 0) rows.head.stored_as = precision::float64;
+        base::add_to_box(rows.bounds, load_box(one));
+        for (std::uint64_t left = one.number(); left > 0; --left)
+            rows.sample.push_back(one.point());
+    }
+}
+
+/// Sums up what all have given to the tiles, and what is to be told of all faces. Returns false where
+/// one has failed.
+bool tile_search::share_counts(bool failed) {
+    state_writer mine;
+    mine.number(failed ? 1 : 0);
+    store_search(survey_, mine);
+    for (std::size_t t = 0; t < cells_->size(); ++t)
+        store_count(failed ? record_count{} : faces_[t].front(), mine);
+    faces_.assign(cells_->size(), {});
+    std::uint64_t triangles = 0;
+    std::uint64_t searched = 0;
+    usable_mesh part;
+    for (state_reader& one : all_.exchange(mine)) {
+        failed = one.number() != 0 || failed;
+        stream_search_result given = load_search(one);
+        firsts_.push_back(triangles);
+        triangles += given.triangles;
+        searched += given.searched;
+        part.dropped += given.part.dropped;
+        part.degenerate += given.part.degenerate;
+        base::add_to_box(survey_.bounds, given.bounds);
+        survey_.header.warnings = std::move(given.header.warnings);  // the last one has them all
+        for (auto& tile : faces_) tile.push_back(load_count(one));
+    }
+    survey_.triangles = triangles;
+    survey_.searched = searched;
+    survey_.part.dropped = part.dropped;
+    survey_.part.degenerate = part.degenerate;
+    if (triangles > std::numeric_limits<std::uint32_t>::max())
+        throw std::length_error(
+            "treeform::self_intersections_of_file: more than 2^32 - 1 triangles");
+    return !failed;
 }
 
 /// Faces that no cut parts, for they are at one place or reach across all, must fit.
 void tile_search::check_memory() const {
     std::uint64_t most = 0;
-    for (const record_count& c : faces_) most = std::max(most, c.records);
+    for (const auto& tile : faces_) {
+        std::uint64_t sum = 0;
+        for (const record_count& c : tile) sum += c.records;
+        most = std::max(most, sum);
+    }
     const std::uint64_t needed = base_bytes + most * bytes_a_face;
     if (most * bytes_a_face <= memory_) return;
     throw stream_error(stream_error::reason::memory, folder_.path(),
@@ -194,9 +295,11 @@ void tile_search::give_all(io::face_rows& rows) {
         std::min<std::uint64_t>(memory_ / 4 / cells_->size(), std::uint64_t{4} << 20);
     std::vector<record_writer<record>> tiles;
     tiles.reserve(cells_->size());
-    for (std::size_t t = 0; t < cells_->size(); ++t) tiles.emplace_back(file(t, ".faces"), held);
+    for (std::size_t t = 0; t < cells_->size(); ++t)
+        tiles.emplace_back(faces_file(t, all_.rank()), held);
     std::vector<io::placed_triangle> block;
     std::vector<std::uint32_t> searched;
+    const std::uint64_t expected = survey_.stored_faces / all_.size() + 1;
     while (rows.append(block, triangles_a_block, rows.head.warnings)) {
         look_at(block, searched);
         for (const std::uint32_t i : searched) {
@@ -209,11 +312,10 @@ void tile_search::give_all(io::face_rows& rows) {
             throw std::length_error(
                 "treeform::self_intersections_of_file: more than 2^32 - 1 triangles");
         block.clear();
-        pace_.show("scatter",
-                   static_cast<double>(survey_.triangles) /
-                       static_cast<double>(std::max(survey_.triangles, survey_.stored_faces)));
+        pace_.show("scatter", static_cast<double>(survey_.triangles) /
+                                  static_cast<double>(std::max(survey_.triangles, expected)));
     }
-    for (record_writer<record>& tile : tiles) faces_.push_back(tile.finish());
+    for (record_writer<record>& tile : tiles) faces_.push_back({tile.finish()});
 }
 
 /// Counts what is to be told of all faces, and lists those of the block that are searched.
@@ -255,9 +357,22 @@ void tile_search::search(std::size_t tile, std::size_t part, std::size_t of) {
     if (options_.step_done) options_.step_done();
 }
 
+/// In the order of the file.
+template <class Real>
+std::vector<tile_face<Real>> tile_search::faces_of(std::size_t tile) const {
+    std::vector<tile_face<Real>> faces;
+    for (std::size_t r = 0; r < faces_[tile].size(); ++r) {
+        const auto some = all_of<tile_face<Real>>(faces_file(tile, r), faces_[tile][r]);
+        faces.insert(faces.end(), some.begin(), some.end());
+        for (auto f = faces.end() - std::ssize(some); f != faces.end(); ++f)
+            f->triangle += static_cast<std::uint32_t>(firsts_[r]);
+    }
+    return faces;
+}
+
 template <class Real>
 void tile_search::search_as(std::size_t tile) {
-    const auto faces = all_of<tile_face<Real>>(file(tile, ".faces"), faces_[tile]);
+    const auto faces = faces_of<Real>(tile);
     const mesh m = mesh_of(faces, vertices_);
     const auto watch = [this](double) {
         try {

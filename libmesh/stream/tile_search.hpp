@@ -7,6 +7,7 @@
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/space_cells.hpp>
+#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
@@ -46,12 +47,19 @@ struct tile_found {
     self_intersection_result counted{};  ///< without pairs
 };
 
+/// For what is stored, and what a team tells.
+void store_box(const std::optional<box3>& box, state_writer& state);
+[[nodiscard]] std::optional<box3> load_box(state_reader& state);
+void store_search(const stream_search_result& s, state_writer& state);
+[[nodiscard]] stream_search_result load_search(state_reader& state);
+
 class tile_search {
   public:
-    tile_search(pacer& pace, const work_folder& folder, std::filesystem::path input,
+    tile_search(pacer& pace, const work_folder& folder, const team& of, std::filesystem::path input,
                 stream_search_options options);
 
-    /// Gives each tile its faces, or knows from an earlier run that they have them.
+    /// Gives each tile its faces, or knows from an earlier run that they have them. Of a team, each
+    /// gives those of its part of the file.
     /// \throws io_error, stream_error, cancelled
     void scatter();
     /// Whether `scatter` has been done, here or elsewhere.
@@ -64,12 +72,13 @@ class tile_search {
     /// `part` and `of` are for the progress. \throws std::out_of_range, stream_error, cancelled
     void search(std::size_t tile, std::size_t part, std::size_t of);
     /// The faces of a finished tile are needed no more.
-    void drop_faces(std::size_t tile) const { std::filesystem::remove(file(tile, ".faces")); }
+    void drop_faces(std::size_t tile) const;
     /// Puts together what was found. \throws stream_error naming the tiles that are not finished
     [[nodiscard]] stream_search_result finish();
 
   private:
     [[nodiscard]] std::filesystem::path file(std::size_t tile, const char* what) const;
+    [[nodiscard]] std::filesystem::path faces_file(std::size_t tile, std::size_t part) const;
 
     [[nodiscard]] std::string identity() const;
     void store_plan() const;
@@ -80,17 +89,25 @@ class tile_search {
     void store(std::size_t tile, const tile_found& found) const;
 
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
+    /// Returns false where faces are not as was taken for granted, which makes no difference with
+    /// `from_front`.
+    [[nodiscard]] bool give_tiles(bool from_front);
     template <class Real>
     void give_all(io::face_rows& rows);
-    void give_tiles();
+    void share_head(io::face_rows& rows) const;
+    [[nodiscard]] bool share_counts(bool failed);
+    void forget_tiles();
     void check_memory() const;
     void look_at(const std::vector<io::placed_triangle>& block,
                  std::vector<std::uint32_t>& searched);
+    template <class Real>
+    [[nodiscard]] std::vector<tile_face<Real>> faces_of(std::size_t tile) const;
     template <class Real>
     void search_as(std::size_t tile);
 
     pacer& pace_;
     const work_folder& folder_;
+    const team& all_;
     std::filesystem::path input_;
     stream_search_options options_;
     std::uint64_t memory_;  ///< what is left for faces
@@ -98,7 +115,8 @@ class tile_search {
     bool bounds_known_ = false;
     vertex_identity vertices_{};
     std::optional<space_cells> cells_{};
-    std::vector<record_count> faces_{};  ///< of each tile
+    std::vector<std::vector<record_count>> faces_{};  ///< of each tile, that each of a team gave it
+    std::vector<std::uint64_t> firsts_{};             ///< triangle of each of the team
 };
 
 }  // namespace treeform::detail::stream

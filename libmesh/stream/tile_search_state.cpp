@@ -32,13 +32,24 @@ void each_counter(Counters& c, const Visit& visit) {
     for (auto& n : c.predicates.by_width) visit(n);
 }
 
+}  // namespace
+
+void store_box(const std::optional<box3>& box, state_writer& state) {
+    state.number(box ? 1 : 0);
+    if (!box) return;
+    state.point(box->min);
+    state.point(box->max);
+}
+
+std::optional<box3> load_box(state_reader& state) {
+    if (state.number() == 0) return std::nullopt;
+    const point3 min = state.point();
+    return box3{min, state.point()};
+}
+
 void store_search(const stream_search_result& s, state_writer& state) {
     each_number(s, [&](std::uint64_t n) { state.number(n); });
-    state.number(s.bounds ? 1 : 0);
-    if (s.bounds) {
-        state.point(s.bounds->min);
-        state.point(s.bounds->max);
-    }
+    store_box(s.bounds, state);
     state.text(s.header.format);
     state.number(static_cast<std::uint64_t>(s.header.stored_as));
     state.number(s.header.indexed ? 1 : 0);
@@ -52,10 +63,7 @@ void store_search(const stream_search_result& s, state_writer& state) {
 stream_search_result load_search(state_reader& state) {
     stream_search_result s;
     each_number(s, [&](std::uint64_t& n) { n = state.number(); });
-    if (state.number() != 0) {
-        const point3 min = state.point();
-        s.bounds = {min, state.point()};
-    }
+    s.bounds = load_box(state);
     s.header.format = state.text();
     s.header.stored_as = static_cast<precision>(state.number());
     s.header.indexed = state.number() != 0;
@@ -66,8 +74,6 @@ stream_search_result load_search(state_reader& state) {
     }
     return s;
 }
-
-}  // namespace
 
 std::string tile_search::identity() const {
     state_writer state;
@@ -84,11 +90,7 @@ std::string tile_search::identity() const {
     state.number(o.vertices ? 1 + static_cast<std::uint64_t>(*o.vertices) : 0);
     for (std::size_t k = 0; k < pair_kind_count; ++k)
         state.number(o.kinds.contains(static_cast<pair_kind>(k)) ? 1 : 0);
-    state.number(o.box ? 1 : 0);
-    if (o.box) {
-        state.point(o.box->min);
-        state.point(o.box->max);
-    }
+    store_box(o.box, state);
     return state.bytes();
 }
 
@@ -98,7 +100,10 @@ void tile_search::store_plan() const {
     store_search(survey_, state);
     state.number(static_cast<std::uint64_t>(vertices_));
     cells_->store(state);
-    for (const record_count& faces : faces_) store_count(faces, state);
+    state.number(firsts_.size());
+    for (const std::uint64_t first : firsts_) state.number(first);
+    for (const auto& tile : faces_)
+        for (const record_count& part : tile) store_count(part, state);
     folder_.store(search_name, state);
 }
 
@@ -110,22 +115,29 @@ bool tile_search::take_over() {
     stream_search_result survey = load_search(*state);
     const auto vertices = static_cast<vertex_identity>(state->number());
     space_cells cells(*state);
-    std::vector<record_count> faces(cells.size());
-    for (record_count& c : faces) c = load_count(*state);
+    std::vector<std::uint64_t> firsts;
+    for (std::uint64_t left = state->number(); left > 0 && state->whole(); --left)
+        firsts.push_back(state->number());
+    std::vector<std::vector<record_count>> faces(cells.size());
+    for (auto& tile : faces)
+        for (std::size_t r = 0; r < firsts.size(); ++r) tile.push_back(load_count(*state));
     if (!state->whole() || faces.empty()) return false;
     const std::uint64_t bytes = survey.header.stored_as == precision::float32
                                     ? sizeof(tile_face<float>)
                                     : sizeof(tile_face<double>);
     for (std::size_t t = 0; t < cells.size(); ++t) {
-        if (load(t, false))
+        if (load(t, false)) {
             ++survey.finished_tiles;
-        else if (size_of(file(t, ".faces")) != faces[t].records * bytes)
-            return false;
+            continue;
+        }
+        for (std::size_t r = 0; r < firsts.size(); ++r)
+            if (size_of(faces_file(t, r)) != faces[t][r].records * bytes) return false;
     }
     survey_ = std::move(survey);
     vertices_ = vertices;
     cells_ = std::move(cells);
     faces_ = std::move(faces);
+    firsts_ = std::move(firsts);
     return true;
 }
 

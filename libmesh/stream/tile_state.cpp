@@ -105,8 +105,8 @@ void tile_steps::store_plan() const {
     state.text(task_.identity);
     store(survey_, state);
     if (task_.options.as_las) store_grid(*source_.header().las, state);
-    store_count(numbers_, state);
-    store_count(ranks_, state);
+    state.number(numbers_.size());
+    for (const record_count& part : numbers_) store_count(part, state);
     store_cuts(*cuts_, state);
     state.number(team_.size());
     for (const tile& t : tiles_) {
@@ -122,8 +122,9 @@ bool tile_steps::load_plan() {
     survey_ = load_survey(*state);
     if (task_.options.as_las) load_grid(*state, source_);
     set_tolerance();
-    numbers_ = load_count(*state);
-    ranks_ = load_count(*state);
+    numbers_.clear();
+    for (std::uint64_t left = state->number(); left > 0 && state->whole(); --left)
+        numbers_.push_back(load_count(*state));
     cuts_ = load_cuts(*state, tolerance_);
     tiles_.assign(cuts_->size(), {});
     const std::uint64_t parts = state->number();
@@ -160,13 +161,11 @@ void tile_steps::look_at_tiles() {
 /// Of a team, each looks at some tiles.
 bool tile_steps::take_over() {
     bool whole = load_plan();
-    if (whole && has_order() && team_.leads())
-        whole = is_whole<std::uint64_t>(folder_.file(numbers_name), numbers_) &&
-                is_whole<std::uint64_t>(folder_.file(ranks_name), ranks_);
     const std::size_t all = whole ? tiles_.size() : 0;
     state_writer mine;
     for (std::size_t t = team_.rank(); t < all; t += team_.size())
         whole = find_tile(t, true) && whole;
+    whole = has_numbers() && whole;
     mine.number(whole ? 1 : 0);
     for (std::size_t t = team_.rank(); t < all; t += team_.size())
         mine.number(tiles_[t].finished ? 1 : 0);

@@ -173,43 +173,6 @@ void tile_steps::scatter() {
     step_done();
 }
 
-/// The first of a team does it.
-void tile_steps::rank_points() {
-    row_sorter by_key(folder_, "keys", {.width = 2, .keys = 2}, sorting_memory());
-    row_sorter by_number(folder_, "keys.ranks", {.width = 2, .keys = 1}, sorting_memory());
-    source_.rewind(team_.leads() ? share{} : share{0, 0});
-    point_block block;
-    std::vector<std::uint64_t> keys;
-    std::uint64_t id = 0;
-    while (source_.read(block, points_a_block)) {
-        keys_.order_of(block, keys);
-        for (const std::uint64_t key : keys) by_key.put(std::array{key, id++});
-        pace_.show("scatter",
-                   0.4 * static_cast<double>(id) / static_cast<double>(survey_.cloud.points));
-    }
-    state_writer mine;
-    if (team_.leads()) {
-        row_writer by_rank(folder_.file(numbers_name), piece);
-        std::uint64_t rank = 0;
-        for (row_merge all = by_key.sorted(); !all.empty(); all.pop(), ++rank) {
-            by_rank.put(all.front()[1]);
-            by_number.put(std::array{all.front()[1], rank});
-            if (rank % points_a_block == 0) pace_.check();
-        }
-        store_count(by_rank.finish(), mine);
-        row_writer ranks(folder_.file(ranks_name), piece);
-        for (row_merge all = by_number.sorted(); !all.empty(); all.pop()) ranks.put(all.front()[1]);
-        store_count(ranks.finish(), mine);
-    }
-    std::vector<state_reader> told = team_.exchange(mine);
-    numbers_ = load_count(told.front());
-    ranks_ = load_count(told.front());
-}
-
-row_reader tile_steps::numbers_by_rank() const {
-    return {folder_.file(numbers_name), numbers_, 1, piece};
-}
-
 void tile_steps::give_points() {
     const tile_cuts& cuts = *cuts_;
     std::vector<digest> digests(cuts.size());
@@ -224,8 +187,7 @@ void tile_steps::give_points() {
                                     piece, task_.options.memory / 4 / cuts.size())));
     const share mine = read_by(team_.rank());
     std::optional<row_reader> ranks;
-    if (has_order() && mine.size() > 0)
-        ranks.emplace(folder_.file(ranks_name), ranks_, 1, piece, mine);
+    if (has_order()) ranks.emplace(ranks_file(), ranks_, 1, piece);
     point_block block;
     std::vector<std::uint64_t> of_block;
     std::vector<std::uint32_t> halos;
@@ -253,6 +215,7 @@ void tile_steps::give_points() {
                                   static_cast<double>(survey_.cloud.points / team_.size() + 1));
     }
     rows.finish(flush);
+    if (has_order()) std::filesystem::remove(ranks_file());
     for (std::size_t t = 0; t < given.size(); ++t) given[t].digest = digests[t].value();
     share_counts(id - mine.first, given);
 }

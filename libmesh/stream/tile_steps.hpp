@@ -7,6 +7,7 @@
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/point_keys.hpp>
 #include <libmesh/stream/point_survey.hpp>
+#include <libmesh/stream/posted_rows.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/row_file.hpp>
 #include <libmesh/stream/work_folder.hpp>
@@ -85,24 +86,25 @@ class tile_steps {
     /// \throws stream_error naming the tiles that are not finished
     void check_finished();
     [[nodiscard]] tiles_welded weld_borders();
-    /// Whether each of a team is told of its points, in the order of the files.
-    [[nodiscard]] bool is_divided() const {
-        return !has_order() && task_.options.keep == weld_keep::first && source_.count();
-    }
+    /// Whether each of a team reads its points, and is told of them.
+    [[nodiscard]] bool is_divided() const { return source_.count().has_value(); }
     /// Tells the first of a team of all points, and the others of none.
     void tell_first(tiles_welded& w) const;
 
     /// The kept points that points belong to; asked for one by one, from the first on.
     class leaders {
       public:
-        leaders(const tile_steps& steps, const tiles_welded& welded);
+        /// All of `all` come here, each with its points.
+        leaders(const tile_steps& steps, const team& all, const tiles_welded& welded);
+        leaders(const tile_steps& steps, const tiles_welded& welded)
+            : leaders(steps, steps.all(), welded) {}
         [[nodiscard]] std::uint64_t of(std::uint64_t point);
 
       private:
-        void number(const tile_steps& steps, row_merge& ranks);
+        void number(const tile_steps& steps, const team& all, const share& told, row_merge& ranks);
 
         const border_weld& border_;
-        std::unique_ptr<row_sorter> sorter_{};
+        std::unique_ptr<shared_sorter> sorter_{};
         std::optional<row_merge> drops_{};  ///< points and their leaders
         bool is_by_number_ = false;         ///< and not by rank
     };
@@ -168,6 +170,10 @@ class tile_steps {
     void store_tile(std::size_t t) const;
 
     void rank_points();
+    void number_by_rank(row_merge& by_key, std::uint64_t rank);
+    [[nodiscard]] std::filesystem::path numbers_file(std::size_t part) const;
+    [[nodiscard]] std::filesystem::path ranks_file() const;
+    [[nodiscard]] bool has_numbers() const;
     void give_points();
     void share_counts(std::uint64_t read, const std::vector<record_count>& given);
     void weld_tile(std::size_t t);
@@ -185,8 +191,14 @@ class tile_steps {
     void sum_up(tiles_welded& w, const kept_points& kept, const kept_points& followed,
                 longest_move longest) const;
     [[nodiscard]] kept_points number_kept(const kept_points& by_rank) const;
+    [[nodiscard]] kept_points number_kept_by_all(const share& told,
+                                                 const kept_points& by_rank) const;
     [[nodiscard]] share told_to(std::size_t rank) const;
-    [[nodiscard]] row_reader numbers_by_rank() const;
+    [[nodiscard]] std::size_t owner_of(std::uint64_t point) const {
+        return is_divided() ? team_.owner_of(point, survey_.cloud.points) : 0;
+    }
+    /// Of the points with these ranks.
+    [[nodiscard]] row_chain numbers_by_rank(const share& some = {}) const;
     static void put_border(weld::tile_result& result, row_writer& to);
     [[nodiscard]] row_reader border_rows(const std::filesystem::path& path,
                                          const record_count& count) const;
@@ -205,9 +217,9 @@ class tile_steps {
     point_survey survey_{};
     double tolerance_ = 0.0;
     std::optional<tile_cuts> cuts_{};
-    bool scattered_ = false;  ///< the points are in their tiles
-    record_count numbers_{};  ///< of points by rank, where there is an order
-    record_count ranks_{};    ///< of points by number, likewise
+    bool scattered_ = false;               ///< the points are in their tiles
+    std::vector<record_count> numbers_{};  ///< of points by rank, where there is an order
+    record_count ranks_{};  ///< of the points that the process reads, while tiles get their points
     std::vector<tile> tiles_{};
 };
 
@@ -215,10 +227,8 @@ class tile_steps {
 [[nodiscard]] std::array<std::uint64_t, 8> row_of(const border_point& b);
 [[nodiscard]] border_point border_of(numbers row);
 
-inline constexpr const char* numbers_name = "numbers";  ///< the file of points by rank
-inline constexpr const char* ranks_name = "ranks";      ///< and that of ranks by point
-inline constexpr double bytes_of_border = 100.0;        ///< of a point in the border pass, about
-inline constexpr double bytes_of_cube = 200.0;          ///< of a cube in `crowded_chain`, about
+inline constexpr double bytes_of_border = 100.0;  ///< of a point in the border pass, about
+inline constexpr double bytes_of_cube = 200.0;    ///< of a cube in `crowded_chain`, about
 inline constexpr std::size_t piece = std::size_t{1} << 20;  ///< bytes read or written at a time
 
 }  // namespace treeform::detail::stream

@@ -149,6 +149,7 @@ struct stream_weld::state {
 
     detail::stream::tile_task task;
     detail::stream::team all;
+    detail::stream::team lone{process_team{}};
     detail::stream::joined_points source;
     detail::stream::point_keys keys;
     detail::stream::pacer pace;
@@ -209,8 +210,10 @@ status stream_weld::weld() {
             s.steps.weld_tiles();
         }
         s.welded.emplace(s.steps.weld_borders());
-        if (s.task.options.keep != weld_keep::first && s.all.leads())
-            s.rows.emplace(s.pace, s.folder, s.task, s.steps, *s.welded);
+        const bool is_divided = s.steps.is_divided();
+        if (s.task.options.keep != weld_keep::first && (is_divided || s.all.leads()))
+            s.rows.emplace(s.pace, s.folder, is_divided ? s.all : s.lone, s.task, s.steps,
+                           *s.welded);
         s.counts = {survey().points - s.welded->dropped, s.welded->groups,
                     s.welded->max_displacement};
     });

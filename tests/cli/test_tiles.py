@@ -196,7 +196,7 @@ class Tiles(ToolTest):
         self.put_all(heap(40))
         expected = self.look("in.stl")
         work = ["in.stl", "--tile-faces", 30, "--work", "tiles", "--pairs", "pairs.csv", "-f"]
-        for size, step in ((2, 1), (2, 2), (3, 1), (4, 2)):
+        for size, step in ((2, 2), (2, 3), (3, 2), (4, 3)):
             run = self.mpi(size, *work, status=None, last=["--stop-at", step])
             self.assertEqual(run.status, 128 + signal.SIGKILL)
             self.assertIn("tiles", self.listing())

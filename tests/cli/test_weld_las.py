@@ -110,12 +110,23 @@ class Las(WeldTest):
         self.assertEqual(len(las_points(self.read_bytes("out.las"))), 3)
         self.assertIsNotNone(entry["output"]["within_tolerance"])
 
-    def test_what_has_no_steps_yet_is_refused_in_tiles_before_the_work(self):
+    def test_dropped_points_get_steps_of_their_own_in_tiles_as_in_memory(self):
+        rows = "".join(f"{i / 8},{i % 7 * 1e-5},{1e6 + i / 64},{200 if i > 30 else 2}\n"
+                       for i in range(50))
+        self.write("in.csv", ("x,y,z,classification\n" + rows).encode())
+        self.write("in.xyz", "".join(f"{i} 0 {i / 3}\n" for i in range(50)).encode())
+        for name in ("in.csv", "in.xyz"):
+            for t, keep in (("1", "first"), ("0.3", "last"), ("2", "mean"), ("0.01", "first")):
+                for end in ("las", "laz"):
+                    work = [name, "-t", t, "--keep", keep, "-f"]
+                    self.run_tool(*work, "-o", "a.ply", "--removed", "a." + end, status=0)
+                    self.run_tool(*work, "-o", "b.ply", "--removed", "b." + end, "--tile-points",
+                                  10, status=0)
+                    self.assertEqual(self.read_bytes("a." + end), self.read_bytes("b." + end))
+                    self.assertEqual(self.read_bytes("a.ply"), self.read_bytes("b.ply"))
+
+    def test_what_tiles_make_of_las_is_what_memory_makes(self):
         self.write("in.xyz", "".join(f"{i} 0 0\n" for i in range(50)).encode())
-        run = self.run_tool("in.xyz", "-t", "1", "--tile-points", "10", "-o", "out.ply", "--removed",
-                            "gone.laz", status=2)
-        self.assertIn("--removed in LAS, where neither input nor output is, needs the whole", run.err)
-        self.assertEqual(self.listing(), ["in.las", "in.xyz"])
         self.run_tool("in.xyz", "-t", "1", "-o", "out.las", status=0)
         self.run_tool("out.las", "-t", "2", "--tile-points", "10", "-o", "tiles.las", status=0)
         self.run_tool("out.las", "-t", "2", "-o", "whole.las", status=0)

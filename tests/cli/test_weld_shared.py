@@ -205,8 +205,15 @@ class Shared(WeldTest):
                              (["-t", "0.03", "--rule", "chain"], "out.csv"),
                              (["-t", "0.02", "--rule", "chain", "--same", "shade"], "out.pcd"),
                              (["-t", "0.02", "--order", "shade", "--map", "map.csv"], "out.ply"),
+                             (["-t", "0.03", "--order", "max:x", "--rule", "chain",
+                               "--label", "group"], "out.ply"),
                              (["-t", "0.02", "--precision", "float"], "out.ply"),
-                             (["-t", "0.02", "--keep", "mean"], "out.xyz"),
+                             (["-t", "0.02", "--keep", "mean", "--removed", "gone.las"], "out.xyz"),
+                             (["-t", "0.02", "--keep", "max:shade", "--removed", "gone.ply",
+                               "--map", "map.csv"], "out.ply"),
+                             (["-t", "0.03", "--rule", "chain", "--label", "group"], "out.ply"),
+                             (["-t", "0.02", "--order", "y", "--map", "map.bin"], "out.laz"),
+                             (["-t", "0.02", "--keep", "last"], "out.laz"),
                              (["-t", "0.02"], "out.laz"), (["-t", "0.02"], "out.las"),
                              (["-t", "0.02", "--removed", "gone.las"], "out.las"),
                              (["-t", "0.02", "--withhold"], "out.las")):
@@ -216,7 +223,7 @@ class Shared(WeldTest):
                 finite = [p for p in cloud(self.rng, 1500) if p[0] == p[0]]
                 self.run_tool(self.cloud("in.xyz", finite), "-o", given, "-f", status=0)
                 os.remove(self.path("in.xyz"))
-            names = (out, "gone.ply", "gone.las", "map.csv")
+            names = (out, "gone.ply", "gone.las", "map.csv", "map.bin")
             report = self.entry(given, *options, "-o", out, status=0)
             expected = self.written(names)
             sizes.reverse()

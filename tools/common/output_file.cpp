@@ -19,14 +19,6 @@ namespace fs = std::filesystem;
     throw failure(bad_output, "output", path.string() + ": " + why);
 }
 
-/// Whether `path` is a thing to write into rather than a file to make.
-bool written_directly(const fs::path& path) {
-    if (path == "-") return true;
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
-    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
 fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
@@ -48,6 +40,13 @@ bool move_into_place(const fs::path& from, const fs::path& to, bool force) {
 }
 
 }  // namespace
+
+bool written_directly(const fs::path& path) {
+    if (path == "-") return true;
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
 
 void check_output(const fs::path& path, bool force) {
     if (written_directly(path)) return;

@@ -11,6 +11,9 @@
 
 namespace tools {
 
+/// Whether `path` is a thing to write into rather than a file to make: "-", a pipe or a device.
+[[nodiscard]] bool written_directly(const std::filesystem::path& path);
+
 /// \throws failure (bad_output) when `path` exists as a file and `force` is not set, or its folder
 ///         is missing. "-", pipes and devices always pass.
 void check_output(const std::filesystem::path& path, bool force);

@@ -128,7 +128,10 @@ class stream_files {
         const auto add = [&](const fs::path& path, bool force) {
             return leads() ? outputs_.add(path, force) : path;
         };
-        if (!asked_.map.empty()) open_map();
+        if (!asked_.map.empty() && written_directly(asked_.map))
+            open_map();
+        else if (!asked_.map.empty())
+            add_map(add(asked_.map, o.force));
         if (!asked_.removed.empty() && !o.dry_run)
             to_.removed = {add(asked_.removed, o.force),
                            write_options_for(o, {check_points_format(asked_.removed), o.ascii})};
@@ -139,7 +142,6 @@ class stream_files {
         to_.label = asked_.label;
         to_.withhold = asked_.withhold;
         to_.unfinished = outputs_.unfinished();
-        if (map_ && !map_->folder().empty()) to_.unfinished.push_back(map_->folder());
     }
 
     void write(tf::stream_weld& weld) {
@@ -158,6 +160,16 @@ class stream_files {
   private:
     [[nodiscard]] bool leads() const { return tiles_.team.rank == 0; }
 
+    void add_map(const fs::path& path) {
+        to_.map_path = path;
+        to_.map_text = [as_csv = map_is_csv(asked_.map)](std::uint64_t first, auto numbers) {
+            std::string text = as_csv && first == 0 ? map_heading : "";
+            for (const std::uint64_t number : numbers) put_map_row(text, first++, number, as_csv);
+            return text;
+        };
+    }
+
+    /// What is no file is written from the front, by the first one.
     void open_map() {
         to_.map = [](auto) {};
         if (!leads()) return;

@@ -38,9 +38,6 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const auto path = mesh_output(work.options, work.path);
     if (path && *path == "-" && (chooses || work.options.precision == "float"))
         return "looking again at what goes to standard output";
-    const bool gives_las = path && form_of(work, header, *path).is_las();
-    if (!header.las && !gives_las && written_form{extension_of(request.outputs.removed)}.is_las())
-        return "--removed in LAS, where neither input nor output is,";
     return {};
 }
 

@@ -396,7 +396,87 @@ TEST_CASE("LAS: parts with a joined head are the file") {
             CHECK(tf::point_writer::join_heads(heads) + points == written(file));
         }
     std::filesystem::remove(path);
-    CHECK_FALSE(tf::point_writer(path.string() + ".laz", read(las_of(1).file("")), 0).has_parts());
+}
+
+TEST_CASE("LAZ: parts of whole chunks with a joined head and all chunks are the file") {
+    const auto path = std::filesystem::temp_directory_path() / "treeform_io_laz_part.laz";
+    constexpr std::size_t count = 110'000;
+    for (const unsigned format : {1u, 7u})
+        for (const std::vector<std::size_t>& cuts : {std::vector<std::size_t>{0, 50'000, count},
+                                                     {0, 0, 50'000, 100'000, count},
+                                                     {0, 100'000, 100'000, count}}) {
+            CAPTURE(format);
+            CAPTURE(cuts.size());
+            test::las_bytes las = las_of(format, 3);
+            if (format == 7) las.add_extended("LASF_Spec", 65535, std::string(1000, 'w'));
+            const tf::mesh_file file = read(las.file(
+                test::las_points(test::las_family::scan, format, las.record_size, count, format)));
+            std::vector<std::string> told;
+            std::vector<tf::point_writer> writers;
+            for (std::size_t r = 0; r + 1 < cuts.size(); ++r) {
+                tf::point_block block;
+                std::vector<std::uint32_t> rows;
+                for (std::size_t i = cuts[r]; i < cuts[r + 1]; ++i) {
+                    rows.push_back(static_cast<std::uint32_t>(i));
+                    block.points.push_back(file.mesh.points[i]);
+                }
+                block.properties = tf::gather(file.attributes.elements[0], rows);
+                tf::point_writer& writer =
+                    writers.emplace_back(std::filesystem::path(path.string() + std::to_string(r)),
+                                         file, count, tf::write_options{.format = "laz"});
+                REQUIRE(writer.has_parts());
+                CHECK(writer.points_together() == 50'000);
+                writer.write(block);
+                told.push_back(writer.tell_part());
+            }
+            std::vector<std::string> heads;
+            std::string points;
+            for (std::size_t r = 0; r < writers.size(); ++r) {
+                tf::write_result result;
+                const tf::point_writer::part part = writers[r].commit_part(result, told);
+                std::ifstream in(path.string() + std::to_string(r), std::ios::binary);
+                const std::string bytes(std::istreambuf_iterator<char>(in), {});
+                if (part.points > 0) heads.push_back(bytes.substr(0, part.head));
+                points += r + 1 == writers.size() ? bytes.substr(part.head)
+                                                  : bytes.substr(part.head, part.points);
+                std::filesystem::remove(path.string() + std::to_string(r));
+            }
+            CHECK(tf::point_writer::join_heads(heads) + points ==
+                  tf::write_to_memory(file, {.format = "laz"}));
+        }
+}
+
+TEST_CASE("LAZ: chunks ahead of the first point are not read") {
+    const auto path = std::filesystem::temp_directory_path() / "treeform_io_laz_first.laz";
+    constexpr std::size_t count = 110'000;
+    test::las_bytes las = las_of(1, 3);
+    const tf::mesh_file file =
+        read(las.file(test::las_points(test::las_family::scan, 1, las.record_size, count, 5)));
+    std::string bytes = tf::write_to_memory(file, {.format = "laz"});
+    for (const bool damaged : {false, true}) {
+        if (damaged)  // within the first of three chunks
+            std::fill_n(bytes.begin() + std::ptrdiff_t(bytes.size() / 4), 1000, '\x55');
+        std::ofstream(path, std::ios::binary) << bytes;
+        for (const std::size_t first : {49'999u, 50'000u, 50'001u, 100'000u, 109'999u, 110'000u}) {
+            CAPTURE(first);
+            std::vector<tf::point3> points;
+            const auto read_all = [&] {
+                tf::point_reader reader(path, "", first);
+                tf::point_block block;
+                while (reader.read(block, 30'000))
+                    points.insert(points.end(), block.points.begin(), block.points.end());
+            };
+            if (damaged && first < 50'000) {
+                CHECK_THROWS_AS(read_all(), tf::io_error);
+                continue;
+            }
+            read_all();
+            const std::vector<tf::point3> expected(file.mesh.points.begin() + std::ptrdiff_t(first),
+                                                   file.mesh.points.end());
+            CHECK(points == expected);
+        }
+    }
+    std::filesystem::remove(path);
 }
 
 TEST_CASE("E57: a message names the program that converts it") {

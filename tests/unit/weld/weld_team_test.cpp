@@ -11,10 +11,10 @@
 #include <doctest/doctest.h>
 #include <support/own_folder.hpp>
 #include <support/random.hpp>
+#include <support/thread_team.hpp>
 
 #include <algorithm>
 #include <array>
-#include <condition_variable>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -22,6 +22,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -31,49 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct killed : std::runtime_error {
-    killed() : std::runtime_error("killed") {}
-};
-
-/// A team of threads: where one is killed, none goes on.
-class threads_of_team {
-  public:
-    explicit threads_of_team(std::size_t size) : mine_(size) {}
-
-    [[nodiscard]] tf::process_team as(std::size_t rank) {
-        return {rank, mine_.size(),
-                [this, rank](const std::string& told) { return exchange(rank, told); }};
-    }
-    void kill() {
-        const std::lock_guard lock(mutex_);
-        broken_ = true;
-        changed_.notify_all();
-    }
-
-  private:
-    std::vector<std::string> exchange(std::size_t rank, const std::string& told) {
-        std::unique_lock lock(mutex_);
-        const std::size_t round = round_;
-        mine_[rank] = told;
-        if (++here_ == mine_.size()) {
-            here_ = 0;
-            ++round_;
-            all_ = mine_;
-            changed_.notify_all();
-        }
-        changed_.wait(lock, [&] { return broken_ || round_ != round; });
-        if (round_ == round) throw killed();
-        return all_;
-    }
-
-    std::mutex mutex_{};
-    std::condition_variable changed_{};
-    std::vector<std::string> mine_;
-    std::vector<std::string> all_{};
-    std::size_t here_ = 0;
-    std::size_t round_ = 0;
-    bool broken_ = false;
-};
+using test::killed;
 
 /// What a run has written: files by their names.
 std::vector<std::string> contents(const fs::path& folder, const std::vector<std::string>& names) {
@@ -98,34 +57,18 @@ tf::weld_stream_result weld_alone(const job& work) {
 /// As a team; one is killed after so many steps, if any. Returns what the first one knows.
 std::optional<tf::weld_stream_result> weld_as_team(const job& work, std::size_t size,
                                                    std::size_t victim = 0, int steps = 0) {
-    threads_of_team all(size);
     std::optional<tf::weld_stream_result> first;
-    std::vector<std::exception_ptr> thrown(size);
-    std::vector<std::thread> threads;
-    for (std::size_t rank = 0; rank < size; ++rank)
-        threads.emplace_back([&, rank] {
-            try {
-                tf::weld_stream_options options = work.options;
-                options.team = all.as(rank);
-                if (rank == victim && steps > 0)
-                    options.step_done = [left = steps]() mutable {
-                        if (--left == 0) throw killed();
-                    };
-                auto result = tf::weld_stream(work.inputs, work.outputs(), options);
-                if (rank == 0) first = std::move(result);
-            } catch (...) {
-                thrown[rank] = std::current_exception();
-                all.kill();
-            }
-        });
-    for (std::thread& t : threads) t.join();
-    bool was_killed = false;
-    for (const std::exception_ptr& error : thrown) try {
-            if (error) std::rethrow_exception(error);
-        } catch (const killed&) {
-            was_killed = true;
-        }
-    return was_killed ? std::nullopt : first;
+    const bool all_lived = test::run_as_team(size, [&](const tf::process_team& team) {
+        tf::weld_stream_options options = work.options;
+        options.team = team;
+        if (team.rank == victim && steps > 0)
+            options.step_done = [left = steps]() mutable {
+                if (--left == 0) throw killed();
+            };
+        auto result = tf::weld_stream(work.inputs, work.outputs(), options);
+        if (team.rank == 0) first = std::move(result);
+    });
+    return all_lived ? first : std::nullopt;
 }
 
 /// As processes that do not know of each other.
@@ -230,12 +173,22 @@ void check_counts(const tf::weld_stream_result& a, const tf::weld_stream_result&
 
 using change = std::function<void(tf::weld_stream_options&)>;
 const std::vector<change> choices{
-    [](auto&) {}, [](auto& o) { o.same = {{.property = "shade", .tolerance = 0.25}}; },
+    [](auto&) {},
+    [](auto& o) { o.same = {{.property = "shade", .tolerance = 0.25}}; },
     [](auto& o) {
         o.order = tf::weld_order::highest;
         o.order_by = "shade";
     },
+    [](auto& o) {
+        o.order = tf::weld_order::lowest;
+        o.order_by = "y";
+    },
     [](auto& o) { o.keep = tf::weld_keep::mean; },
+    [](auto& o) { o.keep = tf::weld_keep::last; },
+    [](auto& o) {
+        o.keep = tf::weld_keep::highest;
+        o.keep_by = "shade";
+    },
     [](auto& o) {
         o.tolerance = 0.01;
         o.relative = true;
@@ -286,7 +239,7 @@ TEST_CASE("weld_team: killed at any step, another number of processes goes on to
         job work = folder.work("ply");
         work.options.tolerance = 0.03;
         work.options.rule = random.below(2) == 0 ? tf::weld_rule::first : tf::weld_rule::chain;
-        choices[random.below(choices.size())](work.options);
+        choices[static_cast<std::size_t>(round) % choices.size()](work.options);
         work.options.points_per_tile = 60;
         const auto one = weld_alone(work);
         const auto expected = folder.take("ply");
@@ -304,32 +257,93 @@ TEST_CASE("weld_team: killed at any step, another number of processes goes on to
 }
 
 TEST_CASE("weld_team: maps and labels are those of one") {
+    enum class asked { label, map, map_file };
     test::random random(13);
     const team_folder folder;
     const auto all = families(600, random);
-    for (const bool label : {false, true}) {
-        folder.put(all[0], random);
-        job work = folder.work("ply");
-        work.options.tolerance = 0.05;
-        work.options.points_per_tile = 60;
-        std::vector<std::uint64_t> map;
-        work.outputs = [&, files = work.outputs] {
-            tf::weld_stream_outputs outputs = files();
-            if (label) {
-                outputs.label = "group";
-                outputs.removed.reset();
-            } else {
-                outputs.map = [&](auto next) { map.insert(map.end(), next.begin(), next.end()); };
-            }
-            return outputs;
-        };
-        weld_alone(work);
-        const auto expected = folder.take("ply");
-        const auto expected_map = std::exchange(map, {});
-        REQUIRE(weld_as_team(work, 3));
-        CHECK(folder.take("ply") == expected);
-        CHECK(map == expected_map);
-    }
+    std::size_t turn = 0;
+    for (const asked what : {asked::label, asked::map, asked::map_file})
+        for (const change& choose : choices) {
+            CAPTURE(++turn);
+            folder.put(all[turn % all.size()], random);
+            job work = folder.work("ply");
+            work.options.tolerance = 0.05;
+            work.options.rule = turn % 2 == 0 ? tf::weld_rule::first : tf::weld_rule::chain;
+            choose(work.options);
+            work.options.points_per_tile = 150;
+            std::vector<std::uint64_t> map;
+            std::mutex one_at_a_time;
+            std::set<std::thread::id> writers;
+            work.outputs = [&, files = work.outputs] {
+                tf::weld_stream_outputs outputs = files();
+                if (what == asked::label) {
+                    outputs.label = "group";
+                } else if (what == asked::map) {
+                    outputs.map = [&](auto next) {
+                        map.insert(map.end(), next.begin(), next.end());
+                    };
+                } else {
+                    outputs.map_path = folder.path / "map.csv";
+                    outputs.map_text = [&](std::uint64_t first, auto numbers) {
+                        const std::lock_guard lock(one_at_a_time);
+                        writers.insert(std::this_thread::get_id());
+                        std::string text;
+                        for (const std::uint64_t n : numbers)
+                            text += std::to_string(first++) + "," + std::to_string(n) + "\n";
+                        return text;
+                    };
+                }
+                return outputs;
+            };
+            weld_alone(work);
+            const auto expected = folder.take("ply");
+            const auto expected_text = contents(folder.path, {"map.csv"});
+            CHECK(expected_text.front().empty() == (what != asked::map_file));
+            fs::remove(folder.path / "map.csv");
+            const auto expected_map = std::exchange(map, {});
+            writers.clear();
+            const std::size_t size = std::array{2U, 3U, 7U}[turn % 3];
+            REQUIRE(weld_as_team(work, size));
+            if (what == asked::map_file) CHECK(writers.size() == size);
+            CHECK(folder.take("ply") == expected);
+            CHECK(map == expected_map);
+            CHECK(contents(folder.path, {"map.csv"}) == expected_text);
+            fs::remove(folder.path / "map.csv");
+        }
+}
+
+TEST_CASE("weld_team: LAZ has whole chunks, whoever has the points of each") {
+    test::random random(17);
+    const team_folder folder;
+    std::size_t turn = 0;
+    // Of points that are mostly dropped at first, several processes have less than a chunk.
+    for (const double equal : {0.0, 0.6})
+        for (const change& choose : {choices[0], choices[3], choices[4]}) {
+            CAPTURE(++turn);
+            std::vector<tf::point3> points(180'000);
+            for (std::size_t i = 0; i < points.size(); ++i)
+                if (static_cast<double>(i) >= equal * static_cast<double>(points.size()))
+                    points[i] = {random.unit(), random.unit(), random.unit()};
+            folder.put(points, random);
+            job work = folder.work("laz");
+            work.options.as_las = true;
+            work.options.tolerance = 0.01;
+            choose(work.options);
+            work.options.points_per_tile = 60'000;
+            if (turn % 3 == 0)
+                work.outputs = [files = work.outputs] {
+                    tf::weld_stream_outputs outputs = files();
+                    outputs.label = "group";
+                    return outputs;
+                };
+            weld_alone(work);
+            const auto expected = folder.take("laz");
+            CHECK(expected[0].size() > 100'000);
+            const std::size_t size = std::array{2U, 4U, 7U}[turn % 3];
+            CAPTURE(size);
+            REQUIRE(weld_as_team(work, size));
+            CHECK(folder.take("laz") == expected);
+        }
 }
 
 TEST_CASE("weld_team: what is not there, or of another job, is refused in words") {

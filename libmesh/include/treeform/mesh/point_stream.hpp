@@ -30,7 +30,7 @@ class TREEFORM_API point_reader {
     /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
     /// input, a pipe) is copied to an unnamed file in /var/tmp first, and so are the unpacked
     /// points of a compressed PCD. The `first` points, no more than there are, are passed over:
-    /// unread in binary PLY without lists, binary PCD and LAS.
+    /// unread in binary PLY without lists, binary PCD, LAS, and whole chunks of LAZ.
     ///
     /// \throws io_error for a format without points, for a file with faces or other elements that
     ///         have rows, and as `read`
@@ -83,16 +83,21 @@ class TREEFORM_API point_writer {
     /// \throws io_error, also when fewer than `count` points were written
     write_result commit();
 
-    /// Whether others can write the rest of the points: not in LAZ and compressed PCD.
+    /// Whether others can write the rest of the points: not in compressed PCD.
     [[nodiscard]] bool has_parts() const;
+    /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else 1.
+    [[nodiscard]] std::uint64_t points_together() const;
     struct part {
         std::uint64_t head = 0;    ///< bytes ahead of its points
         std::uint64_t points = 0;  ///< bytes of its points; what is behind them is that of the file
     };
+    /// What must be known of a part to finish others; call it when all of its points are there.
+    [[nodiscard]] std::string tell_part();
     /// Finishes a file that has only some of the points. The joined head, the points of all parts,
     /// and what is behind those of the last one are what one writer of all points would have written.
+    /// `told` is what `tell_part` gave for each part, in their order; LAZ needs it.
     /// \throws io_error, std::logic_error where it has no parts
-    part commit_part(write_result& result);
+    part commit_part(write_result& result, const std::vector<std::string>& told = {});
     /// The head of the whole from those of all parts that have points; if none has, from one.
     [[nodiscard]] static std::string join_heads(const std::vector<std::string>& heads);
 

@@ -119,6 +119,10 @@ struct weld_stream_outputs {
     bool withhold = false;
     /// Called with the new numbers of the next input points, from the first to the last.
     std::function<void(std::span<const std::uint64_t>)> map{};
+    /// The same as a file: `map_text` gives the text for points from `first` on. Each of a team calls
+    /// it for some points.
+    std::filesystem::path map_path{};
+    std::function<std::string(std::uint64_t first, std::span<const std::uint64_t>)> map_text{};
     /// Folders with names that begin with ".unfinished-", which the caller removes after `write`.
     /// If the process is killed before that, the next run removes them.
     std::vector<std::filesystem::path> unfinished{};

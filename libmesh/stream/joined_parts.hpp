@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// One file of the parts that each of a team writes.
+
+#include <libmesh/stream/team.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace treeform::detail::stream {
+
+/// Copies bytes from one file into another, which is there. \throws stream_error
+void copy_bytes(const std::filesystem::path& from, std::uint64_t first,
+                const std::filesystem::path& to, std::uint64_t at, std::uint64_t count);
+
+/// Text on its way to a file.
+class text_out {
+  public:
+    /// `all` is the team whose members write a part each, the others in `part`; none: it is written
+    /// here.
+    text_out(std::filesystem::path to, const team* all, const std::filesystem::path& part);
+
+    /// \throws io_error
+    void write(std::string_view text);
+    /// Finishes the file. All come here. \throws io_error
+    void commit();
+
+  private:
+    void flush();
+
+    std::filesystem::path target_;
+    std::filesystem::path path_;
+    const team* all_;
+    std::string held_{};
+    std::uint64_t written_ = 0;
+};
+
+}  // namespace treeform::detail::stream

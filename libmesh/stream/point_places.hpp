@@ -1,0 +1,80 @@
+#pragma once
+/// \file
+/// Where the points of a mesh are in files, while its faces are read.
+
+#include <libmesh/io/face_rows.hpp>
+#include <libmesh/io/scratch.hpp>
+#include <libmesh/io/source.hpp>
+#include <libmesh/stream/team.hpp>
+#include <libmesh/stream/work_folder.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// Counts what is looked at in mapped files, for their memory.
+class looks {
+  public:
+    /// At most about `memory` bytes are to be held.
+    explicit looks(std::uint64_t memory) : at_once_(std::max<std::uint64_t>(1024, memory / page)) {}
+
+    /// Whether memory must be given back first.
+    [[nodiscard]] bool are_many() {
+        if (++since_ <= at_once_) return false;
+        since_ = 0;
+        return true;
+    }
+
+  private:
+    static constexpr std::uint64_t page = 4096;  ///< what one look may bring into memory, at least
+
+    std::uint64_t at_once_;
+    std::uint64_t since_ = 0;
+};
+
+/// In a file of its own that nobody else sees.
+class placed_points : public io::point_store {
+  public:
+    placed_points(std::unique_ptr<io::scratch> file, std::uint64_t memory)
+        : file_(std::move(file)), looks_(memory) {}
+
+    void put(points_view points) override;
+    [[nodiscard]] point3 at(std::uint32_t point) override;
+
+  private:
+    std::unique_ptr<io::scratch> file_;
+    looks looks_;
+    std::size_t size_ = 0;
+    std::size_t held_ = 0;  ///< bytes since memory was given back
+};
+
+/// In a file of each of a team.
+class shared_points : public io::point_store {
+  public:
+    /// Of `count` points, the process puts those of its `io::file_part`.
+    shared_points(const work_folder& folder, const team& all, std::size_t count,
+                  std::uint64_t memory);
+
+    void put(points_view points) override;
+    [[nodiscard]] point3 at(std::uint32_t point) override;
+    /// Those that a process has put, which nobody needs any more.
+    static void remove(const work_folder& folder, std::size_t rank) {
+        std::filesystem::remove(path(folder, rank));
+    }
+
+  private:
+    [[nodiscard]] static std::filesystem::path path(const work_folder& folder, std::size_t part);
+
+    const work_folder& folder_;
+    std::size_t rank_;
+    std::vector<std::uint64_t> firsts_{};  ///< of each part, and the count
+    looks looks_;
+    std::vector<io::source> parts_{};
+    std::size_t last_ = 0;  ///< the part that was looked at
+};
+
+}  // namespace treeform::detail::stream
