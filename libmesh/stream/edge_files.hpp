@@ -5,6 +5,7 @@
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/row_file.hpp>
 #include <libmesh/stream/work_folder.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,7 @@ inline constexpr std::size_t piece_of_edges = std::size_t{1}
                                               << 20;  ///< bytes read or written at a time
 
 /// All uses of an edge go to the same of several files, each of which memory holds.
-class edge_files {
+class TREEFORM_API edge_files {
   public:
     /// For at most `uses` of edges. Files are called `name` and a number. About `memory` bytes are
     /// held.
