@@ -5,6 +5,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/sink.hpp>
+#include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>
@@ -26,6 +27,7 @@ struct write_job {
     const write_options& options;
     write_result& result;
     sink& out;
+    std::size_t most_corners = 0;  ///< of faces that come by runs
 
     [[nodiscard]] bool single() const { return result.written_as == precision::float32; }
     /// A coordinate in the precision of the job.
@@ -46,6 +48,8 @@ struct write_job {
 struct point_sink {
     /// The rows that belong to the points; null when the head has no element "vertex".
     std::function<void(std::span<const point3> points, const element* vertices)> rows{};
+    std::function<void(const row_block& block)>
+        behind{};                    ///< rows of other elements, if any can come
     std::function<void()> finish{};  ///< none: nothing is left to do
     /// Finishes a file that has only some of the points; returns the number of bytes behind them.
     /// `told` is what `tell_part` gave for each part.

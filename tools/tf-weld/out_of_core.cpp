@@ -28,7 +28,8 @@ bool has_lists(const tf::mesh_file& header) {
 
 /// Why only memory will do; empty where tiles will, too.
 std::string what_needs_memory(const job& work, const weld_request& request,
-                              const tf::mesh_file& header) {
+                              const tf::cloud_outline& cloud) {
+    const tf::mesh_file& header = cloud.header;
     const tf::weld_options& o = request.settings.options;
     if (work.options.shows()) return work.options.html.empty() ? "--png" : "--html";
     if (o.only_borders) return "--borders";
@@ -38,6 +39,11 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const auto path = mesh_output(work.options, work.path);
     if (path && *path == "-" && (chooses || work.options.precision == "float"))
         return "looking again at what goes to standard output";
+    if (cloud.has_rows && path && form_of(work, header, *path).format != "ply")
+        return "an output of a mesh that is not PLY";
+    if (cloud.has_rows && work.options.precision == "float" &&
+        (header.stored_as == tf::precision::float64 || o.keep == tf::weld_keep::mean))
+        return "--precision float of a mesh in doubles";
     return {};
 }
 
@@ -70,19 +76,17 @@ constexpr std::uint64_t most_per_byte = 16;
 
 /// Where memory is limited and this may need more: says so before, and why when it does.
 exit_status weld_mesh(job& work, const weld_request& request, const tile_options& tiles,
-                      std::uint64_t size) {
-    const char* const words = "meshes are welded in memory, not in tiles";
+                      std::uint64_t size, const std::string& words) {
     if (work.options.memory == 0 || size < work.options.memory / most_per_byte)
         return weld_in_memory(work, request, tiles.per_tile > 0 ? words : remark_on_folder(tiles));
     const auto not_enough = [&] {
         return failure(stopped, "memory",
-                       work.name + ": " + words +
-                           ", as their faces name points anywhere; --memory is not enough for " +
+                       work.name + ": " + words + "; --memory is not enough for " +
                            in_megabytes(size) + " of file");
     };
     if (size > work.options.memory) throw not_enough();
     try {
-        return weld_in_memory(work, request, words + std::string("; --memory may not be enough"));
+        return weld_in_memory(work, request, words + "; --memory may not be enough");
     } catch (const std::bad_alloc&) {
         throw not_enough();
     } catch (const failure& error) {
@@ -109,19 +113,28 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         throw failure(
             bad_input, "read",
             work.name +
-                ": is no cloud that can be read by blocks, as several processes do; meshes are "
-                "welded by one, in memory");
-    if (!cloud) return weld_mesh(work, request, tiles, size);
+                ": is no cloud or plain PLY that can be read by blocks, as several processes do; "
+                "other meshes are welded by one, in memory");
+    if (!cloud)
+        return weld_mesh(work, request, tiles, size,
+                         "meshes other than plain PLY are welded in memory, not in tiles");
+    if (cloud->has_rows && tiles.team.size > 1)
+        throw failure(
+            bad_usage, "usage",
+            work.name + ": a mesh is welded by one process; --plan, --tile and --finish share it");
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +
         tf::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
     if (!asked && needed <= allowed) return weld_in_memory(work, request, remark_on_folder(tiles));
-    const std::string only = what_needs_memory(work, request, cloud->header);
+    const std::string only = what_needs_memory(work, request, *cloud);
     if (only.empty())
         return work_in(work, folder_for(work, request, tiles), tiles,
                        [&] { return weld_in_tiles(work, request, tiles, inputs, cloud->header); });
+    if (cloud->has_rows && !tiles.is_shared())
+        return weld_mesh(work, request, tiles, size, only + " needs the whole mesh in memory");
     throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
-                  work.name + ": " + only + " needs the whole cloud in memory, about " +
+                  work.name + ": " + only + " needs the whole " +
+                      (cloud->has_rows ? "mesh" : "cloud") + " in memory, about " +
                       in_megabytes(needed) + "; without it, a smaller --memory would do");
 }
 
