@@ -20,7 +20,7 @@ from ._core import Certificate
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
                       NotSolidError)
 from ._files import Written, read, write
-from ._intersections import (KINDS, FacePairs, FilePairs, Region, faces_in_box,
+from ._intersections import (KINDS, FacePairs, FilePairs, Region, StreamSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
                              self_intersections, self_intersections_of_file)
 from ._mesh import Attributes, Mesh, MeshLike, from_trimesh
