@@ -215,6 +215,10 @@ def test_deviation():
     both = tf.deviation(CUBE, moved(CUBE, 0, 0, 0.5))
     assert both.there[0] == both.back[0] == 0.5
     assert not tf.deviation(points, SHEET).is_signed
+    assert tf.deviation(points, SHEET).side_counts is None
+    where = tf.locate(CUBE, points)
+    assert found.side_counts == tuple((where == side).sum() for side in (1, 0, -1))
+    assert tf.deviation(CUBE, moved(CUBE, 0, 0, 0.5)).side_counts == (0, 4, 4)
     with pytest.raises(ValueError, match="no points"):
         tf.deviation(np.empty((0, 3)), CUBE)
 

@@ -48,6 +48,11 @@ void fill(treeform_deviation_result& r, const tf::deviation_result& d) {
         r.within = d.band->within;
         r.above = d.band->above;
     }
+    if (d.sides) {
+        r.sides[0] = d.sides->inside;
+        r.sides[1] = d.sides->on;
+        r.sides[2] = d.sides->outside;
+    }
 }
 
 }  // namespace

@@ -145,6 +145,9 @@ py::object deviation(const held_mesh& a, const held_mesh& b,
     made["distances"] = as_array<double>(std::move(found->distances));
     made["faces"] = as_array(std::move(found->faces));
     made["is_signed"] = found->is_signed;
+    made["side_counts"] = py::none();
+    if (const auto& sides = found->sides)
+        made["side_counts"] = py::make_tuple(sides->inside, sides->on, sides->outside);
     made["mean"] = found->mean;
     made["mean_absolute"] = found->mean_absolute;
     made["rms"] = found->rms;
