@@ -12,6 +12,7 @@ namespace {
 // What a thread was told last. Too little memory for the text leaves a shorter one.
 thread_local std::string last_text;
 thread_local const char* last_error = "";
+thread_local treeform::progress_callback progress_of_thread;
 
 }  // namespace
 
@@ -70,6 +71,8 @@ tf::progress_callback progress(treeform_progress call, void* data) {
     if (!call) return {};
     return [call, data](double done) { return call(done, data) == 0; };
 }
+
+const tf::progress_callback& thread_progress() { return progress_of_thread; }
 
 treeform_certificate certificate_of(const tf::certificate& kept, const char* message) {
     treeform_certificate c{};
@@ -144,6 +147,12 @@ struct treeform_thread_limit {
 };
 
 const char* treeform_last_error(void) { return last_error; }
+
+void treeform_set_progress(treeform_progress progress, void* data) {
+    const treeform_code done =
+        glue::guard([&] { progress_of_thread = glue::progress(progress, data); });
+    static_cast<void>(done);
+}
 
 const char* treeform_code_name(treeform_code code) {
     switch (code) {

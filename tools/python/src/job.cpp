@@ -1,6 +1,7 @@
 #include "job.hpp"
 
 #include "held_mesh.hpp"
+#include "tools/common/pieces.hpp"
 
 #include <pthread.h>
 #include <unistd.h>
@@ -21,7 +22,6 @@ namespace binding {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 
 constexpr milliseconds between_looks{15};
 constexpr milliseconds to_notice{50};  ///< after that, nobody waits for a job that is to stop
@@ -341,21 +341,7 @@ void without_lock(const std::function<void()>& body) {
 }
 
 void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
-    without_lock([&] {
-        const treeform::progress_callback report = report_of_job();
-        std::size_t piece = 128;
-        for (std::size_t begin = 0; begin < count;) {
-            const double share = static_cast<double>(begin) / static_cast<double>(count);
-            if (report && !report(share)) return;
-            const auto started = steady_clock::now();
-            const std::size_t end = std::min(count, begin + piece);
-            body(begin, end);
-            const auto taken = steady_clock::now() - started;
-            if (taken < milliseconds(10)) piece *= 2;
-            if (taken > milliseconds(40)) piece = std::max<std::size_t>(1, piece / 2);
-            begin = end;
-        }
-    });
+    without_lock([&] { (void)tools::in_pieces(count, report_of_job(), body); });
 }
 
 py::object build(const py::object& type, const py::args& arguments) { return type(*arguments); }

@@ -52,8 +52,7 @@ auto run(Body&& body) {
 }
 
 /// `body(begin, end)` for pieces of `count` elements, without the interpreter's lock, for work that
-/// cannot be asked to stop. Pieces are as large as takes some hundredths of a second; answers must
-/// not depend on that.
+/// cannot be asked to stop: `tools::in_pieces`.
 void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
 
 /// For jobs: makes objects that take long to make, as `build(type, arguments...)`.

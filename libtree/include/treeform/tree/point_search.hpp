@@ -92,6 +92,13 @@ class TREEFORM_API point_search {
     [[nodiscard]] neighbor_lists<near_point> all_within(std::span<const point> queries,
                                                         double radius) const;
 
+    /// All pairs of points within `radius` of each other, ascending, each once with the lower number
+    /// first. None when `progress` asked to stop.
+    ///
+    /// \cost   as `all_within` for each point, and 24 bytes a point
+    [[nodiscard]] std::vector<id_pair> pairs_within(double radius,
+                                                    const progress_callback& progress = {}) const;
+
   private:
     template <class Points, class Position>
     void copy(const Points& points, const Position& position_of);
