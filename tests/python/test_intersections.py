@@ -1,7 +1,6 @@
 """Faces that meet: the same pairs as the tool and as known of real models; brute force."""
 
 import csv
-import multiprocessing
 
 import numpy as np
 import pytest
@@ -107,46 +106,6 @@ def test_a_file_in_tiles_has_the_pairs_of_the_whole(tmp_path):
     tiled = tf.self_intersections_of_file(path, memory=200 << 20)
     assert np.array_equal(tiled.pairs_in_file, whole.pairs)
     assert np.array_equal(tiled.kinds, whole.kinds) and tiled.counts == whole.counts
-    assert list(tmp_path.iterdir()) == [path]
-
-
-def test_a_file_is_searched_by_many_processes(tmp_path):
-    path, folder = tmp_path / "soup.ply", tmp_path / "tiles"
-    rng = np.random.default_rng(3)
-    tf.write(path, tf.Mesh(rng.random((900, 3)), np.arange(900).reshape(-1, 3)))
-    whole = tf.self_intersections_of_file(path, kinds=["crossing", "pierce"])
-    first = tf.StreamSearch(path, folder=folder, faces_per_tile=50, kinds=["crossing", "pierce"])
-    with pytest.raises(tf.FileError, match="tiles"):
-        first.search_tile(0)
-    with pytest.raises(tf.FileError, match="tiles"):
-        assert first.tiles
-    count = first.scatter()
-    assert count == first.tiles > 3 and first.unfinished == list(range(count))
-    with pytest.raises(tf.FileError, match="0"):
-        first.finish()
-    with pytest.raises(IndexError, match=f"^tile {count} of {count}$"):
-        first.search_tile(count)
-    with pytest.raises(ValueError, match="tile: -1"):
-        first.search_tile(-1)
-    first.search_tile(1)
-    assert first.unfinished == [0, *range(2, count)]
-    with pytest.raises(tf.Cancelled):
-        first.search_tile(2, progress=lambda share: False)
-    with multiprocessing.get_context("spawn").Pool(2) as pool:
-        pool.starmap(tf.StreamSearch.search_tile, [(first, tile) for tile in range(count)])
-    assert first.unfinished == []
-    found = first.finish()
-    assert found.counts == whole.counts and np.array_equal(found.pairs_in_file, whole.pairs_in_file)
-    assert found.tiles == count and found.counts["touching"] == 0
-    first.remove_folder()
-    first.close()
-    assert list(tmp_path.iterdir()) == [path]
-    with pytest.raises(ValueError, match="closed"):
-        assert first.unfinished
-    with pytest.raises(ValueError, match="kinds"):
-        tf.StreamSearch(path, kinds=["crosing"])
-    with pytest.raises(tf.FileError, match="no_such"):
-        tf.StreamSearch(tmp_path / "no_such.ply").scatter()
     assert list(tmp_path.iterdir()) == [path]
 
 

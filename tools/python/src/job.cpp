@@ -51,17 +51,28 @@ void come_back(PyThreadState* state) {
 /// As long as it lives, this thread does not have the interpreter's lock.
 class without_interpreter {
   public:
-    without_interpreter() {
-        ++outside;
-        state_ = PyEval_SaveThread();
-    }
+    without_interpreter() { leave(); }
     without_interpreter(const without_interpreter&) = delete;
     without_interpreter& operator=(const without_interpreter&) = delete;
-    ~without_interpreter() { come_back(state_); }
+    ~without_interpreter() { enter(); }
+
+    void leave() {
+        ++outside;
+        state_ = PyEval_SaveThread();
+        before_ = std::exchange(innermost, this);
+    }
+    void enter() {
+        innermost = before_;
+        come_back(state_);
+    }
+
+    static thread_local without_interpreter* innermost;
 
   private:
-    PyThreadState* state_;
+    PyThreadState* state_ = nullptr;
+    without_interpreter* before_ = nullptr;
 };
+thread_local without_interpreter* without_interpreter::innermost = nullptr;
 
 /// A call, and what becomes of it. Python's objects in it are touched with the interpreter's lock.
 struct job {
@@ -337,6 +348,20 @@ const std::atomic<bool>* stop_of_job() { return current == nullptr ? nullptr : &
 
 void without_lock(const std::function<void()>& body) {
     const without_interpreter others_run;
+    body();
+}
+
+void with_lock(const std::function<void()>& body) {
+    without_interpreter* const mine = without_interpreter::innermost;
+    if (mine == nullptr) {
+        const py::gil_scoped_acquire lock;
+        return body();
+    }
+    struct inside {
+        explicit inside(without_interpreter* of) : of_(of) { of_->enter(); }
+        ~inside() { of_->leave(); }
+        without_interpreter* of_;
+    } const now(mine);
     body();
 }
 

@@ -41,6 +41,9 @@ const std::atomic<bool>* stop_of_job();
 /// Does `body` without the interpreter's lock.
 void without_lock(const std::function<void()>& body);
 
+/// Does `body` with the interpreter's lock, within work that goes on without it.
+void with_lock(const std::function<void()>& body);
+
 /// What `body(progress_callback)` returns. It runs without the interpreter's lock and must not touch
 /// Python.
 template <class Body>

@@ -3,14 +3,37 @@
 /// Work in a folder that is done step by step, as a job each.
 
 #include "job.hpp"
+#include <treeform/mesh/process_team.hpp>
 
+#include <pybind11/stl.h>
+
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace binding {
+
+/// The team of (rank, size, exchange) as Python has it, or one that is alone for None. Its copies may go
+/// without the interpreter's lock as long as the first one stays.
+inline treeform::process_team team_of(const py::object& team) {
+    treeform::process_team made;
+    if (team.is_none()) return made;
+    made.rank = team.attr("rank").cast<std::size_t>();
+    made.size = team.attr("size").cast<std::size_t>();
+    made.exchange =
+        [all = std::make_shared<py::object>(team.attr("exchange"))](const std::string& told) {
+            std::vector<std::string> heard;
+            with_lock([&] { heard = (*all)(py::bytes(told)).cast<std::vector<std::string>>(); });
+            return heard;
+        };
+    return made;
+}
 
 /// What reports the progress of the step that is done now.
 class step_progress {

@@ -90,8 +90,8 @@ py::dict with_faces(py::dict made, tf::mesh&& mesh, std::vector<std::uint32_t>&&
 
 /// Attributes of polygons have a row for each polygon, as a file has them.
 py::dict weld_polygons(const held_mesh& mesh, const file_data& data, tf::weld_options options) {
-    const auto [points, faces] = mesh.view();
     tf::file_weld_result result = run([&](const tf::progress_callback& report) {
+        const auto [points, faces] = mesh.view();
         tf::mesh_file file = data.file();
         file.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
         file.indexed = true;

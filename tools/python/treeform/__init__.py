@@ -39,7 +39,8 @@ from ._robots import Joint, Robot, read_urdf
 from ._show import Picture, View, plot, show
 from ._threads import thread_count, threads
 from ._trees import BoxTree, Neighbors, PointTree
-from ._weld import (WeldResult, WeldStreamResult, count_nearly_equal, weld, weld_stream)
+from ._weld import (StreamWeld, WeldResult, WeldStreamResult, count_nearly_equal, weld,
+                    weld_stream)
 
 __version__: str = _core.version()
 

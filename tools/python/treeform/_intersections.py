@@ -14,7 +14,7 @@ from ._files import Path, path_of
 from ._mesh import Mesh, MeshLike, held
 from ._progress import Progress
 from ._results import Result
-from ._steps import InSteps
+from ._steps import InSteps, Team, in_team
 
 #: How two faces meet; a number in `kinds` is a place in this list.
 KINDS = tuple(_core.KINDS)
@@ -132,7 +132,7 @@ def _file_pairs(made: dict[str, Any]) -> FilePairs:
 def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None,
                                vertices: str | None = None, format: str = "", memory: int = 0,
                                folder: Path = "", faces_per_tile: int = 0,
-                               progress: Progress = None) -> FilePairs:
+                               team: Team | None = None, progress: Progress = None) -> FilePairs:
     """The same for a file that may be larger than memory: binary STL, and PLY whose vertices come
     ahead of its faces. Space is cut into tiles on the disk.
 
@@ -140,6 +140,8 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     memory: bytes that the process may take; 0: three quarters of the machine's.
     folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
     faces_per_tile: at most about so many; 0: as the memory allows.
+    team: processes that do it together, as for `weld_stream`; the first one gets the result, all
+    others an empty one.
 
     Raises FileError, ValueError.
 
@@ -148,9 +150,9 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     >>> found.counts["crossing"], found.pairs_in_file.shape
     (78, (78, 2))
     """
-    return _file_pairs(_core.self_intersections_of_file(
-        path_of(path), _search_settings(kinds, vertices, format, memory, folder, faces_per_tile),
-        progress=progress))
+    settings = _search_settings(kinds, vertices, format, memory, folder, faces_per_tile)
+    return in_team(team, lambda all: _file_pairs(_core.self_intersections_of_file(
+        path_of(path), settings, all, progress=progress)))
 
 
 class StreamSearch(InSteps[_core.SearchInSteps]):
