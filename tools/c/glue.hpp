@@ -7,6 +7,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/process_team.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
@@ -164,6 +165,9 @@ template <class Options>
 [[nodiscard]] tf::progress_callback progress(const Options& options) {
     return progress(options.progress, options.progress_data);
 }
+
+/// One that is alone for null.
+[[nodiscard]] tf::process_team team(const treeform_team* of);
 
 /// What `treeform_set_progress` has set for this thread.
 [[nodiscard]] const tf::progress_callback& thread_progress();
