@@ -315,34 +315,6 @@ neighbor_lists<near_point> point_search<D>::all_within(std::span<const point> qu
                                [] { return detail::all_offered(0.0); });
 }
 
-/// Block by block, so that the lists of all points are never there at once.
-template <std::size_t D>
-std::vector<id_pair> point_search<D>::pairs_within(double radius,
-                                                   const progress_callback& progress) const {
-    constexpr std::size_t block = std::size_t{1} << 15;
-    std::vector<point> points(size());
-    for (std::size_t place = 0; place < size(); ++place)
-        for (std::size_t k = 0; k < D; ++k)
-            points[tree_.ids()[place]][k] =
-                coordinates_.data()[(place / 8 * D + k) * 8 + place % 8];
-    if (points.empty()) (void)all_within(point{}, radius);  // a negative radius throws
-    std::vector<id_pair> pairs;
-    for (std::size_t begin = 0; begin < size(); begin += block) {
-        if (progress && !progress(static_cast<double>(begin) / static_cast<double>(size())))
-            return {};
-        const std::size_t count = std::min(block, size() - begin);
-        const auto found = all_within(std::span<const point>(points).subspan(begin, count), radius);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto a = static_cast<std::uint32_t>(begin + i);
-            const std::size_t first = pairs.size();
-            for (const near_point& one : found[i])
-                if (one.id > a) pairs.emplace_back(a, one.id);
-            std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
-        }
-    }
-    return pairs;
-}
-
 template class point_search<2>;
 template class point_search<3>;
 

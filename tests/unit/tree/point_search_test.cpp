@@ -167,6 +167,12 @@ TEST_CASE("point search: pairs are those of brute force, whatever the scale") {
         CHECK(search.pairs_within(0.1 * scale) == expected);
         CHECK(expected.size() > 10);
         CHECK(search.pairs_within(0.1 * scale, [](double) { return false; }).empty());
+        const tf::thread_scope one(1);
+        int looks = 0;
+        CHECK(search.pairs_within(2.0 * scale, [&](double) { return ++looks == 1; }).empty());
+        CHECK(looks == 2);
+        CHECK(search.pairs_within(4.0 * scale).size() == 400 * 399 / 2);
+        CHECK(search.pairs_within(0.0).size() < 400);
     }
     CHECK(tf::point_search<2>().pairs_within(1.0).empty());
     CHECK_THROWS_AS((void)tf::point_search<2>().pairs_within(-1.0), std::invalid_argument);
