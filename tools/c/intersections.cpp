@@ -158,10 +158,12 @@ treeform_code treeform_intersects_poses(const treeform_mesh* a, const treeform_m
     return glue::guard([&] {
         const std::span out = glue::array(meet, count, "meet");
         const auto where = glue::positions(moves_a, moves_b, count);
-        const std::vector<bool> found = glue::asked(a, b, [&](const auto& x, const auto& y) {
-            return tf::intersects(x, y, std::span<const tf::mesh_positions>(where));
-        });
-        std::copy(found.begin(), found.end(), out.begin());
+        glue::asked_in_pieces(
+            a, b, count, [&](const auto& x, const auto& y, std::size_t begin, std::size_t end) {
+                const std::vector<bool> found =
+                    tf::intersects(x, y, std::span(where).subspan(begin, end - begin));
+                std::copy(found.begin(), found.end(), out.data() + begin);
+            });
     });
 }
 

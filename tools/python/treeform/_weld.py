@@ -15,6 +15,7 @@ from ._files import Path, path_of
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
 from ._results import Result
+from ._steps import InSteps, Team, in_team
 
 
 @dataclass(frozen=True, repr=False)
@@ -127,11 +128,25 @@ class WeldStreamResult(Result):
     warnings: list[str]
 
 
+def _settings(files: Union[Path, Iterable[Path]], tolerance: float, relative: bool, rule: str,
+              keep: str, keep_by: str, order: str, order_by: str, same: _Same | None, memory: int,
+              folder: Path, points_per_tile: int) -> _core.StreamSettings:
+    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    if not paths:
+        raise ValueError("files: there are none")
+    return _core.StreamSettings(
+        [path_of(path) for path in paths], _arrays.number(tolerance, "tolerance"), relative,
+        _arrays.word(rule, "rule"), list((same or {}).items()), _arrays.word(keep, "keep"),
+        _arrays.word(keep_by, "keep_by"), _arrays.word(order, "order"),
+        _arrays.word(order_by, "order_by"), _arrays.number(memory, "memory", 0), path_of(folder),
+        _arrays.number(points_per_tile, "points_per_tile", 0))
+
+
 def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float = 0.0, *,
                 relative: bool = False, rule: str = "first", keep: str = "first",
                 keep_by: str = "", order: str = "given", order_by: str = "",
                 same: _Same | None = None, removed: Path = "", label: str = "", memory: int = 0,
-                folder: Path = "", points_per_tile: int = 0,
+                folder: Path = "", points_per_tile: int = 0, team: Team | None = None,
                 progress: Progress = None) -> WeldStreamResult:
     """Welds clouds that may be larger than memory, from files to a file, with the same bytes as
     `weld` of the whole.
@@ -142,6 +157,9 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     property of this name.
     memory: bytes that the process may take; 0: three quarters of the machine's. folder: for tiles;
     empty: beside the first input. Where a run was killed, the same call goes on.
+    team: processes that do it together, each its share, in a folder that all see: anything with
+    `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where one
+    fails, all raise; one that is interrupted leaves the others waiting.
     rule, keep, keep_by, order, order_by, same: as for `weld`.
 
     Raises FileError, ValueError.
@@ -154,9 +172,77 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     >>> done.points, done.kept
     (3, 2)
     """
-    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
-    return WeldStreamResult(**_core.weld_stream(
-        [path_of(path) for path in paths], path_of(out), path_of(removed), label,
-        _arrays.number(tolerance, "tolerance"), relative, rule, list((same or {}).items()), keep,
-        keep_by, order, order_by, _arrays.number(memory, "memory", 0), path_of(folder),
-        _arrays.number(points_per_tile, "points_per_tile", 0), progress=progress))
+    settings = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
+                         memory, folder, points_per_tile)
+    return in_team(team, lambda all: WeldStreamResult(**_core.weld_stream(
+        settings, path_of(out), path_of(removed), _arrays.word(label, "label"), all,
+        progress=progress)))
+
+
+class StreamWeld(InSteps[_core.WeldInSteps]):
+    """`weld_stream` step by step, for many processes, of one machine or of several that see the
+    folder: those of Dask, of Slurm, of `multiprocessing`.
+
+    All make it with the same arguments. One calls `scatter`; then each calls `weld_tile` for its
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that is
+    finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
+    input's name and ".tiles".
+
+    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs all
+    others to have let go of it. A copy for another process (pickle) is made anew from its arguments.
+    A step before its turn raises FileError, a tile that is not there IndexError. After Cancelled,
+    make it anew.
+
+    >>> import os, tempfile, treeform
+    >>> with tempfile.TemporaryDirectory() as home:
+    ...     cloud = os.path.join(home, "cloud.xyz")
+    ...     _ = treeform.write(cloud, ([[x, 0, 0] for x in range(1000)], []))
+    ...     options = dict(tolerance=1.5, points_per_tile=100)
+    ...     with treeform.StreamWeld(cloud, **options) as first:
+    ...         count = first.scatter()
+    ...     for tile in range(count):  # in as many processes as there are
+    ...         with treeform.StreamWeld(cloud, **options) as one:
+    ...             one.weld_tile(tile)
+    ...     with treeform.StreamWeld(cloud, **options) as last:
+    ...         done = last.finish(os.path.join(home, "thin.xyz"))
+    ...         last.remove_folder()
+    >>> count > 1, done.kept
+    (True, 500)
+    """
+
+    def __init__(self, files: Union[Path, Iterable[Path]], tolerance: float = 0.0, *,
+                 relative: bool = False, rule: str = "first", keep: str = "first",
+                 keep_by: str = "", order: str = "given", order_by: str = "",
+                 same: _Same | None = None, memory: int = 0, folder: Path = "",
+                 points_per_tile: int = 0, progress: Progress = None) -> None:
+        files = files if isinstance(files, (str, os.PathLike)) else list(files)
+        settings = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
+                             memory, folder, points_per_tile)
+        super().__init__(
+            _core.weld_of(settings, progress=progress), files, tolerance, relative=relative,
+            rule=rule, keep=keep, keep_by=keep_by, order=order, order_by=order_by, same=same,
+            memory=memory, folder=folder, points_per_tile=points_per_tile)
+
+    def scatter(self, *, progress: Progress = None) -> int:
+        """Gives each tile its points, unless they have them. Returns the number of tiles."""
+        return self._work.scatter(progress=progress)
+
+    @property
+    def tiles(self) -> int:
+        """The number of tiles, once they are there."""
+        return self._work.tiles()
+
+    def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
+        """Welds a tile, from 0, unless that is done."""
+        self._work.weld_tile(_arrays.number(tile, "tile", 0), progress=progress)
+
+    def finish(self, out: Path, *, removed: Path = "", label: str = "",
+               progress: Progress = None) -> WeldStreamResult:
+        """Welds what lies along the borders of tiles, when all are welded, and writes the outputs,
+        each whole or not at all. Once."""
+        return WeldStreamResult(**self._work.finish(
+            path_of(out), path_of(removed), _arrays.word(label, "label"), progress=progress))
+
+    def remove_folder(self) -> None:
+        """Removes the folder of the tiles."""
+        self._work.remove_folder()
