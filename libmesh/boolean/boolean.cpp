@@ -14,6 +14,7 @@
 #include <libmesh/boolean/inside_of_cells.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/labeled_cells.hpp>
+#include <libmesh/boolean/manifold_pair.hpp>
 #include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
@@ -275,41 +276,58 @@ boolean_result evaluate(const char* function, std::span<const mesh_view> operand
     });
 }
 
-/// Whether both operands are sound, and the share of the work that it took to find out: none where
-/// it is known.
-std::pair<bool, double> are_sound(const detail::boolean::prepared_pair& operands,
-                                  const progress_callback& progress) {
+using operand_kind = detail::boolean::examined_operand::kind;
+
+/// What is known of both operands together, and the share of the work that it took to find out: none
+/// where it is known.
+std::pair<operand_kind, double> kind_of(const detail::boolean::prepared_pair& operands,
+                                        const progress_callback& progress) {
     double looked = 0.0;
     const progress_callback report = [&](double done) {
         looked = done;
         return !progress || progress(done);
     };
-    const bool sound = std::all_of(operands.begin(), operands.end(), [&](const auto* operand) {
-        return detail::boolean::is_sound(*operand, part_of(report, looked, looked + 0.3));
-    });
-    return {sound, looked};
+    operand_kind least = operand_kind::sound;
+    for (const prepared_mesh* operand : operands) {
+        least = std::min(
+            least,
+            detail::boolean::examine_operand(*operand, part_of(report, looked, looked + 0.3)).is);
+        if (least == operand_kind::unknown) break;
+    }
+    return {least, looked};
 }
 
-/// What `expression` makes of two operands if they are sound and nothing else is asked for.
+/// What `expression` makes of one or two operands if few of their own faces meet and nothing else is
+/// asked for.
 std::optional<boolean_result> result_of_pair(std::span<const mesh_operand> operands,
                                              const boolean_expression& expression,
                                              const boolean_options& options) {
-    if (operands.size() != 2 || options.simplify || options.precision == precision::float32)
+    if (operands.empty() || operands.size() > 2 || options.simplify ||
+        options.precision == precision::float32)
         return std::nullopt;
     std::array<prepared_mesh, 2> own;
-    detail::boolean::prepared_pair pair;
+    detail::boolean::prepared_pair pair{&own[0], &own[1]};
+    bool once = false;
     for (std::size_t k = 0; k < 2; ++k) {
-        pair[k] = operands[k].prepared();
-        if (pair[k] != nullptr) continue;
-        own[k] = prepared_mesh::borrow(operands[k].view());
-        pair[k] = &own[k];
+        const bool is_given = k < operands.size();
+        if (is_given && operands[k].prepared() != nullptr) {
+            pair[k] = operands[k].prepared();
+            continue;
+        }
+        own[k] = prepared_mesh::borrow(is_given ? operands[k].view() : mesh_view{});
+        once = true;
     }
-    const auto [sound, looked] = are_sound(pair, options.progress);
-    if (!sound) return std::nullopt;
+    const auto [kind, looked] = kind_of(pair, options.progress);
+    if (kind == operand_kind::unknown) return std::nullopt;
     boolean_options rest = options;
     rest.progress = part_of(options.progress, looked, 1.0);
-    const bool once = operands[0].prepared() == nullptr || operands[1].prepared() == nullptr;
-    auto made = detail::boolean::boolean_of_sound_pair(pair, once, expression, rest);
+    const auto pairs_of = [&](std::size_t k) -> std::span<const face_pair> {
+        return detail::boolean::examine_operand(*pair[k], {}).pairs;
+    };
+    auto made = kind == operand_kind::sound && operands.size() == 2
+                    ? detail::boolean::boolean_of_sound_pair(pair, once, expression, rest)
+                    : detail::boolean::boolean_of_manifold_pair(pair, {pairs_of(0), pairs_of(1)},
+                                                                once, expression, rest);
     if (!made) return std::nullopt;
     return finished(std::move(made->result), !made->is_manifold, options.precision);
 }
@@ -392,10 +410,8 @@ boolean_result detail::boolean::resolve_by_split(mesh_view mesh, const boolean_o
 }
 
 boolean_result detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
-    return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, true,
-                    [](auto given, const auto& how) {
-                        return boolean_of(given, boolean_expression::union_of(1), how);
-                    });
+    return evaluate("resolve_self_intersections", std::array{mesh_operand(mesh)},
+                    boolean_expression::union_of(1), options);
 }
 
 detail::boolean::labeled_result detail::boolean::resolve_by_labels(mesh_view mesh,

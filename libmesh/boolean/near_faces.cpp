@@ -42,15 +42,16 @@ std::array<marks, 2> find_reached(const std::array<const leaf_blocks*, 2>& block
     return reached;
 }
 
-/// Faces of each operand whose boxes overlap that of a face of `pairs`, by leaf order.
+/// Faces of each operand whose boxes overlap that of a face of `across` or `own`, by leaf order.
 std::array<marks, 2> find_near(const prepared_pair& operands,
                                const std::array<const tree<3>*, 2>& trees,
-                               const std::vector<face_pair>& pairs) {
+                               const std::vector<face_pair>& across, const own_pairs& own) {
     std::vector<aabb<double, 3>> cut;
     for (std::size_t k = 0; k < 2; ++k) {
         const mesh_view mesh = operands[k]->view();
         ids met;
-        for (const face_pair& pair : pairs) met.push_back(k == 0 ? pair.a : pair.b);
+        for (const face_pair& pair : across) met.push_back(k == 0 ? pair.a : pair.b);
+        for (const face_pair& pair : own[k]) met.insert(met.end(), {pair.a, pair.b});
         std::sort(met.begin(), met.end());
         met.erase(std::unique(met.begin(), met.end()), met.end());
         for (const std::uint32_t f : met)
@@ -181,7 +182,7 @@ buffer<face_place> find_places(const prepared_pair& operands, const std::vector<
     const std::array trees{&build_face_tree(*operands[0]), &build_face_tree(*operands[1])};
     const std::array blocks{&leaf_blocks_of(*operands[0]), &leaf_blocks_of(*operands[1])};
     const auto reached = find_reached(blocks);
-    const auto near = find_near(operands, trees, pairs);
+    const auto near = find_near(operands, trees, pairs, {});
     buffer<face_place> result(trees[0]->size() + trees[1]->size());
     for (std::size_t k = 0, first = 0; k < 2; first += trees[k++]->size()) {
         const far_places places(operands[k]->view(), *trees[k], *blocks[k], reached[k], near[k]);
@@ -248,8 +249,9 @@ void join_equal(near_faces& near) {
         for (std::uint32_t& corner : f) corner = equal->new_of_old[corner];
 }
 
-/// The pairs by local faces, without those that meet in shared corners only.
-void keep_pairs(std::vector<face_pair>&& pairs, std::size_t faces_of_a, near_faces& near) {
+/// The pairs by local faces, ascending, without those that meet in shared corners only.
+void keep_pairs(std::vector<face_pair>&& pairs, const own_pairs& own, std::size_t faces_of_a,
+                near_faces& near) {
     const auto local = [&](std::size_t face) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(near.face_of, face) -
                                           near.face_of.begin());
@@ -268,27 +270,55 @@ void keep_pairs(std::vector<face_pair>&& pairs, std::size_t faces_of_a, near_fac
         pairs[left++] = pair;
     }
     pairs.resize(left);
+    for (std::size_t k = 0; k < 2; ++k)
+        for (const auto& [a, b, kind] : own[k])
+            pairs.push_back(
+                {local((k == 0 ? 0 : faces_of_a) + a), local((k == 0 ? 0 : faces_of_a) + b), kind});
+    if (pairs.size() > left) std::sort(pairs.begin(), pairs.end());
     near.pairs = std::move(pairs);
 }
 
-}  // namespace
-
-near_faces find_near_faces(const prepared_pair& operands, bool once) {
-    near_faces result;
-    const std::size_t faces_of_a = operands[0]->view().faces.size();
-    const std::size_t faces_of_b = operands[1]->view().faces.size();
-    if (faces_of_a == 0 || faces_of_b == 0) {
-        result.place.resize(faces_of_a + faces_of_b);
-        std::fill_n(result.place.data(), result.place.size(), face_place::outside);
-        return result;
-    }
+std::vector<face_pair> pairs_across(const prepared_pair& operands, bool once) {
     const prepared_mesh &a = *operands[0], &b = *operands[1];
-    std::vector<face_pair> pairs = once
-                                       ? intersect::mesh_intersections(a.view(), build_face_tree(a),
-                                                                       b.view(), build_face_tree(b))
-                                             .pairs
-                                       : treeform::mesh_intersections(a, b).pairs;
-    result.place = find_places(operands, pairs);
+    if (a.view().faces.empty() || b.view().faces.empty()) return {};
+    if (!once) return treeform::mesh_intersections(a, b).pairs;
+    return intersect::mesh_intersections(a.view(), build_face_tree(a), b.view(), build_face_tree(b))
+        .pairs;
+}
+
+/// The faces that are near, and those that have a point with one of them in common: what is rounded
+/// is then known to hang together with faces that meet no box of it. Of the others nothing is asked.
+buffer<face_place> find_near_places(const prepared_pair& operands,
+                                    const std::vector<face_pair>& across, const own_pairs& own) {
+    const std::array trees{&build_face_tree(*operands[0]), &build_face_tree(*operands[1])};
+    const auto near = find_near(operands, trees, across, own);
+    buffer<face_place> result(trees[0]->size() + trees[1]->size());
+    for (std::size_t k = 0, first = 0; k < 2; first += trees[k++]->size()) {
+        const mesh_view mesh = operands[k]->view();
+        marks is_near(mesh.points.size());
+        for_chunks(near[k].size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t i = begin; i < end; ++i)
+                           if (near[k][i] != 0)
+                               for (const std::uint32_t p : mesh.faces[trees[k]->ids()[i]])
+                                   mark(is_near[p]);
+                   });
+        for_chunks(mesh.faces.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t f = begin; f < end; ++f) {
+                           const auto& [a, b, c] = mesh.faces[f];
+                           result[first + f] = (is_near[a] | is_near[b] | is_near[c]) != 0
+                                                   ? face_place::near
+                                                   : face_place::outside;
+                       }
+                   });
+    }
+    return result;
+}
+
+/// Puts together those that are near by their places.
+void collect_near(const prepared_pair& operands, std::vector<face_pair>&& across,
+                  const own_pairs& own, near_faces& result) {
     std::size_t first_face = 0, first_point = 0;
     for (const prepared_mesh* operand : operands) {
         const mesh_view mesh = operand->view();
@@ -306,7 +336,31 @@ near_faces find_near_faces(const prepared_pair& operands, bool once) {
         first_point += mesh.points.size();
     }
     join_equal(result);
-    keep_pairs(std::move(pairs), faces_of_a, result);
+    keep_pairs(std::move(across), own, operands[0]->view().faces.size(), result);
+}
+
+}  // namespace
+
+near_faces find_near_faces(const prepared_pair& operands, bool once) {
+    near_faces result;
+    const std::size_t faces_of_a = operands[0]->view().faces.size();
+    const std::size_t faces_of_b = operands[1]->view().faces.size();
+    if (faces_of_a == 0 || faces_of_b == 0) {
+        result.place.resize(faces_of_a + faces_of_b);
+        std::fill_n(result.place.data(), result.place.size(), face_place::outside);
+        return result;
+    }
+    std::vector<face_pair> across = pairs_across(operands, once);
+    result.place = find_places(operands, across);
+    collect_near(operands, std::move(across), {}, result);
+    return result;
+}
+
+near_faces find_near_faces(const prepared_pair& operands, const own_pairs& own, bool once) {
+    near_faces result;
+    std::vector<face_pair> across = pairs_across(operands, once);
+    result.place = find_near_places(operands, across, own);
+    collect_near(operands, std::move(across), own, result);
     return result;
 }
 

@@ -17,6 +17,9 @@ namespace treeform::detail::boolean {
 
 using prepared_pair = std::array<const prepared_mesh*, 2>;
 
+/// Of each operand, the pairs of its faces that meet beyond shared corners.
+using own_pairs = std::array<std::span<const face_pair>, 2>;
+
 /// Where a face that no face of the other operand reaches is.
 enum class face_place : std::uint8_t { near, outside, inside };
 
@@ -49,5 +52,13 @@ struct near_faces {
 /// \cost   that of the faces that meet, O(F / 8) besides, and 1 byte a face
 /// \same   on any number of threads
 [[nodiscard]] near_faces find_near_faces(const prepared_pair& operands, bool once);
+
+/// The same of operands whose faces meet each other: near, too, are faces whose boxes overlap that
+/// of a face of `own`, and faces with a point of a near one. The place of the others is not asked: it
+/// is `outside`.
+///
+/// \pre no two vertices of an operand have equal coordinates, and no face is degenerate
+[[nodiscard]] near_faces find_near_faces(const prepared_pair& operands, const own_pairs& own,
+                                         bool once);
 
 }  // namespace treeform::detail::boolean

@@ -20,10 +20,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::boolean {
 namespace {
+
+/// Where more pairs meet, most faces are near one, and little is gained by looking at these alone.
+constexpr std::size_t faces_of_a_pair = 16;
 
 /// Whether a point can be computed with, as `boolean` asks for.
 bool is_usable(const point3& p) { return base::largest_of(p) <= 0x1p1000; }
@@ -62,7 +66,8 @@ bool faces_outward(mesh_view mesh) {
            }) == components.size();
 }
 
-bool find_out(const prepared_mesh& prepared, const progress_callback& progress) {
+examined_operand find_out(const prepared_mesh& prepared, const progress_callback& progress) {
+    using kind = examined_operand::kind;
     check_operands("boolean", std::array{prepared.view()});
     // As the faces, but without points that none uses: these may be anything.
     mesh_view mesh = prepared.view();
@@ -71,29 +76,32 @@ bool find_out(const prepared_mesh& prepared, const progress_callback& progress) 
     if (used.size() != mesh.points.size()) {
         joined = join_operands(std::array{mesh});
         mesh = joined.all;
-        if (mesh.points.size() != used.size()) return false;  // two are equal
+        if (mesh.points.size() != used.size()) return {};  // two are equal
     }
     const auto all_of = [](std::size_t count, const auto& holds) {
         return base::first_bad(count, [&](std::size_t i) { return !holds(i); }) == count;
     };
     if (!all_of(mesh.points.size(), [&](std::size_t p) { return is_usable(mesh.points[p]); }))
-        return false;  // the general way says which
-    if (!topology::is_manifold(mesh) || weld::few_equal_points(mesh.points)) return false;
+        return {};  // the general way says which
+    if (!topology::is_manifold(mesh) || weld::few_equal_points(mesh.points)) return {};
     if (!all_of(mesh.faces.size(), [&](std::size_t f) { return has_area(mesh, mesh.faces[f]); }))
-        return false;
-    const self_intersection_result met =
-        intersect::pairs_by_tree(mesh, build_face_tree(prepared),
-                                 {.vertices = vertex_identity::by_index,
-                                  .first_only = true,
-                                  .progress = base::part_of(progress, 0.1, 0.9)});
+        return {};
+    const std::size_t few = mesh.faces.size() / faces_of_a_pair;
+    self_intersection_result met = intersect::pairs_by_tree(
+        mesh, build_face_tree(prepared),
+        {.vertices = vertex_identity::by_index, .progress = base::part_of(progress, 0.1, 0.9)},
+        few);
     if (met.cancelled) throw stopped{};
-    return met.pairs.empty() && faces_outward(mesh);
+    if (met.pairs.size() > few) return {};
+    const bool sound = met.pairs.empty() && faces_outward(mesh);
+    return {sound ? kind::sound : kind::manifold, std::move(met.pairs)};
 }
 
 }  // namespace
 
-bool is_sound(const prepared_mesh& mesh, const progress_callback& progress) {
-    constexpr base::slot<bool> slot{base::slot_name::sound_operand};
+const examined_operand& examine_operand(const prepared_mesh& mesh,
+                                        const progress_callback& progress) {
+    constexpr base::slot<examined_operand> slot{base::slot_name::examined_operand};
     return base::prepared_slots::get(mesh, slot, [&] { return find_out(mesh, progress); });
 }
 

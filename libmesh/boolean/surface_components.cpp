@@ -4,6 +4,7 @@
 #include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/boolean/winding_beside.hpp>
 #include <libmesh/intersect/pairs_by_tree.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/build.hpp>
@@ -86,16 +87,28 @@ std::optional<winding_range> range_seen_from(const point3& q, std::size_t count,
 template <class Corners>
 int sign_of(std::size_t count, const Corners& corners) {
     const point3 origin = count > 0 ? corners(0)[0] : point3{};
+    struct sums {
+        double volume = 0.0, size = 0.0;
+    };
+    std::vector<sums> parts(chunk_count(count, light_grain));
+    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t part) {
+        sums sum;
+        for (std::size_t i = begin; i < end; ++i) {
+            const triangle3 t = corners(i);
+            const point3 a = base::minus(t[0], origin), b = base::minus(t[1], origin);
+            const point3 c = base::minus(t[2], origin);
+            sum.volume += base::dot(a, base::cross(b, c));
+            const auto length = [](const point3& p) {
+                return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+            };
+            sum.size += length(a) * length(b) * length(c);
+        }
+        parts[part] = sum;
+    });
     double volume = 0.0, size = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const triangle3 t = corners(i);
-        const point3 a = base::minus(t[0], origin), b = base::minus(t[1], origin);
-        const point3 c = base::minus(t[2], origin);
-        volume += base::dot(a, base::cross(b, c));
-        const auto length = [](const point3& p) {
-            return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
-        };
-        size += length(a) * length(b) * length(c);
+    for (const sums& sum : parts) {
+        volume += sum.volume;
+        size += sum.size;
     }
     const double off = size * (0x1p-48 + static_cast<double>(count) * 0x1p-52);
     if (!(off < infinite)) return 0;
@@ -270,20 +283,13 @@ int surface_components::sign_of_volume(std::size_t c) const {
 
 std::vector<operand_winding> surface_components::windings_beside(const arrange::corner_line& line,
                                                                  bool ahead) const {
-    const auto along = static_cast<std::size_t>(line.along());
-    box3 way = line.start();
-    (ahead ? way.max : way.min)[along] = ahead ? infinite : -infinite;
-    const int sign = ahead ? 1 : -1;
+    const box3 way = way_along(line, ahead);
     std::vector<operand_winding> found;
     search(boxes_, way, [&](std::uint32_t c) {
         const component& of = components_[c];
         const std::uint32_t* const own = faces_.data() + of.begin;
-        std::int64_t winding = 0;
-        search(of.index, way, [&](std::uint32_t i) {
-            const triangle3 t = corners(own[i]);
-            if (const int facing = line.passes(t); facing != 0 && line.place(t, facing) == sign)
-                winding += sign * facing;
-        });
+        const std::int64_t winding = winding_beside(
+            of.index, [&](std::uint32_t i) { return corners(own[i]); }, line, way, ahead);
         if (winding != 0) found.push_back({of.operand, winding});
     });
     std::ranges::sort(found, {}, &operand_winding::operand);

@@ -12,7 +12,13 @@ namespace treeform::detail::boolean {
 
 way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
                      const aabb<double, 3>& box) {
-    const triangle3 whole = base::triangle_of(mesh, cut.covers_of(f).front().face);
+    const auto& [a, b, c] = cut.faces[f];
+    return find_way_out({cut.point(a), cut.point(b), cut.point(c)},
+                        base::triangle_of(mesh, cut.covers_of(f).front().face), box);
+}
+
+way_out find_way_out(const std::array<implicit_point, 3>& corners, const triangle3& whole,
+                     const aabb<double, 3>& box) {
     const point3 normal =
         base::cross(base::minus(whole[1], whole[0]), base::minus(whole[2], whole[0]));
     const point3 size = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
@@ -25,8 +31,6 @@ way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
     };
     std::array<int, 3> axes = {0, 1, 2};
     std::ranges::stable_sort(axes, [&](int i, int j) { return cost(i) < cost(j); });
-    const auto& [a, b, c] = cut.faces[f];
-    const std::array<implicit_point, 3> corners = {cut.point(a), cut.point(b), cut.point(c)};
     // Along one of them it is not seen edge on.
     const int axis = *std::ranges::find_if(
         axes, [&](int k) { return orient2d(k, corners[0], corners[1], corners[2]) != 0; });

@@ -4,9 +4,12 @@
 
 #include <libmesh/arrange/corner_line.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/aabb.hpp>
 
+#include <array>
 #include <cstddef>
 
 namespace treeform::detail::boolean {
@@ -22,5 +25,9 @@ struct way_out {
 /// \param mesh what `cut` is the arrangement of
 [[nodiscard]] way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
                                    const aabb<double, 3>& box);
+
+/// The same from its corners, and a face that it lies in.
+[[nodiscard]] way_out find_way_out(const std::array<implicit_point, 3>& corners,
+                                   const triangle3& whole, const aabb<double, 3>& box);
 
 }  // namespace treeform::detail::boolean

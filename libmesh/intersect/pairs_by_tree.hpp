@@ -6,6 +6,9 @@
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/tree.hpp>
 
+#include <cstddef>
+#include <limits>
+
 namespace treeform::detail::intersect {
 
 /// As `self_intersections`; `tree` is that of the faces, and is gone when all has been found.
@@ -13,8 +16,10 @@ namespace treeform::detail::intersect {
 [[nodiscard]] self_intersection_result pairs_by_tree(mesh_view mesh, tree<3>&& tree,
                                                      const self_intersection_options& options);
 
-/// The same of a tree that stays.
-[[nodiscard]] self_intersection_result pairs_by_tree(mesh_view mesh, const tree<3>& tree,
-                                                     const self_intersection_options& options);
+/// The same of a tree that stays. Where there are more pairs than `most`, some of them, more than
+/// that.
+[[nodiscard]] self_intersection_result pairs_by_tree(
+    mesh_view mesh, const tree<3>& tree, const self_intersection_options& options,
+    std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace treeform::detail::intersect

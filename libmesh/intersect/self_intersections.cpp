@@ -16,6 +16,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -67,8 +68,12 @@ detail::buffer<detail::intersect::numbered_face> leaf_order(mesh_view mesh, cons
     return faces;
 }
 
+constexpr std::size_t all_pairs = std::numeric_limits<std::size_t>::max();
+
+/// Goes on until more pairs than `most` have been found.
 self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
-                                    const self_intersection_options& options) {
+                                    const self_intersection_options& options,
+                                    std::size_t most = all_pairs) {
     self_intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
@@ -80,8 +85,11 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
     std::vector<detail::intersect::narrow_phase_output> found(search.chunks());
     detail::intersect::search_progress progress(options.progress, search.chunks());
     std::atomic<std::size_t> last{search.chunks()};  // the first chunk that found enough
+    std::atomic<std::size_t> count{0};
     for_chunks(search.chunks(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
-        const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
+        const auto not_needed = [&] {
+            return progress.cancelled() || chunk > last.load() || count.load() > most;
+        };
         const auto satisfied = [&] { return options.first_only && !found[chunk].pairs.empty(); };
         detail::intersect::narrow_phase<detail::intersect::own_candidates> phase(options.kinds,
                                                                                  found[chunk], own);
@@ -90,6 +98,7 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
             return !satisfied() && !not_needed();
         });
         if (satisfied()) detail::lower(last, chunk);
+        count += found[chunk].pairs.size();
         progress.chunk_done();
     });
     if (options.first_only) detail::intersect::keep_first(found);
@@ -131,9 +140,10 @@ self_intersection_result detail::intersect::pairs_by_tree(
     return find_pairs(mesh, ours, options);
 }
 
-self_intersection_result detail::intersect::pairs_by_tree(
-    mesh_view mesh, const tree<3>& tree, const self_intersection_options& options) {
-    return find_pairs(mesh, tree, options);
+self_intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, const tree<3>& tree,
+                                                          const self_intersection_options& options,
+                                                          std::size_t most) {
+    return find_pairs(mesh, tree, options, most);
 }
 
 }  // namespace treeform

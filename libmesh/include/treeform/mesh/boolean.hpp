@@ -182,8 +182,8 @@ struct TREEFORM_API boolean_result {
 /// \throws std::invalid_argument when the expression has another number of operands, or naming a
 ///         face with a corner out of range, or a corner with a coordinate that is not finite
 ///         or beyond 2^1000
-/// \cost   faces where the result's surface may be are cut, the others are not looked at: O(F log F)
-///         for these. Of two clean prepared solids that meet in few places, about that of a copy
+/// \cost   O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
+///         that meet in few places, that of finding these (prepared meshes: once) and of a copy
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result boolean(std::span<const mesh_view> operands,
                                                   const boolean_expression& expression,
