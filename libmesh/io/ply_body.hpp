@@ -5,6 +5,7 @@
 #include <libmesh/io/ply_header.hpp>
 #include <libmesh/io/row_values.hpp>
 #include <libmesh/io/vertex_columns.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -26,6 +27,12 @@ inline constexpr std::uint32_t most_numbers = std::numeric_limits<std::uint32_t>
     for (const auto role : {column_role::x, column_role::y, column_role::z})
         if (with_role(*at, role) == nullptr) in.fail("element 'vertex' lacks one of x, y, z");
     return *at;
+}
+
+inline void take_remarks(ply_header& header, mesh_file& file) {
+    file.attributes.texture_files = std::move(header.texture_files);
+    file.attributes.comments = std::move(header.comments);
+    file.attributes.obj_info = std::move(header.obj_info);
 }
 
 template <class Values>

@@ -13,12 +13,16 @@ namespace {
 
 [[nodiscard]] detail::io::point_rows open_rows(const detail::io::source& in,
                                                const std::filesystem::path& path,
-                                               std::string_view format, std::uint64_t first) {
+                                               std::string_view format, std::uint64_t first,
+                                               bool with_rows) {
     const auto found =
         detail::io::detect(in, detail::io::plain_extension(format), detail::io::extension_of(path));
     switch (found.kind) {
         case detail::io::file_kind::ply:
-            return detail::io::open_ply_points(in, first);
+            return detail::io::open_ply_points(in, first, with_rows);
+        case detail::io::file_kind::stl_binary:
+            if (with_rows) return detail::io::open_stl_points(in, first);
+            in.fail("corners of faces are no points that are read alone");
         case detail::io::file_kind::pcd:
             return detail::io::open_pcd_points(in, first);
         case detail::io::file_kind::las:
@@ -42,9 +46,9 @@ struct point_reader::state {
 };
 
 point_reader::point_reader(const std::filesystem::path& path, std::string_view format,
-                           std::uint64_t first)
+                           std::uint64_t first, bool with_rows)
     : state_(new state{detail::io::source::open(path, detail::io::scratch_place::file)}) {
-    state_->rows = open_rows(state_->in, path, format, first);
+    state_->rows = open_rows(state_->in, path, format, first, with_rows);
     point_block block;
     constexpr std::uint64_t some = std::uint64_t{1} << 15;
     for (std::uint64_t left = first - state_->rows.left_out;
@@ -67,6 +71,11 @@ bool point_reader::read(point_block& block, std::size_t most) {
     block.points.clear();
     block.properties.rows = rows.append(block.points, block.properties, most, rows.head.warnings);
     return block.properties.rows > 0;
+}
+
+bool point_reader::read(row_block& block, std::size_t most) {
+    detail::io::point_rows& rows = state_->rows;
+    return rows.behind && rows.behind(block, most, rows.head.warnings);
 }
 
 }  // namespace treeform

@@ -6,6 +6,7 @@
 #include <libmesh/io/source.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/point_stream.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -27,13 +28,21 @@ struct point_rows {
     std::function<std::size_t(std::vector<point3>& points, element& vertices, std::size_t most,
                               std::vector<io_warning>& warnings)>
         append{};
+    /// Replaces the content of `block` by the next rows behind the points; what of these has not been
+    /// read is passed over. False at the end. None where there is nothing to read but points.
+    std::function<bool(row_block& block, std::size_t most, std::vector<io_warning>& warnings)>
+        behind{};
 };
 
 /// What there is to read by runs. `in` must outlive what comes back. The `first` points, which are
 /// there, are passed over where that takes no reading.
 ///
-/// \throws io_error, also for a file with faces or other elements that have rows
-[[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0);
+/// \throws io_error, also for a file with faces or other elements that have rows; `with_rows` as for
+///         `point_reader`
+[[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0,
+                                         bool with_rows = false);
+/// The corners of a binary STL, facets behind them.
+[[nodiscard]] point_rows open_stl_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format);

@@ -4,6 +4,7 @@
 #include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,8 +17,8 @@ namespace {
     throw std::invalid_argument("point_writer: " + what);
 }
 
-/// The header as a file without points.
-[[nodiscard]] mesh_file without_points(const mesh_file& header) {
+/// The header as a file without points; elements behind them count their rows.
+[[nodiscard]] mesh_file without_values(const mesh_file& header) {
     mesh_file head;
     head.format = header.format;
     head.stored_as = header.stored_as;
@@ -25,13 +26,22 @@ namespace {
     head.attributes.comments = header.attributes.comments;
     head.attributes.obj_info = header.attributes.obj_info;
     head.las = header.las;
+    bool has_vertices = find_element(header.attributes, "vertex") == nullptr;
     for (const element& e : header.attributes.elements) {
-        if (e.name != "vertex" && e.rows > 0)
-            refuse_block("the header's element " + e.name + " has rows");
-        detail::io::restart(head.attributes.elements.emplace_back(), e);
+        has_vertices = has_vertices || e.name == "vertex";
+        if (!has_vertices && e.rows > 0)
+            refuse_block("rows of " + e.name + " cannot be ahead of the points");
+        element& mine = head.attributes.elements.emplace_back();
+        detail::io::restart(mine, e);
+        detail::io::check_columns(mine);
+        if (e.name != "vertex") mine.rows = e.rows;
     }
-    for (const element& e : head.attributes.elements) detail::io::check_columns(e);
     return head;
+}
+
+/// Whether it is written behind the points.
+[[nodiscard]] bool is_behind(const element& e) {
+    return e.name != "vertex" && e.rows > 0 && (e.name == "face" || !e.columns.empty());
 }
 
 /// True when the columns are those of the header's element "vertex".
@@ -50,19 +60,27 @@ namespace {
 
 struct point_writer::state {
     state(const std::filesystem::path& path, const mesh_file& header, std::uint64_t points,
-          const write_options& wanted)
-        : count(points), options(wanted), head(without_points(header)) {
+          const write_options& wanted, std::size_t most_corners)
+        : count(points), options(wanted), head(without_values(header)) {
         const detail::io::known_format& format = detail::io::find_format(path, options);
         if (format.start == nullptr)
             throw io_error(path.string() +
-                           ": only PLY, PCD, LAS, LAZ, XYZ and CSV are written in blocks");
+                           ": only PLY, OBJ, PCD, LAS, LAZ, XYZ and CSV are written in blocks");
+        std::ranges::copy_if(head.attributes.elements, std::back_inserter(behind), is_behind);
         result.format =
             detail::io::writes_text(format, options) ? format.text_name : format.binary_name;
         result.written_as = options.precision.value_or(head.stored_as);
         file.emplace(path);
         out.emplace(file->descriptor(), file->name());
-        rows =
-            format.start({.file = head, .options = options, .result = result, .out = *out}, count);
+        rows = format.start({.file = head,
+                             .options = options,
+                             .result = result,
+                             .out = *out,
+                             .most_corners = most_corners},
+                            count);
+        if (!behind.empty() && !rows.behind)
+            throw io_error(path.string() +
+                           ": of faces and other elements, only PLY and OBJ are written in blocks");
         head_size = out->size();
     }
 
@@ -79,8 +97,29 @@ struct point_writer::state {
             refuse_block("a coordinate is no float32 value, as the header says");
     }
 
+    void check(const row_block& block) {
+        while (!behind.empty() && behind.front().rows == 0) behind.erase(behind.begin());
+        const element& given = block.rows;
+        if (written != count || behind.empty() || given.name != behind.front().name)
+            refuse_block("rows of " + given.name + " are not what comes next");
+        if (given.rows > behind.front().rows)
+            refuse_block("more rows of " + given.name + " than the header says");
+        if (!same_columns(given, &behind.front()))
+            refuse_block("the columns of " + given.name + " are not those of the header");
+        if (given.name == "face" && block.first_corner.size() != given.rows + 1)
+            refuse_block("not the corners of each face");
+        detail::io::check_columns(given);
+        behind.front().rows -= given.rows;
+    }
+    [[nodiscard]] std::uint64_t rows_left() const {
+        std::uint64_t left = 0;
+        for (const element& e : behind) left += e.rows;
+        return left;
+    }
+
     std::uint64_t count;
     std::uint64_t written = 0;
+    std::vector<element> behind{};  ///< rows that are to come
     std::uint64_t head_size = 0;
     write_options options;
     mesh_file head;
@@ -91,8 +130,9 @@ struct point_writer::state {
 };
 
 point_writer::point_writer(const std::filesystem::path& path, const mesh_file& header,
-                           std::uint64_t count, const write_options& options)
-    : state_(std::make_unique<state>(path, header, count, options)) {}
+                           std::uint64_t count, const write_options& options,
+                           std::size_t most_corners)
+    : state_(std::make_unique<state>(path, header, count, options, most_corners)) {}
 point_writer::~point_writer() = default;
 point_writer::point_writer(point_writer&&) noexcept = default;
 point_writer& point_writer::operator=(point_writer&&) noexcept = default;
@@ -109,11 +149,18 @@ void point_writer::write(const point_block& block) {
     s.written += block.points.size();
 }
 
+void point_writer::write(const row_block& block) {
+    state_->check(block);
+    state_->rows.behind(block);
+}
+
 write_result point_writer::commit() {
     state& s = *state_;
     if (s.written != s.count)
         throw io_error(s.file->name() + ": " + std::to_string(s.count) +
                        " points were announced and " + std::to_string(s.written) + " came");
+    if (s.rows_left() > 0)
+        throw io_error(s.file->name() + ": fewer rows behind the points came than were announced");
     if (s.rows.finish) s.rows.finish();
     s.out->flush();
     s.file->commit();

@@ -1,8 +1,6 @@
 #include <libmesh/io/face_sink.hpp>
 #include <libmesh/io/face_texture.hpp>
-#include <libmesh/io/fixed_rows.hpp>
 #include <libmesh/io/ply_body.hpp>
-#include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/reserve.hpp>
 #include <libmesh/io/vertex_rows.hpp>
@@ -153,25 +151,6 @@ class body_reader {
     bool from_strips_ = false;
 };
 
-void take_remarks(ply_header& header, mesh_file& file) {
-    file.attributes.texture_files = std::move(header.texture_files);
-    file.attributes.comments = std::move(header.comments);
-    file.attributes.obj_info = std::move(header.obj_info);
-}
-
-/// Takes runs of the element "vertex", the only one that has rows.
-template <class Values>
-[[nodiscard]] auto ply_runs(Values values, std::size_t left) {
-    return [values, left](std::vector<point3>& points, element& vertices, std::size_t most,
-                          std::vector<io_warning>& warnings) mutable {
-        const std::size_t rows = std::min(most, left);
-        append_vertices(values, vertices, points, rows);
-        left -= rows;
-        if (rows == 0) look_behind(values, warnings);
-        return rows;
-    };
-}
-
 }  // namespace
 
 mesh_file read_ply(const source& in) {
@@ -185,33 +164,6 @@ mesh_file read_ply(const source& in) {
     });
     file.stored_as = fits_single(file.mesh.points) ? precision::float32 : precision::float64;
     return file;
-}
-
-point_rows open_ply_points(const source& in, std::uint64_t first) {
-    ply_header header = read_ply_header(in);
-    point_rows rows;
-    element& vertices = vertices_of(in, header.elements);
-    for (const element& e : header.elements)
-        if (&e != &vertices && e.rows > 0)
-            in.fail("element '" + e.name + "' has rows; only files of points are read in blocks");
-    rows.count = vertices.rows;
-    with_reader(in, header, [&](const char*, auto values) { check_room(values, vertices); });
-    const bool binary = header.encoding != ply_encoding::ascii;
-    if (const std::size_t row = fixed_row_size(vertices); binary && row > 0) {
-        rows.left_out = first;
-        header.body += first * row;
-        vertices.rows -= first;
-    }
-    with_reader(in, header, [&](const char* format, auto values) {
-        rows.head.format = format;
-        rows.append = ply_runs(std::move(values), vertices.rows);
-    });
-    rows.head.stored_as =
-        binary && has_single_axes(vertices) ? precision::float32 : precision::float64;
-    vertices.rows = 0;
-    take_remarks(header, rows.head);
-    rows.head.attributes.elements = std::move(header.elements);
-    return rows;
 }
 
 }  // namespace treeform::detail::io

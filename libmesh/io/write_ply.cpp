@@ -73,6 +73,23 @@ class ply_writer {
         put_rows(e, source, points.size(), points);
     }
 
+    void put_behind(const row_block& block) {
+        const element& e = *std::ranges::find(names_, block.rows.name, &element::name);
+        if (e.name != "face") return put_rows(e, &block.rows, block.rows.rows, {});
+        face_values_.clear();
+        for (std::size_t i = 0; i < e.columns.size(); ++i)
+            face_values_.push_back(
+                e.columns[i].role == column_role::data ? &with_values(e, &block.rows, i) : nullptr);
+        put_by_pieces(job_, block.rows.rows, [&](const write_job& piece, auto first, auto last) {
+            ply_writer some(*this, piece);
+            for (std::size_t f = first; f < last; ++f)
+                some.put_face(e, f, 0,
+                              std::span(block.corners)
+                                  .subspan(block.first_corner[f],
+                                           block.first_corner[f + 1] - block.first_corner[f]));
+        });
+    }
+
   private:
     /// For some rows of what `whole` writes.
     ply_writer(const ply_writer& whole, const write_job& piece)
@@ -109,7 +126,7 @@ class ply_writer {
         if (at == names_.end() && count == 0) return;
         element& e = declared("face", count, at == names_.end() ? 1 : 0);
         declare_face_columns(e);
-        std::size_t most = 0;
+        std::size_t most = job_.most_corners;
         for_each_stored_face(job_.file, [&](std::size_t, std::span<const std::uint32_t> corners) {
             most = std::max(most, corners.size());
         });
@@ -118,7 +135,7 @@ class ply_writer {
                 c.list_length = scalar_type::uint32;
             if (c.role != column_role::corners) continue;
             if (!holds(*c.list_length, most)) c.list_length = scalar_type::uint32;
-            if (!holds(c.type, job_.file.mesh.points.size())) c.type = scalar_type::uint32;
+            if (!holds(c.type, count_)) c.type = scalar_type::uint32;
         }
     }
 
@@ -330,9 +347,9 @@ void write_ply(const write_job& job) { ply_writer(job).write(); }
 point_sink start_ply_points(const write_job& job, std::uint64_t count) {
     auto writer = std::make_shared<ply_writer>(job, count);
     writer->put_header();
-    return {.rows = [writer](std::span<const point3> points, const element* vertices) {
-        writer->put_points(points, vertices);
-    }};
+    return {.rows = [writer](std::span<const point3> points,
+                             const element* vertices) { writer->put_points(points, vertices); },
+            .behind = [writer](const row_block& block) { writer->put_behind(block); }};
 }
 
 }  // namespace treeform::detail::io

@@ -5,6 +5,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/sink.hpp>
+#include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>
@@ -26,6 +27,7 @@ struct write_job {
     const write_options& options;
     write_result& result;
     sink& out;
+    std::size_t most_corners = 0;  ///< of faces that come by runs
 
     [[nodiscard]] bool single() const { return result.written_as == precision::float32; }
     /// A coordinate in the precision of the job.
@@ -46,6 +48,8 @@ struct write_job {
 struct point_sink {
     /// The rows that belong to the points; null when the head has no element "vertex".
     std::function<void(std::span<const point3> points, const element* vertices)> rows{};
+    std::function<void(const row_block& block)>
+        behind{};                    ///< rows of other elements, if any can come
     std::function<void()> finish{};  ///< none: nothing is left to do
     /// Finishes a file that has only some of the points; returns the number of bytes behind them.
     /// `told` is what `tell_part` gave for each part.
@@ -72,6 +76,7 @@ void write_laz(const write_job& job);
 
 /// Start a file of `count` points; the points of the job's file are not looked at.
 [[nodiscard]] point_sink start_ply_points(const write_job& job, std::uint64_t count);
+[[nodiscard]] point_sink start_obj_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_xyz_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_csv_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_pcd_points(const write_job& job, std::uint64_t count);
@@ -155,12 +160,16 @@ void put_bits(sink& out, const column& c, std::size_t i) {
     put_bits_as<order, std::uint64_t>(out, c, i);
 }
 
-/// The columns of these names, all of them with one value a row; empty when one is missing.
+/// The columns of these names, all of them with one value a row; empty when one is missing. The
+/// element may be null.
+[[nodiscard]] std::vector<const column*> scalar_columns(const element* e,
+                                                        std::span<const std::string_view> names);
 [[nodiscard]] std::vector<const column*> scalar_columns(const mesh_file& file,
                                                         std::string_view element,
                                                         std::span<const std::string_view> names);
 
 /// Columns red, green, blue, and alpha where there is one.
+[[nodiscard]] std::vector<const column*> color_columns(const element* e);
 [[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
                                                        std::string_view element);
 

@@ -69,7 +69,8 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las)
 
 void joined_points::open(std::size_t file, std::uint64_t first) {
     reader_.reset();
-    reader_.emplace(inputs_.paths[file], inputs_.format, first);
+    const bool is_alone = inputs_.paths.size() == 1;
+    reader_.emplace(inputs_.paths[file], inputs_.format, first, is_alone);
     file_ = file;
     if (inputs_.paths.size() > 1) fits_ = same_columns(head_, reader_->header());
 }

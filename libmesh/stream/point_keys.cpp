@@ -38,11 +38,14 @@ void refuse_lists(const mesh_file& header) {
 
 point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
     const weld_options asked{.same = o.same,
+                             .keep_seams = o.keep_seams,
+                             .across = o.across,
                              .keep = o.keep,
                              .keep_by = o.keep_by,
                              .order = o.order,
                              .order_by = o.order_by};
-    conditions_ = weld_conditions(header.attributes, false, asked);
+    const element* const faces = find_element(header.attributes, "face");
+    conditions_ = weld_conditions(header.attributes, faces != nullptr && faces->rows > 0, asked);
     std::vector<weld::agreement::condition> all;
     for (const weld_condition& c : conditions_) {
         if (!(c.tolerance >= 0.0) || !std::isfinite(c.tolerance))

@@ -19,7 +19,7 @@
 namespace treeform::detail::stream {
 
 /// A number for all bytes given, that any change of them changes nearly always. Not for enemies.
-class digest {
+class TREEFORM_API digest {
   public:
     /// A multiple of eight bytes.
     void add(std::span<const std::byte> bytes);
@@ -39,18 +39,18 @@ void store_count(const record_count& c, state_writer& state);
 [[nodiscard]] record_count load_count(state_reader& state);
 
 /// Appends bytes to a file, which is opened for it. \throws stream_error
-void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes);
+TREEFORM_API void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes);
 /// Writes bytes into a file, from byte `at` on. \throws stream_error
-void write_to(const std::filesystem::path& path, std::uint64_t at,
-              std::span<const std::byte> bytes);
+TREEFORM_API void write_to(const std::filesystem::path& path, std::uint64_t at,
+                           std::span<const std::byte> bytes);
 /// Puts what was written on the disk. \throws stream_error
-void sync_file(const std::filesystem::path& path);
+TREEFORM_API void sync_file(const std::filesystem::path& path);
 /// Reads from byte `at` on, as many as there are. \throws stream_error
-[[nodiscard]] std::size_t read_from(const std::filesystem::path& path, std::uint64_t at,
-                                    std::span<std::byte> bytes);
+[[nodiscard]] TREEFORM_API std::size_t read_from(const std::filesystem::path& path,
+                                                 std::uint64_t at, std::span<std::byte> bytes);
 /// None where there is no such file.
 [[nodiscard]] std::optional<std::uint64_t> size_of(const std::filesystem::path& path);
-[[noreturn]] void fail_damaged(const std::filesystem::path& path);
+[[noreturn]] TREEFORM_API void fail_damaged(const std::filesystem::path& path);
 
 template <class Record>
 requires(std::is_trivially_copyable_v<Record> && sizeof(Record) % 8 == 0) class record_writer {

@@ -32,13 +32,13 @@ class points_out {
   public:
     /// `all` is the team whose members write a part each; none: the file is written here.
     points_out(const weld_stream_outputs::file& to, const mesh_file& header, std::uint64_t count,
-               const team* all, const fs::path& part)
+               const team* all, const fs::path& part, std::size_t most_corners = 0)
         : target_(to.path),
           path_(all == nullptr
                     ? to.path
                     : (all->leads() ? fs::path(to.path.string() + ".unfinished") : part)),
           all_(all),
-          writer_(path_, header, count, options_of(to)) {}
+          writer_(path_, header, count, options_of(to), most_corners) {}
 
     [[nodiscard]] static write_options options_of(const weld_stream_outputs::file& to) {
         write_options options = to.options;
@@ -68,6 +68,7 @@ class points_out {
         if (all_ != nullptr && together > 1)
             leading_.emplace(folder, *all_, "leading." + name, header, mine, together);
     }
+    void write(tile_faces& faces, bool all) { faces.give(writer_, all); }
     write_result commit() {
         if (all_ == nullptr) return writer_.commit();
         if (leading_) leading_->give([&](const point_block& block) { writer_.write(block); });
@@ -157,7 +158,8 @@ class output_look {
 class giving_back {
   public:
     giving_back(pacer& pace, const tile_task& task, const weld_stream_outputs& asked,
-                tile_steps& steps, tiles_welded& welded, kept_rows* rows, const work_folder& work)
+                tile_steps& steps, tiles_welded& welded, kept_rows* rows, tile_faces* faces,
+                const work_folder& work)
         : pace_(pace),
           task_(task),
           work_(work),
@@ -167,6 +169,7 @@ class giving_back {
           steps_(steps),
           welded_(welded),
           rows_(rows),
+          faces_(faces),
           head_(steps.source().header()) {
         head_.stored_as = survey_.single ? precision::float32 : precision::float64;
         is_divided_ = may_divide();
@@ -227,7 +230,8 @@ class giving_back {
         if (asked_.welded)
             result_.emplace(*asked_.welded, head_,
                             drops_nothing() ? survey_.points : survey_.points - dropped, parts,
-                            part("welded"));
+                            part("welded"),
+                            faces_ == nullptr ? 0 : faces_->most_corners(drops_nothing()));
         if (result_)
             result_->start_part(work_, head_, "welded",
                                 drops_nothing() ? mine : mine - welded_.kept.dropped());
@@ -237,6 +241,7 @@ class giving_back {
     void add_columns() {
         removed_head_ = removed_head();
         if (!asked_.welded) return;
+        if (faces_ != nullptr) faces_->tell(head_, drops_nothing());
         if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
         if (!asked_.label.empty())
             written_.label_replaced =
@@ -338,6 +343,7 @@ class giving_back {
                                     static_cast<double>(mine.size()));
         });
         steps_.step_done();
+        if (result_ && faces_ != nullptr) result_->write(*faces_, drops_nothing());
         if (removed_) written_.removed = removed_->commit();
         if (result_) written_.welded = result_->commit();
         if (map_) map_->commit();
@@ -411,6 +417,7 @@ class giving_back {
     tile_steps& steps_;
     tiles_welded& welded_;
     kept_rows* rows_;
+    tile_faces* faces_;
     mesh_file head_;
     mesh_file removed_head_{};
     weld_stream_written written_{};
@@ -440,12 +447,13 @@ void remove_leftovers(const work_folder& folder) {
 
 weld_stream_written give_back(pacer& pace, const tile_task& task,
                               const weld_stream_outputs& outputs, tile_steps& steps,
-                              tiles_welded& welded, kept_rows* rows, const work_folder& folder) {
+                              tiles_welded& welded, kept_rows* rows, tile_faces* faces,
+                              const work_folder& folder) {
     state_writer state;
     state.number(outputs.unfinished.size());
     for (const fs::path& path : outputs.unfinished) state.text(fs::absolute(path).string());
     if (steps.all().leads()) folder.store(leftovers, state);
-    return giving_back(pace, task, outputs, steps, welded, rows, folder).run();
+    return giving_back(pace, task, outputs, steps, welded, rows, faces, folder).run();
 }
 
 }  // namespace treeform::detail::stream

@@ -3,6 +3,7 @@
 /// What has been welded in tiles, on its way to the files that were asked for.
 
 #include <libmesh/stream/kept_rows.hpp>
+#include <libmesh/stream/tile_faces.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 
 namespace treeform::detail::stream {
@@ -11,13 +12,14 @@ namespace treeform::detail::stream {
 void remove_leftovers(const work_folder& folder);
 
 /// The last pass over the input: what is kept, and what else is asked for. `rows` stand for groups
-/// of several; null where their first points do.
+/// of several; null where their first points do. `faces` of a mesh that was
+/// welded; null for a cloud.
 ///
 /// \throws io_error; stream_error, also where the input has changed meanwhile; cancelled;
 ///         std::logic_error where points in are not points kept and points removed
 [[nodiscard]] weld_stream_written give_back(pacer& pace, const tile_task& task,
                                             const weld_stream_outputs& outputs, tile_steps& steps,
                                             tiles_welded& welded, kept_rows* rows,
-                                            const work_folder& folder);
+                                            tile_faces* faces, const work_folder& folder);
 
 }  // namespace treeform::detail::stream

@@ -73,6 +73,8 @@ class tile_steps {
     /// Then says where it will be cut.
     void look();
     [[nodiscard]] const cloud_survey& survey() const { return survey_.cloud; }
+    /// For what is known of other things than points.
+    [[nodiscard]] cloud_survey& survey() { return survey_.cloud; }
     /// Whether tiles have been given their points, here or elsewhere; of theirs, nothing is looked at.
     [[nodiscard]] bool has_tiles() { return scattered_ || know(); }
     /// Whether the folder has tiles, be it of another cloud or of other options.

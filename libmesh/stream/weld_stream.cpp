@@ -1,3 +1,4 @@
+#include <libmesh/stream/tile_faces.hpp>
 #include <libmesh/stream/tile_outputs.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -40,7 +41,8 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
     }
     state.number(static_cast<std::uint64_t>(o.order));
     state.text(o.order_by);
-    for (const bool one : {o.relative, o.as_las}) state.number(one ? 1 : 0);
+    for (const bool one : {o.relative, o.as_las, o.keep_seams}) state.number(one ? 1 : 0);
+    for (const std::string& name : o.across) state.text(name);
     return state.bytes();
 }
 
@@ -69,6 +71,16 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
     return {std::move(inputs), std::move(options), std::move(identity), memory};
 }
 
+/// In memory, equal corners of a soup are one before anything else is asked. Where that makes a
+/// difference, tiles do not do it.
+void check_soup(const mesh_file& header, const weld_stream_options& o) {
+    if (header.indexed) return;
+    if (o.keep != weld_keep::first || (o.tolerance > 0.0 && o.rule == weld_rule::first))
+        throw std::invalid_argument(
+            "treeform::weld_stream: an STL is welded in tiles with weld_keep::first, and without a "
+            "tolerance or by weld_rule::chain; a PLY made of it is with all options");
+}
+
 work_folder::use use_of(const weld_stream_options& o, const detail::stream::team& all) {
     if (o.shared) return work_folder::use::shared;
     if (!all.leads()) all.meet();  // the first one makes the folder
@@ -83,7 +95,7 @@ stream_error::stream_error(reason why, fs::path path, const std::string& text, s
 cloud_outline outline(const cloud_inputs& inputs) {
     const cloud_inputs all = named(inputs);
     const detail::stream::joined_points points(all, false);
-    return {points.header(), points.count()};
+    return {points.header(), points.count(), detail::stream::has_rows_behind(points.header())};
 }
 
 struct stream_weld::state {
@@ -96,6 +108,12 @@ struct stream_weld::state {
           folder(task.options.folder, "weld", use_of(task.options, all)),
           steps(pace, folder, task, all, source, keys) {
         if (all.leads()) all.meet();
+        if (!detail::stream::has_rows_behind(source.header())) return;
+        check_soup(source.header(), task.options);
+        if (!all.is_alone())
+            throw std::invalid_argument(
+                "treeform::weld_stream: a mesh is welded by one process, not by a team");
+        faces.emplace(pace, folder, task, steps);
     }
 
     /// \throws stream_error where there are none
@@ -141,10 +159,28 @@ struct stream_weld::state {
         again.folder += ".again";
         again.step_done = {};
         again.shared = false;
+        again.same = keys.conditions();
+        again.keep_seams = false;
         const cloud_inputs input{.paths = {path}, .format = outputs.welded->options.format};
-        const weld_stream_result result = weld_stream(input, {}, again);
+        stream_weld twice(input, again);
+        twice.state_->faces.reset();
+        const weld_stream_result result = run(twice, {});
         if (result.status == status::cancelled) throw detail::stream::cancelled{};
         written.still_within = result.survey.points - result.counts.kept;
+    }
+
+    [[nodiscard]] static weld_stream_result run(stream_weld& work,
+                                                const weld_stream_outputs& outputs) {
+        weld_stream_result result;
+        result.status = work.look();
+        if (result.status == status::ok) result.status = work.scatter();
+        if (result.status == status::ok) result.status = work.weld();
+        if (result.status == status::ok) result.status = work.write(outputs);
+        if (result.status == status::ok) work.remove_folder();
+        result.survey = work.survey();
+        result.counts = work.counts();
+        result.written = work.written();
+        return result;
     }
 
     detail::stream::tile_task task;
@@ -157,6 +193,7 @@ struct stream_weld::state {
     std::optional<detail::stream::held_alone>
         alone{};  ///< a shared one, while tiles are made, and from `weld` on
     detail::stream::tile_steps steps;
+    std::optional<detail::stream::tile_faces> faces{};  ///< of a mesh
     std::optional<detail::stream::tiles_welded> welded{};
     std::optional<detail::stream::kept_rows> rows{};
     weld_stream_counts counts{};
@@ -181,6 +218,7 @@ status stream_weld::look() {
                 s.folder.fail_with_other_tiles();
         }
         s.steps.look();
+        if (s.faces) s.faces->look(s.steps.survey());
     });
 }
 
@@ -216,6 +254,7 @@ status stream_weld::weld() {
                            *s.welded);
         s.counts = {survey().points - s.welded->dropped, s.welded->groups,
                     s.welded->max_displacement};
+        if (s.faces) s.faces->weld(*s.welded, s.rows ? &*s.rows : nullptr, s.counts);
     });
 }
 
@@ -225,7 +264,8 @@ status stream_weld::write(const weld_stream_outputs& outputs) {
     return state::until_cancelled([&] {
         state& s = *state_;
         s.written = detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded,
-                                              s.rows ? &*s.rows : nullptr, s.folder);
+                                              s.rows ? &*s.rows : nullptr,
+                                              s.faces ? &*s.faces : nullptr, s.folder);
         s.count_still_within(outputs);
     });
 }
@@ -240,16 +280,7 @@ void stream_weld::remove_folder() {
 weld_stream_result weld_stream(const cloud_inputs& inputs, const weld_stream_outputs& outputs,
                                const weld_stream_options& options) {
     stream_weld work(inputs, options);
-    weld_stream_result result;
-    result.status = work.look();
-    if (result.status == status::ok) result.status = work.scatter();
-    if (result.status == status::ok) result.status = work.weld();
-    if (result.status == status::ok) result.status = work.write(outputs);
-    if (result.status == status::ok) work.remove_folder();
-    result.survey = work.survey();
-    result.counts = work.counts();
-    result.written = work.written();
-    return result;
+    return stream_weld::state::run(work, outputs);
 }
 
 weld_stream_result weld_stream(const fs::path& input, const fs::path& output,
@@ -269,7 +300,13 @@ std::uint64_t memory_to_weld(const mesh_file& header, std::uint64_t points) {
     if (const element* vertices = find_element(header.attributes, "vertex"))
         for (const column& c : vertices->columns)
             if (c.role == column_role::data) properties += size_of(c.type);
-    return points * (sizeof(point3) + 2 * properties + 48);
+    const std::uint64_t of_points = points * (sizeof(point3) + 2 * properties + 48);
+    const element* const faces = find_element(header.attributes, "face");
+    if (faces == nullptr) return of_points;
+    std::uint64_t of_face = 2 * sizeof(face) + 40;
+    for (const column& c : faces->columns)
+        if (c.role == column_role::data) of_face += 2 * size_of(c.type);
+    return of_points + faces->rows * of_face;
 }
 
 std::uint64_t memory_to_stream(const mesh_file& header, std::uint64_t points) {

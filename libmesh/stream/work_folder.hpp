@@ -15,7 +15,7 @@ namespace treeform::detail::stream {
 
 /// Held by one process at a time, or shared by several. What is stored in it stays until `remove`, so
 /// that the same call can go on; a folder without anything ends with its last holder.
-class work_folder {
+class TREEFORM_API work_folder {
   public:
     enum class use : std::uint8_t {
         alone,

@@ -2,7 +2,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
-#include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -26,47 +26,15 @@ void check_column(const element& e, const column& c) {
     if (!fits) refuse("column '" + c.name + "' does not fit element '" + e.name + "'");
 }
 
-template <class T>
-void renumber_values(column& c, const std::vector<std::uint32_t>& new_of_old) {
-    for_chunks(value_count(c), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            T value;
-            std::byte* const at = c.values.data() + i * sizeof value;
-            std::memcpy(&value, at, sizeof value);
-            if (value < 0 || static_cast<std::uint64_t>(value) >= new_of_old.size()) continue;
-            // Groups are numbered by their first points, so that no number grows.
-            value = static_cast<T>(new_of_old[static_cast<std::size_t>(value)]);
-            std::memcpy(at, &value, sizeof value);
-        }
-    });
-}
+constexpr std::string_view names_of_points[] = {"vertex1", "vertex2", "vertex_index",
+                                                "vertex_indices"};
 
 void renumber_points(column& c, const std::vector<std::uint32_t>& new_of_old) {
-    constexpr std::string_view names[] = {"vertex1", "vertex2", "vertex_index", "vertex_indices"};
-    const bool numbers_points =
-        std::find(std::begin(names), std::end(names), c.name) != std::end(names);
-    if (!numbers_points || c.role != column_role::data) return;
-    switch (c.type) {
-        case scalar_type::int8:
-            return renumber_values<std::int8_t>(c, new_of_old);
-        case scalar_type::uint8:
-            return renumber_values<std::uint8_t>(c, new_of_old);
-        case scalar_type::int16:
-            return renumber_values<std::int16_t>(c, new_of_old);
-        case scalar_type::uint16:
-            return renumber_values<std::uint16_t>(c, new_of_old);
-        case scalar_type::int32:
-            return renumber_values<std::int32_t>(c, new_of_old);
-        case scalar_type::uint32:
-            return renumber_values<std::uint32_t>(c, new_of_old);
-        case scalar_type::int64:
-            return renumber_values<std::int64_t>(c, new_of_old);
-        case scalar_type::uint64:
-            return renumber_values<std::uint64_t>(c, new_of_old);
-        case scalar_type::float32:
-        case scalar_type::float64:
-            return;
-    }
+    if (!numbers_points(c)) return;
+    for_chunks(value_count(c), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        renumber(c, begin, end, new_of_old.size(),
+                 [&](std::uint64_t old) { return new_of_old[static_cast<std::size_t>(old)]; });
+    });
 }
 
 element carried(const element& e, const weld_result& welded) {
@@ -78,6 +46,12 @@ element carried(const element& e, const weld_result& welded) {
 }
 
 }  // namespace
+
+bool numbers_points(const column& c) {
+    return c.role == column_role::data && c.type != scalar_type::float32 &&
+           c.type != scalar_type::float64 &&
+           std::ranges::find(names_of_points, c.name) != std::end(names_of_points);
+}
 
 void check_rows(const attributes& properties, std::size_t point_count, std::size_t face_count) {
     for (const element& e : properties.elements) {

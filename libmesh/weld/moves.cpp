@@ -51,11 +51,6 @@ bool finite(const plane_points& p) {
            detail::base::is_finite(p.c);
 }
 
-bool is_flipped(const plane_points& before, const plane_points& after) {
-    if (before.a == after.a && before.b == after.b && before.c == after.c) return false;
-    return finite(before) && finite(after) && normal_dot(before, after) < 0;
-}
-
 }  // namespace
 
 double max_displacement(points_view points, std::span<const std::uint32_t> group_of_point,
@@ -72,6 +67,11 @@ double max_displacement(points_view points, std::span<const std::uint32_t> group
     for (const move& m : furthest)
         if (m.further_than(found)) found = m;
     return found.distance_above();
+}
+
+bool is_flipped(const plane_points& before, const plane_points& after) {
+    if (before.a == after.a && before.b == after.b && before.c == after.c) return false;
+    return finite(before) && finite(after) && normal_dot(before, after) < 0;
 }
 
 std::uint64_t count_flipped(mesh_view before, mesh_view after,

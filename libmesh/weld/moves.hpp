@@ -3,6 +3,7 @@
 /// What merging points did to their places and to the normals of faces.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <cstdint>
 #include <span>
@@ -15,9 +16,12 @@ namespace treeform::detail::weld {
                                       std::span<const std::uint32_t> group_of_point,
                                       points_view places);
 
-/// Faces of `after` whose normal points away from the one they had, decided exactly; face i was
-/// `before.faces[face_of_new[i]]`. Faces without area on either side, and those with a corner that
-/// is not finite, do not count.
+/// Whether the normal of a triangle points away from the one it had, decided exactly. Not where it
+/// has or had no area, or a corner that is not finite.
+[[nodiscard]] bool is_flipped(const plane_points& before, const plane_points& after);
+
+/// Faces of `after` whose normal points away from the one they had; face i was
+/// `before.faces[face_of_new[i]]`.
 [[nodiscard]] std::uint64_t count_flipped(mesh_view before, mesh_view after,
                                           std::span<const std::uint32_t> face_of_new);
 

@@ -195,7 +195,7 @@ class Shared(WeldTest):
         run = self.run_tool("in.ply", "-t", "0.03", "--plan", *work, status=4)
         self.assertIn("holds tiles of another input or of other options", run.err)
         self.write("cube.obj", obj_bytes(cube()))
-        self.assertIn("meshes are welded by one, in memory",
+        self.assertIn("other meshes are welded by one, in memory",
                       self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
 
     @unittest.skipIf(NO_MPI, NO_MPI)

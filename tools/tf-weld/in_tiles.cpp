@@ -45,6 +45,9 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     options.keep_by = asked.keep_by;
     options.order = asked.order;
     options.order_by = asked.order_by;
+    options.keep_seams = asked.keep_seams;
+    options.across = asked.across;
+    options.keep_degenerate = asked.keep_degenerate;
     const auto path = mesh_output(work.options, work.path);
     const std::string& format = work.options.output_format;
     options.as_las =
@@ -91,7 +94,7 @@ void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_in
         source["sha256"] = sum.empty() ? json(nullptr) : json(sum);
         source["precision_in"] = precision(from.single);
         source["points"] = from.points;
-        source["faces"] = 0;
+        source["faces"] = survey.faces;
         source["first_point"] = first_point;
         first_point += from.points;
         work.entry["sources"].push_back(std::move(source));
@@ -196,13 +199,20 @@ class stream_files {
 welding in_words_of_memory(const tf::cloud_survey& survey, const tf::weld_stream_counts& counts) {
     welding w;
     w.points = survey.points;
+    w.polygons = survey.faces;
+    w.triangles = survey.triangles;
     w.box = survey.box;
     w.tolerance = survey.tolerance;
     w.conditions = survey.conditions;
     w.result.statistics.non_finite = survey.non_finite;
     w.result.statistics.max_displacement = counts.max_displacement;
     w.result.statistics.groups = counts.groups;
-    w.counted = counts.kept;
+    w.result.statistics.collapsed = counts.collapsed;
+    w.result.statistics.degenerate = counts.degenerate;
+    w.result.statistics.flipped = counts.flipped;
+    w.result.statistics.nonmanifold_before = counts.nonmanifold_before;
+    w.result.statistics.nonmanifold_after = counts.nonmanifold_after;
+    w.counted = {.points = counts.kept, .triangles = counts.triangles};
     return w;
 }
 
@@ -239,7 +249,9 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
     const tf::weld_stream_options options = library_options(work, request, tiles, header);
     std::optional<tf::stream_weld> weld;
     try {
-        static_cast<void>(tf::weld_conditions(header.attributes, false, request.settings.options));
+        const tf::element* const faces = tf::find_element(header.attributes, "face");
+        static_cast<void>(tf::weld_conditions(
+            header.attributes, faces != nullptr && faces->rows > 0, request.settings.options));
         if (tiles.team.size > 1 && leads) tiles.team.exchange({});
         take(work, "read", [&] {
             weld.emplace(inputs, options);
@@ -272,7 +284,9 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
     work.out.result(work.name + ": " + verdict(w, request));
     say_details(work, w);
     enter_report(work, w, request);
-    work.entry["polygons"] = {{"in", 0}, {"out", 0}};
+    work.entry["polygons"] = {
+        {"in", w.polygons},
+        {"out", request.outputs.drops_nothing() ? w.polygons : weld->counts().faces}};
     warn_of_defects(work, w);
     stream_files(work, request, tiles, header).write(*weld);
     return request.outputs.check && w.removed() > 0 ? found : done;

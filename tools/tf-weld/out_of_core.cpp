@@ -26,9 +26,16 @@ bool has_lists(const tf::mesh_file& header) {
            });
 }
 
+/// Other formats are written whole.
+bool is_of_blocks(const std::string& format, bool is_mesh) {
+    if (is_mesh) return format == "ply" || format == "obj";
+    return format != "off" && format != "stl" && format != "glb" && format != "3mf";
+}
+
 /// Why only memory will do; empty where tiles will, too.
 std::string what_needs_memory(const job& work, const weld_request& request,
-                              const tf::mesh_file& header) {
+                              const tf::cloud_outline& cloud) {
+    const tf::mesh_file& header = cloud.header;
     const tf::weld_options& o = request.settings.options;
     if (work.options.shows()) return work.options.html.empty() ? "--png" : "--html";
     if (o.only_borders) return "--borders";
@@ -36,8 +43,19 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const bool chooses = o.keep != tf::weld_keep::first;
     if (chooses && has_lists(header)) return "--keep of points with lists";
     const auto path = mesh_output(work.options, work.path);
-    if (path && *path == "-" && (chooses || work.options.precision == "float"))
-        return "looking again at what goes to standard output";
+    if (!header.indexed && chooses) return "--keep of an STL";
+    if (!header.indexed && !request.outputs.label.empty()) return "--label of an STL";
+    if (!header.indexed && request.settings.tolerance.value > 0.0 && o.rule == tf::weld_rule::first)
+        return "-t of an STL (not of a PLY that tf-weld without -t makes of it)";
+    const std::string format = path ? form_of(work, header, *path).format : std::string();
+    if (path && !is_of_blocks(format, cloud.has_rows))
+        return "the output format " + format + (cloud.has_rows ? " of a mesh" : " of a cloud");
+    if (cloud.has_rows && work.options.precision == "float" &&
+        (header.stored_as == tf::precision::float64 || o.keep == tf::weld_keep::mean))
+        return "--precision float of a mesh in doubles";
+    const bool looks_again = chooses || work.options.precision == "float";
+    if (path && *path == "-" && looks_again) return "looking again at what goes to standard output";
+    if (format == "obj" && looks_again) return "looking again at an OBJ";
     return {};
 }
 
@@ -70,19 +88,17 @@ constexpr std::uint64_t most_per_byte = 16;
 
 /// Where memory is limited and this may need more: says so before, and why when it does.
 exit_status weld_mesh(job& work, const weld_request& request, const tile_options& tiles,
-                      std::uint64_t size) {
-    const char* const words = "meshes are welded in memory, not in tiles";
+                      std::uint64_t size, const std::string& words) {
     if (work.options.memory == 0 || size < work.options.memory / most_per_byte)
         return weld_in_memory(work, request, tiles.per_tile > 0 ? words : remark_on_folder(tiles));
     const auto not_enough = [&] {
         return failure(stopped, "memory",
-                       work.name + ": " + words +
-                           ", as their faces name points anywhere; --memory is not enough for " +
+                       work.name + ": " + words + "; --memory is not enough for " +
                            in_megabytes(size) + " of file");
     };
     if (size > work.options.memory) throw not_enough();
     try {
-        return weld_in_memory(work, request, words + std::string("; --memory may not be enough"));
+        return weld_in_memory(work, request, words + "; --memory may not be enough");
     } catch (const std::bad_alloc&) {
         throw not_enough();
     } catch (const failure& error) {
@@ -109,19 +125,29 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         throw failure(
             bad_input, "read",
             work.name +
-                ": is no cloud that can be read by blocks, as several processes do; meshes are "
-                "welded by one, in memory");
-    if (!cloud) return weld_mesh(work, request, tiles, size);
+                ": is no cloud, plain PLY or binary STL, which several processes read by blocks; "
+                "other meshes are welded by one, in memory");
+    if (!cloud)
+        return weld_mesh(
+            work, request, tiles, size,
+            "meshes other than plain PLY and binary STL are welded in memory, not in tiles");
+    if (cloud->has_rows && tiles.team.size > 1)
+        throw failure(
+            bad_usage, "usage",
+            work.name + ": a mesh is welded by one process; --plan, --tile and --finish share it");
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +
         tf::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
     if (!asked && needed <= allowed) return weld_in_memory(work, request, remark_on_folder(tiles));
-    const std::string only = what_needs_memory(work, request, cloud->header);
+    const std::string only = what_needs_memory(work, request, *cloud);
     if (only.empty())
         return work_in(work, folder_for(work, request, tiles), tiles,
                        [&] { return weld_in_tiles(work, request, tiles, inputs, cloud->header); });
+    if (cloud->has_rows && !tiles.is_shared())
+        return weld_mesh(work, request, tiles, size, only + " needs the whole mesh in memory");
     throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
-                  work.name + ": " + only + " needs the whole cloud in memory, about " +
+                  work.name + ": " + only + " needs the whole " +
+                      (cloud->has_rows ? "mesh" : "cloud") + " in memory, about " +
                       in_megabytes(needed) + "; without it, a smaller --memory would do");
 }
 

@@ -133,7 +133,7 @@ void enter_report(job& work, const welding& w, const weld_request& request) {
                        {"distinct", w.distinct()},
                        {"groups", r.groups}};
     entry["faces"] = {{"in", w.triangles},
-                      {"out", all_kept ? w.triangles : w.result.file.mesh.faces.size()},
+                      {"out", all_kept ? w.triangles : w.triangles_kept()},
                       {"collapsed", r.collapsed},
                       {"degenerate", r.degenerate},
                       {"flipped", r.flipped}};

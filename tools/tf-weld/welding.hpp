@@ -24,11 +24,18 @@ struct welding {
     std::vector<tf::weld_condition> conditions{};
     tf::file_weld_result result{};
 
-    /// Of a cloud that was welded on the disk, and has no groups in `result`.
-    std::optional<std::uint64_t> counted{};
+    /// What is kept of what was welded on the disk, and is not in `result`.
+    struct kept {
+        std::uint64_t points;
+        std::uint64_t triangles;
+    };
+    std::optional<kept> counted{};
 
     [[nodiscard]] std::uint64_t distinct() const {
-        return counted ? *counted : result.point_of_group.size();
+        return counted ? counted->points : result.point_of_group.size();
+    }
+    [[nodiscard]] std::uint64_t triangles_kept() const {
+        return counted ? counted->triangles : result.file.mesh.faces.size();
     }
     [[nodiscard]] std::uint64_t removed() const { return points - distinct(); }
     [[nodiscard]] bool keeps(std::uint32_t point) const {

@@ -17,8 +17,7 @@ std::string reach(const welding& w, const weld_settings& settings) {
 std::string faces_in_words(const welding& w, const weld_settings& settings) {
     const tf::weld_statistics& r = w.result.statistics;
     if (w.triangles == 0) return {};
-    std::string text =
-        "; " + counted(w.result.file.mesh.faces.size(), "triangle", "triangles") + " kept";
+    std::string text = "; " + counted(w.triangles_kept(), "triangle", "triangles") + " kept";
     if (r.collapsed > 0) text += ", " + grouped(r.collapsed) + " collapsed";
     if (r.degenerate > 0) text += ", " + grouped(r.degenerate) + " repeated a corner before";
     return settings.options.keep_degenerate || r.collapsed + r.degenerate == 0

@@ -337,3 +337,99 @@ TEST_CASE("point streams: a writer takes what was announced, and leaves nothing 
     CHECK(tf::read(here.folder / "a.ply").mesh.points[0].x ==
           static_cast<double>(static_cast<float>(0.1)));
 }
+
+namespace {
+
+/// Quads and triangles, with lists and values, and edges behind them.
+const char* const mesh_text =
+    "ply\nformat ascii 1.0\ncomment mesh\nelement vertex 5\nproperty double x\nproperty double y\n"
+    "property double z\nproperty uchar red\nelement face 4\nproperty short kind\n"
+    "property list uchar int vertex_indices\nproperty list uchar float more\nelement none 0\n"
+    "property int n\nelement edge 2\nproperty int vertex1\nproperty list uchar int "
+    "tags\nend_header\n"
+    "0 0 0 1\n1 0 0 2\n1 1 0 3\n0 1 0.5 4\n2 0 0 5\n"
+    "7 4 0 1 2 3 2 0.5 0.25\n8 3 1 4 2 0\n-1 3 0 0 1 1 4\n9 5 0 1 4 2 3 0\n4 1 6\n1 0\n";
+
+void copy_by(std::size_t most, const fs::path& from, const fs::path& to, bool ascii,
+             bool with_points = true) {
+    tf::point_reader reader(from, {}, 0, true);
+    tf::point_writer writer(to, reader.header(), *reader.count(), {.ascii = ascii}, 5);
+    tf::point_block points;
+    while (with_points && reader.read(points, most)) writer.write(points);
+    for (tf::row_block rows; reader.read(rows, most);) writer.write(rows);
+    writer.commit();
+}
+
+}  // namespace
+
+TEST_CASE("point streams: rows behind the points are those of the file") {
+    const scratch here;
+    const fs::path text = here.put("text.ply", mesh_text);
+    tf::mesh_file big = tf::read(text);
+    for (const bool ascii : {true, false}) {
+        const fs::path whole = here.folder / "whole.ply";
+        tf::write(whole, tf::read(text), {.ascii = ascii});
+        for (const std::size_t most : {1U, 2U, 3U, 100U}) {
+            for (const fs::path& from : {text, whole}) {
+                copy_by(most, from, here.folder / "copy.ply", ascii);
+                CHECK(bytes_of(here.folder / "copy.ply") == bytes_of(whole));
+            }
+        }
+    }
+    big.format = "ply-binary-be";
+    tf::write(here.folder / "big.ply", big);
+    copy_by(2, here.folder / "big.ply", here.folder / "copy.ply", false);
+    CHECK(bytes_of(here.folder / "copy.ply") == bytes_of(here.folder / "big.ply"));
+}
+
+TEST_CASE("point streams: rows behind the points can be read alone, and are checked") {
+    const scratch here;
+    const fs::path text = here.put("text.ply", mesh_text);
+    tf::point_reader reader(text, {}, 5, true);
+    CHECK(reader.header().attributes.elements.at(1).rows == 4);
+    tf::row_block rows;
+    REQUIRE(reader.read(rows, 3));
+    CHECK(rows.rows.name == "face");
+    CHECK(rows.corners == std::vector<std::uint32_t>{0, 1, 2, 3, 1, 4, 2, 0, 0, 1});
+    CHECK(rows.first_corner == std::vector<std::uint64_t>{0, 4, 7, 10});
+    REQUIRE(reader.read(rows, 3));
+    CHECK(rows.rows.rows == 1);
+    REQUIRE(reader.read(rows, 3));
+    CHECK(rows.rows.name == "edge");
+    CHECK(rows.corners.empty());
+    CHECK_FALSE(reader.read(rows, 3));
+    CHECK(reader.header().warnings.empty());
+    tf::point_reader in_the_middle(text, {}, 2, true);
+    REQUIRE(in_the_middle.read(rows, 100));
+    CHECK(rows.rows.rows == 4);
+
+    CHECK_THROWS_AS(copy_by(3, text, here.folder / "a.ply", true, false), std::invalid_argument);
+    CHECK_THROWS_AS(tf::point_writer(here.folder / "a.xyz", reader.header(), 5), tf::io_error);
+    tf::point_writer writer(here.folder / "a.ply", reader.header(), 0);
+    rows.rows.rows = 3;
+    CHECK_THROWS_AS(writer.write(rows), std::invalid_argument);  // not the corners of each
+    rows.rows.name = "edge";
+    CHECK_THROWS_AS(writer.write(rows), std::invalid_argument);  // faces are first
+    CHECK_THROWS_AS(writer.commit(), tf::io_error);
+    const auto put = [&](const std::string& from, const std::string& to) {
+        std::string changed = mesh_text;
+        changed.replace(changed.find(from), from.size(), to);
+        return here.put("changed.ply", changed);
+    };
+    for (const auto& [from, to] :
+         std::vector<std::pair<std::string, std::string>>{{"8 3 1 4 2 0", "8 3 1 5 2 0"},
+                                                          {"8 3 1 4 2 0", "8 3 1 -1 2 0"},
+                                                          {"8 3 1 4 2 0", "8 2 1 4 0"},
+                                                          {"8 3 1 4 2 0", "8 3 1 4"},
+                                                          {"element edge 2", "element edge 3"},
+                                                          {"float more", "float texcoord"},
+                                                          {"element edge 2", "element face 2"},
+                                                          {"element face 4", "element tristrips 4"},
+                                                          {"vertex_indices", "others"}})
+        CHECK_THROWS_AS(copy_by(2, put(from, to), here.folder / "b.ply", true), tf::io_error);
+    CHECK_FALSE(fs::exists(here.folder / "b.ply"));
+    tf::point_reader longer(put("4 1 6\n1 0\n", "4 1 6\n1 0\n5\n"), {}, 0, true);
+    while (longer.read(rows, 9)) {
+    }
+    CHECK(longer.header().warnings.at(0).code == "trailing-bytes");
+}

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Reads and writes point files a block at a time, for clouds that are larger than memory.
+/// Reads and writes point files a block at a time, for clouds that are larger than memory; and the
+/// faces and other rows that a PLY or STL has behind its points.
 
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
@@ -23,6 +24,13 @@ struct point_block {
     element properties{.name = "vertex"};  ///< a row a point
 };
 
+/// Consecutive rows of an element behind the points, such as faces.
+struct row_block {
+    element rows{};                        ///< with the element's name
+    std::vector<std::uint32_t> corners{};  ///< of faces: those of the first, then of the next, ...
+    std::vector<std::uint64_t> first_corner{};  ///< [rows + 1] in `corners`; of others empty
+};
+
 /// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
 /// together are what `read` gives for the whole file.
 class TREEFORM_API point_reader {
@@ -32,10 +40,16 @@ class TREEFORM_API point_reader {
     /// points of a compressed PCD. The `first` points, no more than there are, are passed over:
     /// unread in binary PLY without lists, binary PCD, LAS, and whole chunks of LAZ.
     ///
+    /// With `with_rows`, a PLY may have faces and other elements behind its points, and a binary STL is
+    /// read as the corners of its facets, with the facets behind them. The header says how many rows
+    /// there are. They can be read next. The facets of an STL have the column "stl_attribute" also
+    /// where all of it is zero.
+    ///
     /// \throws io_error for a format without points, for a file with faces or other elements that
-    ///         have rows, and as `read`
+    ///         have rows, and as `read`; with `with_rows` for what is ahead of the points, for strips
+    ///         of triangles, and for faces with texture coordinates of corners
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {},
-                          std::uint64_t first = 0);
+                          std::uint64_t first = 0, bool with_rows = false);
     ~point_reader();
     point_reader(point_reader&&) noexcept;
     point_reader& operator=(point_reader&&) noexcept;
@@ -52,6 +66,11 @@ class TREEFORM_API point_reader {
     ///
     /// \throws io_error as `read`
     bool read(point_block& block, std::size_t most);
+    /// Likewise, with `with_rows`, the next rows of one element, in the order of the file; passes over
+    /// points that have not been read.
+    ///
+    /// \throws io_error as `read`
+    bool read(row_block& block, std::size_t most);
 
   private:
     struct state;
@@ -65,12 +84,14 @@ class TREEFORM_API point_writer {
     /// `header` is that of `point_reader`, perhaps with columns added or removed. `count` is the
     /// number of points that will be written. Coordinates are written with the types of their
     /// columns in "vertex"; in binary as doubles when these are at most float32 and `stored_as` is
-    /// float64.
+    /// float64. Of other elements, the header says how many rows will be written, and `most_corners`
+    /// how many a face has at most.
     ///
-    /// \throws io_error as `write`; also for a format other than ply, pcd, las, laz, xyz
-    ///         and csv, and for LAS without `mesh_file::las` or to a pipe
+    /// \throws io_error as `write`; also for a format other than ply, obj, pcd, las, laz, xyz
+    ///         and csv, for LAS without `mesh_file::las` or to a pipe, and for rows of other elements
+    ///         in a format other than ply and obj
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,
-                 const write_options& options = {});
+                 const write_options& options = {}, std::size_t most_corners = 0);
     ~point_writer();
     point_writer(point_writer&&) noexcept;
     point_writer& operator=(point_writer&&) noexcept;
@@ -79,8 +100,11 @@ class TREEFORM_API point_writer {
     ///         than those of the header, more than `count` points, or a coordinate that the
     ///         header's types do not hold unless `options.precision` says to round
     void write(const point_block& block);
+    /// Rows of the other elements, behind all points, in the order of the header.
+    /// \throws io_error, std::invalid_argument for other columns or more rows than the header's
+    void write(const row_block& block);
     /// Finishes the file. Without this call, no file stays.
-    /// \throws io_error, also when fewer than `count` points were written
+    /// \throws io_error, also when fewer than `count` points, or other rows, were written
     write_result commit();
 
     /// Whether others can write the rest of the points: not in compressed PCD.
@@ -105,5 +129,26 @@ class TREEFORM_API point_writer {
     struct state;
     std::unique_ptr<state> state_;
 };
+
+/// Files that are one cloud, all points of the first before those of the next.
+struct cloud_inputs {
+    std::vector<std::filesystem::path> paths{};
+    std::string format{};              ///< as for `read`
+    std::vector<std::string> names{};  ///< for warnings; empty: the paths
+};
+
+/// What is in files before their points are read.
+struct cloud_outline {
+    mesh_file header{};                     ///< as that of a `point_reader`
+    std::optional<std::uint64_t> points{};  ///< if all headers say it
+    bool has_rows =
+        false;  ///< of a mesh: faces or other rows behind the points, which the header counts
+};
+
+/// One file alone may be a mesh, as `point_reader` reads it with rows.
+///
+/// \throws io_error for what is no file of points, as `point_reader`; std::invalid_argument for
+///         columns that `join` cannot unite
+[[nodiscard]] TREEFORM_API cloud_outline outline(const cloud_inputs& inputs);
 
 }  // namespace treeform

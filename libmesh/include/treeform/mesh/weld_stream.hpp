@@ -1,18 +1,20 @@
 #pragma once
 /// \file
-/// Welds clouds that are larger than memory, from file to file.
+/// Welds clouds and meshes that are larger than memory, from file to file.
 ///
 ///     tf::weld_stream("scan.ply", "thin.ply", {.tolerance = 0.5});
 ///
 /// The cloud, in one file or several, is read three times: to look at it (its box, the number of its
 /// points, a sample that says where to cut), to give each tile its points, and to write what is
-/// kept; an order and a choice of what is kept read it once more. Tiles are in a folder on the disk.
+/// kept; an order and a choice of what is kept read it once more, and so does a mesh, whose faces are
+/// read three times. Tiles are in a folder on the disk.
 /// It stays when the process is killed, and the same call goes on from there. The output is the
 /// same, byte for byte, as `weld` of the whole cloud would give, or of what `join` makes of several.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/write.hpp>
@@ -32,23 +34,6 @@
 
 namespace treeform {
 
-/// Files that are one cloud, all points of the first before those of the next.
-struct cloud_inputs {
-    std::vector<std::filesystem::path> paths{};
-    std::string format{};              ///< as for `read`
-    std::vector<std::string> names{};  ///< for warnings; empty: the paths
-};
-
-/// What is in files before their points are read.
-struct cloud_outline {
-    mesh_file header{};                     ///< as that of a `point_reader`
-    std::optional<std::uint64_t> points{};  ///< if all headers say it
-};
-
-/// \throws io_error for what is no file of points, as `point_reader`; std::invalid_argument for
-///         columns that `join` cannot unite
-[[nodiscard]] TREEFORM_API cloud_outline outline(const cloud_inputs& inputs);
-
 struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     bool relative = false;   ///< `tolerance` is a share of the diagonal of the cloud's box
@@ -58,6 +43,9 @@ struct weld_stream_options {
     std::string keep_by{};
     weld_order order = weld_order::given;
     std::string order_by{};
+    bool keep_seams = false;  ///< of a mesh, as in `weld_options`, and so are the next two
+    std::vector<std::string> across{};
+    bool keep_degenerate = false;
     /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS, else
     /// to those of `round_to_las`, before anything is decided of them.
     bool as_las = false;
@@ -75,6 +63,8 @@ struct weld_stream_options {
 /// What is known of a cloud before it is welded.
 struct cloud_survey {
     std::uint64_t points = 0;
+    std::uint64_t faces = 0;  ///< of a mesh, as stored; and cut into triangles
+    std::uint64_t triangles = 0;
     std::uint64_t non_finite = 0;  ///< points with a NaN or infinite coordinate; all are kept
     std::optional<box3> box{};     ///< of the finite points
     bool single = true;            ///< float32 holds every coordinate exactly, and no file is LAS
@@ -103,6 +93,13 @@ struct weld_stream_counts {
     std::uint64_t kept = 0;         ///< points
     std::uint64_t groups = 0;       ///< groups of two points or more
     double max_displacement = 0.0;  ///< the furthest that a point moved, rounded up to a double
+    std::uint64_t faces = 0;        ///< that are kept, as stored; and cut into triangles
+    std::uint64_t triangles = 0;
+    std::uint64_t collapsed = 0;  ///< as in `weld_statistics`, and so are the next four
+    std::uint64_t degenerate = 0;
+    std::uint64_t nonmanifold_before = 0;
+    std::uint64_t nonmanifold_after = 0;
+    std::uint64_t flipped = 0;
 };
 
 /// What to write; each part may be left out.
@@ -172,13 +169,16 @@ class TREEFORM_API stream_error : public std::runtime_error {
 };
 
 /// Welds the cloud in the files `inputs` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
-/// writes the outputs. Each output appears whole or not at all.
+/// writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may
+/// be a mesh: as `weld` would, faces get their new corners, and those that collapse are left out. Meshes
+/// need one process, and `welded` as PLY or OBJ; an STL no tolerance, or `weld_rule::chain`.
 ///
 /// \throws io_error when an input cannot be read or an output cannot be written, stream_error,
 ///         std::invalid_argument for a tolerance that is negative or not finite, and as `weld` for
 ///         properties
 /// \cost   O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for
-///         each condition, 48 for an order, and points as in memory for a choice of what is kept
+///         each condition, 48 for an order, and points as in memory for a choice of what is kept; of
+///         a mesh up to 56 more, and 48 a triangle
 /// \same   on any number of threads, with any memory and any folder
 TREEFORM_API weld_stream_result weld_stream(const cloud_inputs& inputs,
                                             const weld_stream_outputs& outputs,
@@ -225,6 +225,8 @@ class TREEFORM_API stream_weld {
     void remove_folder();
 
   private:
+    friend weld_stream_result weld_stream(const cloud_inputs&, const weld_stream_outputs&,
+                                          const weld_stream_options&);
     struct state;
     std::unique_ptr<state> state_;
 };

@@ -1,0 +1,170 @@
+#include <libmesh/io/face_texture.hpp>
+#include <libmesh/io/fixed_rows.hpp>
+#include <libmesh/io/ply_body.hpp>
+#include <libmesh/io/point_rows.hpp>
+#include <libmesh/io/vertex_rows.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace treeform::detail::io {
+namespace {
+
+/// The element "vertex" from the front to the back, and the elements behind it.
+template <class Values>
+class ply_points {
+  public:
+    /// Of `vertices`, as many rows are left to read.
+    ply_points(const source& in, Values values, const element& vertices,
+               std::vector<element> behind)
+        : in_(in),
+          values_(std::move(values)),
+          left_(vertices.rows),
+          columns_(vertices),
+          behind_(std::move(behind)) {}
+
+    std::size_t append(std::vector<point3>& points, element& vertices, std::size_t most,
+                       std::vector<io_warning>& warnings) {
+        const std::size_t rows = std::min(most, left_);
+        append_vertices(values_, vertices, points, rows);
+        left_ -= rows;
+        if (rows == 0 && behind_.empty()) look_behind(values_, warnings);
+        return rows;
+    }
+
+    /// \pre the numbers of points are those of the file
+    bool read(row_block& block, std::size_t most, std::uint64_t points,
+              std::vector<io_warning>& warnings) {
+        pass_points();
+        while (at_ < behind_.size() && row_ == behind_[at_].rows) {
+            ++at_;
+            row_ = 0;
+        }
+        if (at_ == behind_.size()) {
+            look_behind(values_, warnings);
+            return false;
+        }
+        const element& e = behind_[at_];
+        if (row_ == 0) check_room(values_, e);
+        restart(block.rows, e);
+        block.corners.clear();
+        block.first_corner.clear();
+        if (e.name == "face") block.first_corner.push_back(0);
+        points_ = static_cast<std::int64_t>(points);
+        constexpr std::size_t corners_a_face = 4;
+        while (block.rows.rows < most && block.corners.size() < corners_a_face * most &&
+               row_ < e.rows)
+            read_row(block);
+        return true;
+    }
+
+  private:
+    void pass_points() {
+        constexpr std::size_t run = std::size_t{1} << 15;
+        std::vector<point3> points;
+        for (element rows; left_ > 0; left_ -= std::min(left_, run)) {
+            restart(rows, columns_);
+            points.clear();
+            append_vertices(values_, rows, points, std::min(left_, run));
+        }
+    }
+
+    void read_row(row_block& block) {
+        values_.begin_row();
+        for (column& c : block.rows.columns) {
+            if (c.role == column_role::corners)
+                read_corners(c, block);
+            else
+                read_data(values_, c);
+        }
+        values_.end_row();
+        ++block.rows.rows;
+        ++row_;
+    }
+
+    void read_corners(const column& c, row_block& block) {
+        const std::size_t count = values_.length(c);
+        if (count < 3) values_.fail("face with " + std::to_string(count) + " corners");
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int64_t index = values_.index(c);
+            if (index < 0 || index >= points_)
+                values_.fail("vertex index " + std::to_string(index) + " is out of range");
+            block.corners.push_back(static_cast<std::uint32_t>(index));
+        }
+        block.first_corner.push_back(block.corners.size());
+    }
+
+    const source& in_;
+    Values values_;
+    std::size_t left_;
+    element columns_;
+    std::vector<element> behind_;  ///< with rows
+    std::size_t at_ = 0;           ///< the one that is read
+    std::size_t row_ = 0;          ///< the next of it
+    std::int64_t points_ = 0;
+};
+
+/// The elements behind the points that have rows; what cannot be read so is refused.
+std::vector<element> elements_behind(const source& in, const std::vector<element>& elements,
+                                     const element& vertices) {
+    std::vector<element> behind;
+    for (const element& e : elements) {
+        if (&e == &vertices || e.rows == 0 || e.columns.empty()) continue;
+        const auto same_name = std::ranges::count(elements, e.name, &element::name);
+        if (&e < &vertices || e.name == "tristrips" || same_name > 1)
+            in.fail("element '" + e.name + "' is not read in blocks");
+        if (e.name == "face") {
+            if (with_role(e, column_role::corners) == nullptr)
+                in.fail("element 'face' has no list of vertex_indices");
+            if (find_column(e, face_texture_name) != nullptr)
+                in.fail("texture coordinates of corners are not read in blocks");
+        }
+        behind.push_back(e);
+    }
+    if (!behind.empty() && vertices.rows > most_numbers)
+        in.fail("more vertices than 32-bit numbers can name");
+    return behind;
+}
+
+}  // namespace
+
+point_rows open_ply_points(const source& in, std::uint64_t first, bool with_rows) {
+    ply_header header = read_ply_header(in);
+    point_rows rows;
+    element& vertices = vertices_of(in, header.elements);
+    for (const element& e : header.elements)
+        if (!with_rows && &e != &vertices && e.rows > 0)
+            in.fail("element '" + e.name + "' has rows; only files of points are read in blocks");
+    std::vector<element> behind = elements_behind(in, header.elements, vertices);
+    const std::uint64_t count = vertices.rows;
+    rows.count = count;
+    with_reader(in, header, [&](const char*, auto values) { check_room(values, vertices); });
+    const bool binary = header.encoding != ply_encoding::ascii;
+    if (const std::size_t row = fixed_row_size(vertices); binary && row > 0) {
+        rows.left_out = first;
+        header.body += first * row;
+        vertices.rows -= first;
+    }
+    with_reader(in, header, [&](const char* format, auto values) {
+        rows.head.format = format;
+        using reader = ply_points<decltype(values)>;
+        const auto body =
+            std::make_shared<reader>(in, std::move(values), vertices, std::move(behind));
+        rows.append = [body](auto& points, element& to, std::size_t most, auto& warnings) {
+            return body->append(points, to, most, warnings);
+        };
+        rows.behind = [body, count](row_block& block, std::size_t most, auto& warnings) {
+            return body->read(block, most, count, warnings);
+        };
+    });
+    rows.head.stored_as =
+        binary && has_single_axes(vertices) ? precision::float32 : precision::float64;
+    vertices.rows = 0;
+    take_remarks(header, rows.head);
+    rows.head.attributes.elements = std::move(header.elements);
+    return rows;
+}
+
+}  // namespace treeform::detail::io

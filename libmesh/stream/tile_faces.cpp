@@ -1,0 +1,295 @@
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/base/stars.hpp>
+#include <libmesh/stream/tile_faces.hpp>
+#include <libmesh/weld/carried_rows.hpp>
+#include <libmesh/weld/moves.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <system_error>
+#include <unordered_set>
+#include <utility>
+
+namespace treeform::detail::stream {
+namespace {
+
+constexpr std::size_t rows_a_block = std::size_t{1} << 15;
+
+const char* const renumbering_name = "new_numbers";
+const char* const places_before_name = "places_before";
+const char* const places_after_name = "places_after";
+
+/// The corners of a face that grows, and whether it has one.
+class grown_face {
+  public:
+    explicit grown_face(std::vector<std::uint32_t>& corners)
+        : all_(corners), first_(corners.size()) {}
+
+    void add(std::uint32_t corner) {
+        all_.push_back(corner);
+        if (!many_.empty()) many_.insert(corner);
+    }
+    [[nodiscard]] bool has(std::uint32_t corner) {
+        constexpr std::ptrdiff_t few = 32;
+        const auto begin = all_.begin() + static_cast<std::ptrdiff_t>(first_);
+        if (all_.end() - begin <= few) return std::find(begin, all_.end(), corner) != all_.end();
+        if (many_.empty()) many_.insert(begin, all_.end());
+        return many_.contains(corner);
+    }
+
+  private:
+    std::vector<std::uint32_t>& all_;
+    std::size_t first_;
+    std::unordered_set<std::uint32_t> many_{};
+};
+
+bool are_zeros(const element& e) {
+    return std::ranges::all_of(e.columns, [](const column& c) {
+        return std::ranges::all_of(c.values, [](std::byte b) { return b == std::byte{0}; });
+    });
+}
+
+/// Corners of the face that has most.
+std::size_t longest(const row_block& block) {
+    std::size_t most = 0;
+    for (std::size_t f = 0; f < block.rows.rows; ++f)
+        most = std::max<std::size_t>(most, block.first_corner[f + 1] - block.first_corner[f]);
+    return most;
+}
+
+}  // namespace
+
+bool has_rows_behind(const mesh_file& header) {
+    return std::ranges::any_of(header.attributes.elements, [](const element& e) {
+        return e.name != "vertex" && e.rows > 0 && !e.columns.empty();
+    });
+}
+
+tile_faces::~tile_faces() {
+    std::error_code ignored;
+    for (const char* name : {renumbering_name, places_before_name, places_after_name})
+        std::filesystem::remove(folder_.file(name), ignored);
+}
+
+template <class Take>
+std::vector<io_warning> tile_faces::each_block(const Take& take) {
+    const cloud_inputs& in = task_.inputs;
+    const std::uint64_t points = steps_.source().count().value_or(0);
+    point_reader reader(in.paths.front(), in.format, points, true);
+    row_block block;
+    while (reader.read(block, rows_a_block)) {
+        take(block);
+        pace_.check();
+    }
+    return reader.header().warnings;
+}
+
+void tile_faces::look(cloud_survey& survey) {
+    survey.faces = survey.triangles = 0;
+    is_blank_ = is_soup_;
+    const std::vector<io_warning> warnings = each_block([&](const row_block& block) {
+        if (block.rows.name != "face") return;
+        survey.faces += block.rows.rows;
+        survey.triangles += block.corners.size() - 2 * block.rows.rows;
+        is_blank_ = is_blank_ && are_zeros(block.rows);
+        most_corners_ = std::max(most_corners_, longest(block));
+    });
+    for (const io_warning& w : warnings)
+        if (std::ranges::find(survey.warnings, w.text, &io_warning::text) == survey.warnings.end())
+            survey.warnings.push_back(w);
+    if (survey.disk_bytes > 0)
+        survey.disk_bytes += 8 * survey.points + 48 * survey.triangles +
+                             (survey.tolerance > 0.0 ? 48 * survey.points : 0);
+    if (survey.triangles > std::numeric_limits<std::uint32_t>::max())
+        throw io_error(task_.inputs.paths.front().string() +
+                       ": more triangles than 32-bit numbers can name");
+}
+
+void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_moves) {
+    welded.kept.number();
+    joined_points& source = steps_.source();
+    source.rewind();
+    if (rows != nullptr) rows->rewind();
+    tile_steps::leaders leaders(steps_, welded);
+    record_writer<std::uint64_t> renumbering(folder_.file(renumbering_name), piece);
+    std::optional<record_writer<point3>> before;
+    std::optional<record_writer<point3>> after;
+    if (has_moves) before.emplace(folder_.file(places_before_name), piece);
+    if (has_moves) after.emplace(folder_.file(places_after_name), piece);
+    std::uint64_t point = 0;
+    for (point_block block; source.read(block, points_a_block); pace_.check()) {
+        if (before) before->put(block.points);
+        if (is_soup_) look_at_corners(block);
+        for (std::size_t i = 0; i < block.points.size(); ++i, ++point) {
+            renumbering.put(welded.kept.number_of(leaders.of(point)));
+            if (!after || !welded.kept.keeps(point)) continue;
+            if (rows != nullptr && !welded.followed->keeps(point)) rows->replace(block, i);
+            after->put(block.points[i]);
+        }
+    }
+    const std::uint64_t memory = task_.options.memory / 8;
+    numbers_.emplace(folder_.file(renumbering_name), renumbering.finish_unsynced().records, memory);
+    if (before)
+        before_.emplace(folder_.file(places_before_name), before->finish_unsynced().records,
+                        memory);
+    if (after)
+        after_.emplace(folder_.file(places_after_name), after->finish_unsynced().records, memory);
+}
+
+/// Of a soup, as of what `weld` looks at: equal corners are one.
+void tile_faces::look_at_corners(const point_block& block) {
+    std::vector<point3>& held = corners_of_soup_;
+    for (const point3& p : block.points) {
+        held.push_back(p);
+        if (held.size() < 3) continue;
+        const auto equal = [&](std::size_t i, std::size_t j) {
+            return held[i] == held[j] && base::is_finite(held[i]);
+        };
+        if (equal(0, 1) || equal(1, 2) || equal(2, 0)) {
+            ++counts_.degenerate;
+        } else {
+            // No other face has a corner that is not finite.
+            for (std::size_t k = 0; k < 3; ++k)
+                if (const point3& to = held[k == 2 ? 0 : k + 1];
+                    base::is_finite(held[k]) && base::is_finite(to))
+                    edges_of_soup_->put(edge_between(held[k], to));
+        }
+        held.clear();
+    }
+}
+
+void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts) {
+    counts_ = counts;
+    const std::uint64_t uses = 3 * steps_.survey().triangles;
+    const std::uint64_t memory = task_.options.memory / 8;
+    if (is_soup_)
+        edges_of_soup_.emplace(folder_, "edges_before", uses, memory);
+    else
+        edges_before_.emplace(folder_, "edges_before", uses, memory);
+    number_points(welded, rows, counts.max_displacement > 0.0);
+    steps_.step_done();
+    edges_after_.emplace(folder_, "edges_after", uses, memory);
+    counts_now_ = true;
+    row_block carried;
+    each_block([&](const row_block& block) {
+        if (block.rows.name != "face") return;
+        carry(block, carried);
+        counts_.faces += carried.rows.rows;
+        most_kept_corners_ = std::max(most_kept_corners_, longest(carried));
+    });
+    counts_now_ = false;
+    before_.reset();
+    after_.reset();
+    counts_.nonmanifold_before = is_soup_ ? edges_of_soup_->count_nonmanifold(pace_)
+                                          : edges_before_->count_nonmanifold(pace_);
+    edges_of_soup_.reset();
+    edges_before_.reset();
+    if (is_soup_) counts_.collapsed -= counts_.degenerate;  // those collapse, too
+    counts_.nonmanifold_after = edges_after_->count_nonmanifold(pace_);
+    edges_after_.reset();
+    counts = counts_;
+    steps_.step_done();
+}
+
+/// As `weld` and `rejoin_polygons` do in memory: of the fans of polygons, triangles that collapse are
+/// left out, and the others are polygons again where they are still one fan.
+void tile_faces::carry(const row_block& from, row_block& to) {
+    rows_.clear();
+    to.corners.clear();
+    to.first_corner.assign(1, 0);
+    const std::span<const std::uint32_t> corners(from.corners);
+    for (std::uint32_t f = 0; f < from.rows.rows; ++f)
+        carry_face(
+            corners.subspan(from.first_corner[f], from.first_corner[f + 1] - from.first_corner[f]),
+            f, to);
+    to.rows = gather(from.rows, rows_);
+}
+
+void tile_faces::carry_face(std::span<const std::uint32_t> corners, std::uint32_t row,
+                            row_block& to) {
+    corners_.clear();
+    for (const std::uint32_t corner : corners) corners_.push_back(number_of(corner));
+    std::optional<grown_face> grown;
+    std::size_t last = 0;  // corner of the triangle before
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        const face after{corners_[0], corners_[i - 1], corners_[i]};
+        if (!is_kept({corners[0], corners[i - 1], corners[i]}, after)) continue;
+        const bool continues = grown && after[1] == corners_[last] &&
+                               (task_.options.keep_degenerate || !grown->has(after[2]));
+        if (continues) {
+            grown->add(after[2]);
+        } else {
+            if (grown) to.first_corner.push_back(to.corners.size());
+            rows_.push_back(row);
+            grown.emplace(to.corners);
+            for (const std::uint32_t corner : after) grown->add(corner);
+        }
+        last = i;
+    }
+    if (grown) to.first_corner.push_back(to.corners.size());
+}
+
+bool tile_faces::is_kept(const face& before, const face& after) {
+    const bool was_whole = base::has_three_corners(before);
+    const bool is_whole = base::has_three_corners(after);
+    const bool kept = is_whole || task_.options.keep_degenerate;
+    if (!counts_now_) return kept;
+    if (!is_whole) ++(was_whole ? counts_.collapsed : counts_.degenerate);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = k == 2 ? 0 : k + 1;
+        if (was_whole && edges_before_) edges_before_->put(edge_between(before[k], before[next]));
+        if (is_whole) edges_after_->put(edge_between(after[k], after[next]));
+    }
+    if (!kept) return false;
+    ++counts_.triangles;
+    if (before_ && is_flipped(before, after)) ++counts_.flipped;
+    return true;
+}
+
+bool tile_faces::is_flipped(const face& before, const face& after) {
+    const auto places = [](paged_file<point3>& at, const face& f) {
+        const point3 a = at.at(f[0]);
+        const point3 b = at.at(f[1]);
+        return plane_points{a, b, at.at(f[2])};
+    };
+    return weld::is_flipped(places(*before_, before), places(*after_, after));
+}
+
+void tile_faces::renumber(row_block& block) {
+    const std::uint64_t points = steps_.survey().points;
+    for (column& c : block.rows.columns)
+        if (weld::numbers_points(c))
+            weld::renumber(c, 0, value_count(c), points,
+                           [&](std::uint64_t old) { return number_of(old); });
+}
+
+void tile_faces::tell(mesh_file& head, bool all) const {
+    for (element& e : head.attributes.elements) {
+        if (e.name != "face" || e.rows == 0) continue;
+        if (!all) e.rows = static_cast<std::size_t>(counts_.faces);
+        drop_blank(e);
+    }
+}
+
+/// In memory, a soup has a column only where a value is not zero.
+void tile_faces::drop_blank(element& faces) const {
+    if (is_blank_) faces.columns.clear();
+}
+
+void tile_faces::give(point_writer& to, bool all) {
+    row_block carried;
+    each_block([&](row_block& block) {
+        if (block.rows.name == "face") drop_blank(block.rows);
+        if (all) return to.write(block);
+        if (block.rows.name == "face") {
+            carry(block, carried);
+            if (carried.rows.rows > 0) to.write(carried);
+            return;
+        }
+        renumber(block);
+        to.write(block);
+    });
+}
+
+}  // namespace treeform::detail::stream

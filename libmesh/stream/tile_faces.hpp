@@ -1,0 +1,87 @@
+#pragma once
+/// \file
+/// Faces, and other rows behind the points, of a mesh that is welded in tiles.
+
+#include <libmesh/stream/edge_files.hpp>
+#include <libmesh/stream/kept_rows.hpp>
+#include <libmesh/stream/paged_file.hpp>
+#include <libmesh/stream/tile_steps.hpp>
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/predicates.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// Whether a file has rows behind its points.
+[[nodiscard]] bool has_rows_behind(const mesh_file& header);
+
+class tile_faces {
+  public:
+    tile_faces(pacer& pace, const work_folder& folder, const tile_task& task, tile_steps& steps)
+        : pace_(pace),
+          folder_(folder),
+          task_(task),
+          steps_(steps),
+          is_soup_(!steps.source().header().indexed) {}
+    ~tile_faces();
+    tile_faces(const tile_faces&) = delete;
+    tile_faces& operator=(const tile_faces&) = delete;
+
+    /// Reads all rows once. Counts faces in `survey`, which gets what is to be said of the end of the
+    /// file.
+    /// \throws io_error for what is not as it should be; cancelled
+    void look(cloud_survey& survey);
+    /// Reads the points and the rows once. `rows` as for `give_back`.
+    /// \throws stream_error, cancelled
+    void weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts);
+    /// How many rows `give` will write. With `all`, faces stay as they are.
+    void tell(mesh_file& head, bool all) const;
+    [[nodiscard]] std::size_t most_corners(bool all) const {
+        return all ? most_corners_ : most_kept_corners_;
+    }
+    /// Reads the rows once more. \pre `weld` was called
+    void give(point_writer& to, bool all);
+
+  private:
+    /// Returns what is to be said of the file.
+    template <class Take>
+    std::vector<io_warning> each_block(const Take& take);
+    void number_points(tiles_welded& welded, kept_rows* rows, bool has_moves);
+    void look_at_corners(const point_block& block);
+    void drop_blank(element& faces) const;
+    void carry(const row_block& from, row_block& to);
+    void carry_face(std::span<const std::uint32_t> corners, std::uint32_t row, row_block& to);
+    void renumber(row_block& block);
+    [[nodiscard]] bool is_kept(const face& before, const face& after);
+    [[nodiscard]] bool is_flipped(const face& before, const face& after);
+    [[nodiscard]] std::uint32_t number_of(std::uint64_t point) {
+        return static_cast<std::uint32_t>(numbers_->at(point));
+    }
+
+    pacer& pace_;
+    const work_folder& folder_;
+    const tile_task& task_;
+    tile_steps& steps_;
+    std::size_t most_corners_ = 0;
+    std::size_t most_kept_corners_ = 0;
+    weld_stream_counts counts_{};
+    bool counts_now_ = false;                             ///< in the pass that counts
+    bool is_blank_ = false;                               ///< a soup that has nothing but corners
+    bool is_soup_;                                        ///< faces have corners of their own
+    std::vector<point3> corners_of_soup_{};               ///< of the face that begins
+    std::optional<paged_file<std::uint64_t>> numbers_{};  ///< new ones, by points
+    std::optional<paged_file<point3>> before_{};          ///< places, by points
+    std::optional<paged_file<point3>> after_{};           ///< places, by new numbers
+    std::optional<edge_files<numbered_edge>> edges_before_{};
+    std::optional<edge_files<placed_edge>> edges_of_soup_{};
+    std::optional<edge_files<numbered_edge>> edges_after_{};
+    std::vector<std::uint32_t> rows_{};     ///< that faces of a block come from
+    std::vector<std::uint32_t> corners_{};  ///< new ones of a face
+};
+
+}  // namespace treeform::detail::stream
