@@ -129,7 +129,8 @@ void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_m
         }
     }
     const std::uint64_t memory = task_.options.memory / 8;
-    numbers_.emplace(folder_.file(renumbering_name), renumbering.finish_unsynced().records, memory);
+    numbers_.emplace(folder_.file(renumbering_name), renumbering.finish_unsynced().records,
+                     2 * memory);
     if (before)
         before_.emplace(folder_.file(places_before_name), before->finish_unsynced().records,
                         memory);
