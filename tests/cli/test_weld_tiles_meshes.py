@@ -160,7 +160,8 @@ class TilesOfMeshes(WeldTest):
         for bits in (0, 1):
             self.write("in.stl", stl(where, corners, bits))
             for which in (["-t", "0"], ["-t", "0.05", "--rule", "chain"], ["-t", "0", "--order", "z"],
-                          ["-t", "0", "--keep-degenerate"], ["-t", "3%", "--rule", "chain", "--same", "x"]):
+                          ["-t", "0", "--keep-degenerate"], ["-t", "3%", "--rule", "chain", "--same", "x"],
+                          ["-t", "9", "--rule", "chain"]):
                 for out in ("out.ply", "out.obj"):
                     entry = self.check("in.stl", *which, size=60, out=out)
                     self.assertEqual(entry["faces"]["degenerate"], 4)
