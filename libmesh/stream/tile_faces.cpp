@@ -129,7 +129,8 @@ void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_m
         }
     }
     const std::uint64_t memory = task_.options.memory / 8;
-    numbers_.emplace(folder_.file(renumbering_name), renumbering.finish_unsynced().records, memory);
+    numbers_.emplace(folder_.file(renumbering_name), renumbering.finish_unsynced().records,
+                     2 * memory);
     if (before)
         before_.emplace(folder_.file(places_before_name), before->finish_unsynced().records,
                         memory);
@@ -270,9 +271,13 @@ void tile_faces::tell(mesh_file& head, bool all) const {
         if (!all) e.rows = static_cast<std::size_t>(counts_.faces);
         drop_blank(e);
     }
+    if (is_blank_)
+        std::erase_if(head.attributes.elements,
+                      [](const element& e) { return e.name == "face" && e.rows == 0; });
 }
 
-/// In memory, a soup has a column only where a value is not zero.
+/// In memory, a soup has a column only where a value is not zero, and without it no element where no
+/// face is left.
 void tile_faces::drop_blank(element& faces) const {
     if (is_blank_) faces.columns.clear();
 }

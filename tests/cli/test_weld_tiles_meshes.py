@@ -160,7 +160,8 @@ class TilesOfMeshes(WeldTest):
         for bits in (0, 1):
             self.write("in.stl", stl(where, corners, bits))
             for which in (["-t", "0"], ["-t", "0.05", "--rule", "chain"], ["-t", "0", "--order", "z"],
-                          ["-t", "0", "--keep-degenerate"], ["-t", "3%", "--rule", "chain", "--same", "x"]):
+                          ["-t", "0", "--keep-degenerate"], ["-t", "3%", "--rule", "chain", "--same", "x"],
+                          ["-t", "9", "--rule", "chain"]):
                 for out in ("out.ply", "out.obj"):
                     entry = self.check("in.stl", *which, size=60, out=out)
                     self.assertEqual(entry["faces"]["degenerate"], 4)
@@ -275,6 +276,25 @@ class TilesOfMeshes(WeldTest):
                 self.assertEqual(self.listing(), ["in.ply", "memory.ply"])
             self.assertGreater(step, 7)
             os.remove(self.path("out.ply"))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_meshes_larger_than_the_memory_stay_within_it(self):
+        n = 600
+        with open(self.path("in.ply"), "wb") as file:  # this process stays small: others begin as it
+            file.write(b"ply\nformat binary_little_endian 1.0\nelement vertex %d\n"
+                       b"property float x\nproperty float y\nproperty float z\nelement face %d\n"
+                       b"property list uchar int vertex_indices\nend_header\n" % (4 * n * n, n * n))
+            for i in range(n):
+                for j in range(n):
+                    file.write(struct.pack("<12f", i, j, 0, i + 1, j, 0, i + 1, j + 1, 0, i, j + 1, 0))
+            for f in range(n * n):
+                file.write(struct.pack("<B4i", 4, *range(4 * f, 4 * f + 4)))
+        self.run_tool("in.ply", "-o", "memory.ply", status=0)
+        report = self.report("in.ply", "-o", "out.ply", "--memory", "56M", status=0)
+        self.assertGreater(report["files"][0]["tiles"]["count"], 1)
+        self.assertLess(report["peak_rss"], 56 << 20)
+        self.assertEqual(report["files"][0]["points"]["out"], (n + 1) ** 2)
+        self.assertEqual(self.read_bytes("out.ply"), self.read_bytes("memory.ply"))
 
     @unittest.skipUnless(MODELS, "needs TREEFORM_MODELS_DIR")
     def test_models_are_welded_as_in_memory(self):
