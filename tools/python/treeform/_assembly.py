@@ -27,6 +27,9 @@ def _poses(values: ArrayLike | None, name: str) -> Floats:
     if array.ndim not in (2, 3) or array.shape[-2:] != (4, 4):
         raise ValueError(f"{name}: the shape is {array.shape}, not (4, 4) or (n, 4, 4)")
     array = array.reshape(-1, 4, 4)
+    if not np.isfinite(array).all():
+        at = int(np.argmin(np.isfinite(array).all(axis=(1, 2))))
+        raise ValueError(f"{name}: an entry of {at} is not finite")
     wrong = (array[:, 3] != (0.0, 0.0, 0.0, 1.0)).any(axis=1)
     if wrong.any():
         at = int(np.argmax(wrong))
