@@ -337,4 +337,30 @@ std::vector<transform<3>> link_transforms(const urdf_robot& robot,
     return at;
 }
 
+robot_parts parts_of(const urdf_robot& robot,
+                     const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) {
+    std::vector<mesh> of_link(robot.links.size());
+    for (const urdf_mesh& one : robot.meshes) {
+        const mesh from = one.file.empty() ? one.shape : mesh_of_file(one.file);
+        mesh& to = of_link[one.link];
+        const auto first = static_cast<std::uint32_t>(to.points.size());
+        for (const point3& p : from.points) to.points.push_back(one.place(p));
+        for (const auto& [a, b, c] : from.faces)
+            to.faces.push_back({first + a, first + b, first + c});
+    }
+    constexpr std::uint32_t none = 0xFFFFFFFFU;
+    robot_parts made;
+    std::vector<std::uint32_t> part_of(of_link.size(), none);
+    for (std::uint32_t link = 0; link < of_link.size(); ++link) {
+        if (of_link[link].faces.empty()) continue;
+        part_of[link] = static_cast<std::uint32_t>(made.parts.size());
+        made.links.push_back(link);
+        made.parts.push_back(std::move(of_link[link]));
+    }
+    for (const auto& [a, b] : robot.adjacent())
+        if (part_of[a] != none && part_of[b] != none)
+            made.adjacent.push_back({part_of[a], part_of[b]});
+    return made;
+}
+
 }  // namespace treeform

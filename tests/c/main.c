@@ -90,6 +90,7 @@ int main(int argc, char** argv) {
     test_layouts();
     test_assembly();
     test_trees();
+    test_progress();
     printf("%d checks, %d failed\n", checks, failures);
     return failures == 0 ? 0 : 1;
 }

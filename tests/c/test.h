@@ -41,5 +41,6 @@ void test_placement(void);
 void test_layouts(void);
 void test_assembly(void);
 void test_trees(void);
+void test_progress(void);
 
 #endif

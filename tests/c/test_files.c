@@ -206,6 +206,8 @@ static void test_robots(void) {
     treeform_robot* robot = NULL;
     treeform_robot_options options;
     treeform_robot_view* view = NULL;
+    treeform_robot_parts* parts = NULL;
+    treeform_box bounds;
     FILE* const out = fopen(path_in_work("arm.urdf"), "wb");
     CHECK(out != NULL && fwrite(urdf, 1, sizeof urdf - 1, out) == sizeof urdf - 1);
     fclose(out);
@@ -224,6 +226,12 @@ static void test_robots(void) {
     OK(treeform_link_transforms(robot, joints, &quarter, 1, places));
     CHECK(places[0] == 1.0 && near(places[12], 0.0) && near(places[13], -1.0));
     INVALID("null", treeform_link_transforms(robot, joints, &quarter, 1, NULL));
+    OK(treeform_robot_parts_of(robot, &parts));
+    CHECK(parts->count == 1 && parts->links[0] == 1 && parts->adjacent_count == 0);
+    OK(treeform_bounds(parts->meshes[0], &bounds));
+    CHECK(bounds.min[2] == -1.5 && bounds.max[0] == 1.0 && bounds.max[2] == 1.5);
+    treeform_free(parts);
+    INVALID("robot is null", treeform_robot_parts_of(NULL, &parts));
     treeform_free(robot);
     ENDS(TREEFORM_FILE, "", treeform_read_urdf("data/cube.stl", NULL, &robot));
     CHECK(robot == NULL);

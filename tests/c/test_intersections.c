@@ -127,6 +127,7 @@ void test_search(void) {
     treeform_search_file_options options;
     treeform_search_result* result = NULL;
     treeform_search* search = NULL;
+    treeform_indices* unfinished = NULL;
     size_t tiles = 0, t;
     int32_t is_searched = 0;
     int calls = 0;
@@ -147,7 +148,13 @@ void test_search(void) {
     OK(treeform_search_scatter(search, &tiles));
     CHECK(tiles > 1);
     INVALID("", treeform_search_tile(search, tiles));
+    OK(treeform_search_unfinished(search, &unfinished));
+    CHECK(unfinished->count == tiles && unfinished->values[tiles - 1] == tiles - 1);
+    treeform_free(unfinished);
     for (t = 0; t < tiles; ++t) OK(treeform_search_tile(search, t));
+    OK(treeform_search_unfinished(search, &unfinished));
+    CHECK(unfinished->count == 0);
+    treeform_free(unfinished);
     OK(treeform_search_finish(search, &result));
     CHECK(result->found->count == 78 && result->searched == 640);
     treeform_free(result);

@@ -147,6 +147,7 @@ static void test_deviation(void) {
     CHECK(result->count == 3 && result->is_signed == 1 && result->distances[0] == 0.25);
     CHECK(result->distances[1] == -0.25 && result->distances[2] == 0.0 && result->max == 0.25);
     CHECK(result->below == 1 && result->within == 1 && result->above == 1);
+    CHECK(result->sides[0] == 1 && result->sides[1] == 1 && result->sides[2] == 1);
     CHECK(result->bins == 40 && result->there_sampled == 0.25 && result->back_sampled > 0.0);
     treeform_free(result);
     options.band_low = 0.2;

@@ -67,6 +67,110 @@ static void test_weld_files(void) {
     CHECK(result == NULL);
 }
 
+/* A team of one, which hears itself; and one that fails. */
+static int hear_myself(const void* told, size_t count, treeform_hear hear, void* listener,
+                       void* calls) {
+    ++*(int*)calls;
+    hear(told, count, listener);
+    hear(told, count, listener);
+    return 0;
+}
+
+static int fail(const void* told, size_t count, treeform_hear hear, void* listener, void* calls) {
+    (void)told, (void)count, (void)hear, (void)listener;
+    ++*(int*)calls;
+    return 1;
+}
+
+static void test_teams(void) {
+    const char* inputs[1];
+    const char* const output = path_in_work("team.ply");
+    treeform_weld_stream_options options;
+    treeform_search_file_options search;
+    treeform_weld_stream_result* result = NULL;
+    treeform_search_result* found = NULL;
+    int calls = 0;
+    treeform_team team = {1, 2, fail, NULL};
+    team.data = &calls;
+    inputs[0] = write_grid("team.xyz");
+    treeform_weld_stream_options_init(&options, sizeof options);
+    CHECK(options.team == NULL);
+    options.folder = path_in_work("team_tiles");
+    options.team = &team;
+    ENDS(TREEFORM_CANCELLED, "", treeform_weld_stream(inputs, 1, output, &options, &result));
+    CHECK(calls == 1 && result == NULL);
+    team.rank = 2;
+    INVALID("2 processes; the rank is 2",
+            treeform_weld_stream(inputs, 1, output, &options, &result));
+    team.exchange = NULL;
+    INVALID("exchange", treeform_weld_stream(inputs, 1, output, &options, &result));
+    team.size = 1;
+    team.rank = 0;
+    team.exchange = hear_myself; /* alone, there is nothing to tell */
+    OK(treeform_weld_stream(inputs, 1, output, &options, &result));
+    CHECK(calls == 1 && result->kept == 1000);
+    treeform_free(result);
+    treeform_search_file_options_init(&search, sizeof search);
+    search.folder = path_in_work("team_search");
+    search.team = &team;
+    OK(treeform_self_intersections_of_file("data/two_spheres.stl", &search, &found));
+    CHECK(found->found->count == 78 && calls == 1);
+    treeform_free(found);
+    /* A second one that says the same as the first, and so has the same share. */
+    team.size = 2;
+    OK(treeform_self_intersections_of_file("data/two_spheres.stl", &search, &found));
+    CHECK(calls > 3 && found != NULL);
+    treeform_free(found);
+}
+
+static void test_shared_weld(void) {
+    const char* inputs[1];
+    const char* const output = path_in_work("shared.ply");
+    treeform_weld_stream_options options;
+    treeform_weld_stream_result* result = NULL;
+    treeform_shared_weld* weld = NULL;
+    uint64_t numbered = 0;
+    size_t tiles = 0, t;
+    int calls = 0;
+    inputs[0] = write_grid("shared.xyz");
+    treeform_weld_stream_options_init(&options, sizeof options);
+    options.tolerance = 0.5;
+    options.folder = path_in_work("shared_tiles");
+    options.points_per_tile = 100;
+    options.map = count_numbers;
+    options.map_data = &numbered;
+    OK(treeform_shared_weld_create(inputs, 1, &options, &weld));
+    ENDS(TREEFORM_FILE, "tiles", treeform_shared_weld_tile(weld, 0));
+    ENDS(TREEFORM_FILE, "tiles", treeform_shared_weld_finish(weld, output, &result));
+    treeform_free(weld);
+    OK(treeform_shared_weld_create(inputs, 1, &options, &weld));
+    OK(treeform_shared_weld_scatter(weld, &tiles));
+    CHECK(tiles > 1);
+    INVALID("tiles is null", treeform_shared_weld_scatter(weld, NULL));
+    INVALID("", treeform_shared_weld_tile(weld, tiles));
+    INVALID("weld is null", treeform_shared_weld_tile(NULL, 0));
+    treeform_free(weld);
+    for (t = 0; t < tiles; ++t) {
+        OK(treeform_shared_weld_create(inputs, 1, &options, &weld));
+        OK(treeform_shared_weld_tile(weld, t));
+        treeform_free(weld);
+    }
+    OK(treeform_shared_weld_create(inputs, 1, &options, &weld));
+    OK(treeform_shared_weld_finish(weld, output, &result));
+    CHECK(result->points == 1000 && result->kept == 100 && result->tiles == tiles);
+    CHECK(numbered == 1000);
+    treeform_free(result);
+    OK(treeform_shared_weld_remove_folder(weld));
+    treeform_free(weld);
+    options.progress = stop;
+    options.progress_data = &calls;
+    OK(treeform_shared_weld_create(inputs, 1, &options, &weld));
+    ENDS(TREEFORM_CANCELLED, "", treeform_shared_weld_scatter(weld, &tiles));
+    treeform_free(weld);
+    INVALID("no inputs", treeform_shared_weld_create(inputs, 0, NULL, &weld));
+    CHECK(weld == NULL);
+}
+
 static void test_blocks(void) {
     treeform_point_reader* reader = NULL;
     treeform_point_writer* writer = NULL;
@@ -108,5 +212,7 @@ static void test_blocks(void) {
 
 void test_streams(void) {
     test_weld_files();
+    test_teams();
+    test_shared_weld();
     test_blocks();
 }

@@ -1,10 +1,21 @@
 #!/usr/bin/env bash
-# package.sh: makes a source distribution of the Python package and a wheel of it, without a package
-# index; installs the wheel in a virtual environment, runs the tests there; and as root, where there is
-# mmdebstrap, in a bare Debian that has python3 and NumPy alone. Fails if something does.
+# package.sh [BUILD]: makes a source distribution of the Python package and a wheel of it, without a
+# package index; installs the wheel in a virtual environment, runs the tests there, with the tools of the
+# folder BUILD beside it; and as root, where there is mmdebstrap, in a bare Debian that has python3 and
+# NumPy alone. Says what is skipped, and why. Fails if something does.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 python=${TREEFORM_PYTHON:-/usr/bin/python3}
+for name in boolean place repair selfintersect weld; do
+    tool=${1:+$1/tools/tf-$name/tf-$name}
+    if [[ -x $tool ]]; then
+        export "TF_${name^^}=$(realpath "$tool")"
+    else
+        echo "comparisons with tf-$name are skipped: ${tool:-no folder of a build is named}" \
+            "${tool:+is not there}"
+    fi
+done
+[[ -n ${TREEFORM_MODELS_DIR-} ]] || echo "real models are skipped: TREEFORM_MODELS_DIR is not set"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -15,7 +26,7 @@ tar -xzf "$work"/treeform-*.tar.gz -C "$work/source" --strip-components 1
 
 "$python" -m venv --system-site-packages "$work/venv"
 "$work/venv/bin/pip" install -q --no-index --no-deps "$work"/treeform-*.whl
-"$work/venv/bin/python" -B -m pytest -q -p no:cacheprovider tests/python
+"$work/venv/bin/python" -B -m pytest -q -rs -p no:cacheprovider tests/python
 
 if ((EUID == 0)) && command -v mmdebstrap >/dev/null; then
     mmdebstrap --quiet --variant=minbase --include=python3-numpy bookworm "$work/root"

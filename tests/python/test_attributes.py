@@ -1,5 +1,8 @@
 """What meshes have besides points and faces is carried over to what is made of them."""
 
+import copy
+import threading
+
 import numpy as np
 import pytest
 
@@ -135,3 +138,69 @@ def test_attributes_of_another_mesh_are_refused():
             verb()
     with pytest.raises(ValueError, match="operand 0: attributes"):
         tf.repair(wrong)
+
+
+def test_what_a_call_has_begun_with_is_not_changed_by_another_thread(tmp_path):
+    """Neither by new values of a column, nor by others of another size of number."""
+    count = 200_000
+    points = np.random.default_rng(7).random((count, 3))
+    extra = tf.Attributes()
+    extra.set_vertex("quality", np.arange(count, dtype=np.float64))
+    mesh = tf.Mesh(points, [[0, 1, 2]], extra)
+    begun, ended, results = threading.Event(), threading.Event(), []
+
+    def work():
+        def progress(share):
+            if share > 0.0:
+                begun.set()
+        results.append(tf.weld(mesh, 0.002, progress=progress))
+        begun.set()
+        tf.write(tmp_path / "m.ply", results[0])
+        ended.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    begun.wait()
+    while not ended.is_set():
+        for number in (np.uint8, np.float64):
+            extra.set_vertex("quality", np.zeros(count, number))
+    thread.join()
+    made = results[0]
+    assert len(made.points) < count and not extra.vertex["quality"].any()
+    assert np.array_equal(made.mesh.attributes.vertex["quality"], made.source)
+    assert np.array_equal(tf.read(tmp_path / "m.ply").attributes.vertex["quality"], made.source)
+
+
+def test_copies_of_attributes_are_changed_alone():
+    one = tf.Attributes()
+    one.set_face("red", np.arange(12))
+    other = copy.copy(one)
+    other.set_face("red", np.zeros(12))
+    assert one.face["red"].tolist() == list(range(12)) and not other.face["red"].any()
+
+
+def test_welded_polygons_keep_theirs(tmp_path):
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    lines = [f"{x} {y} {z} 0" for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    rows = [f"4 {' '.join(map(str, quad))} {10 * i}" for i, quad in enumerate(quads)]
+    # All of it twice: the second cube's corners become those of the first.
+    rows += [f"4 {' '.join(str(v + 8) for v in quad)} {10 * i + 1}" for i, quad in enumerate(quads)]
+    header = ["ply", "format ascii 1.0", "element vertex 16", *(f"property double {c}" for c in "xyz"),
+              "property int tag", "element face 12", "property list uchar int vertex_indices",
+              "property int material", "end_header"]
+    (tmp_path / "cubes.ply").write_text("\n".join(header + 2 * lines + rows) + "\n")
+    mesh = tf.read(tmp_path / "cubes.ply")
+    assert len(mesh.faces) == 24 and len(mesh.attributes.face["material"]) == 12
+    made = tf.weld(mesh, 0.1)
+    run_tool("tf-weld", tmp_path / "cubes.ply", "-t", "0.1", "-o", tmp_path / "tool.ply")
+    tf.write(tmp_path / "own.ply", made)
+    assert (tmp_path / "own.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    assert len(made.vertices) == 8 and len(made.faces) == 24
+    assert np.array_equal(made.mesh.attributes.face["material"],
+                          mesh.attributes.face["material"])
+    assert np.array_equal(made.mesh.attributes.stored_face, mesh.attributes.stored_face)
+    assert np.array_equal(made.index[mesh.faces[made.face_source]], made.faces)
+    with pytest.raises(ValueError, match="attributes: stored_face is for 24 faces; there are 12"):
+        tf.weld(tf.Mesh(CUBE.vertices, CUBE.faces, mesh.attributes), 0.1)
+    with pytest.raises((ValueError, tf.FileError), match="faces"):
+        tf.write(tmp_path / "wrong.ply", tf.Mesh(CUBE.vertices, CUBE.faces, mesh.attributes))

@@ -215,8 +215,34 @@ def test_deviation():
     both = tf.deviation(CUBE, moved(CUBE, 0, 0, 0.5))
     assert both.there[0] == both.back[0] == 0.5
     assert not tf.deviation(points, SHEET).is_signed
+    assert tf.deviation(points, SHEET).side_counts is None
+    where = tf.locate(CUBE, points)
+    assert found.side_counts == tuple((where == side).sum() for side in (1, 0, -1))
+    assert tf.deviation(CUBE, moved(CUBE, 0, 0, 0.5)).side_counts == (0, 4, 4)
     with pytest.raises(ValueError, match="no points"):
         tf.deviation(np.empty((0, 3)), CUBE)
+
+
+def test_what_is_wrong_is_named_by_its_number():
+    """Also in large inputs, which are worked on in pieces."""
+    points = np.random.default_rng(4).random((20_000, 3))
+    wrong = points.copy()
+    wrong[15_000, 1] = np.nan
+    along = np.ones_like(points)
+    none = along.copy()
+    none[15_000] = 0
+    moves = np.tile(np.eye(4), (20_000, 1, 1))
+    moves[15_000, 0, 3] = np.inf
+    tree, boxes = tf.PointTree(points), tf.BoxTree(points, points)
+    for call in (lambda: tf.closest_point(CUBE, wrong), lambda: tf.locate(CUBE, wrong),
+                 lambda: tf.signed_distance(CUBE, wrong), lambda: tf.raycast(CUBE, wrong, along),
+                 lambda: tf.raycast(CUBE, points, none), lambda: tf.raycast_all(CUBE, points, none),
+                 lambda: tf.raycast_any(CUBE, points, none), lambda: tree.query(wrong),
+                 lambda: tree.query_ball_point(wrong, 0.01), lambda: boxes.query(wrong, wrong),
+                 lambda: boxes.nearest(wrong), lambda: tf.PointTree(wrong),
+                 lambda: tf.intersects(CUBE, CUBE, move_a=moves), lambda: tf.BoxTree(wrong, wrong), lambda: tf.deviation(wrong, CUBE)):
+        with pytest.raises(ValueError, match=r"\b15000\b"):
+            call()
 
 
 def test_answers_do_not_depend_on_threads():

@@ -1,5 +1,6 @@
 """The same coordinates, numbers and bytes as the tools have."""
 
+import csv
 import json
 import subprocess
 
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 
 import treeform as tf
-from support import CUBE, model, moved, needs_models, run_tool, sphere, tool
+from support import CUBE, model, moved, needs_models, run_tool, soup, sphere, tool
 
 ROUND = tf.read("data/sphere.ply")
 PARTS = {"ball": moved(ROUND, 0.3, 0.2, 6), "near": moved(ROUND, 0.02, 0.01, 0.03),
@@ -167,13 +168,21 @@ def test_streams_have_the_bytes_of_the_tool(tmp_path, rule):
 
 
 def test_searches_of_files_are_those_of_the_tool(tmp_path):
-    rng = np.random.default_rng(3)
-    soup = tf.Mesh(rng.random((900, 3)), np.arange(900).reshape(-1, 3))
-    tf.write(tmp_path / "soup.ply", soup)
+    """Pair by pair: contacts of every kind, with a face between that is not finite."""
+    points, faces = soup(3, 400)
+    points = np.vstack([points, [[np.nan, 0, 0]]])
+    faces = np.vstack([faces[:200], [[0, 1, len(points) - 1]], faces[200:]])
+    tf.write(tmp_path / "soup.ply", tf.Mesh(points, faces))
     report = run_tool("tf-selfintersect", tmp_path / "soup.ply", "--touching", "--pairs",
-                      tmp_path / "pairs.csv")
-    found = tf.self_intersections_of_file(tmp_path / "soup.ply")
-    assert len(found.pairs) == sum(report["files"][0]["pairs"].values()) > 100
+                      tmp_path / "pairs.csv")["files"][0]
+    found = tf.self_intersections_of_file(tmp_path / "soup.ply", faces_per_tile=100)
+    with open(tmp_path / "pairs.csv", newline="") as file:
+        theirs = [(int(a), int(b), kind) for a, b, kind, _ in list(csv.reader(file))[1:]]
+    own = [(a, b, tf.KINDS[kind]) for (a, b), kind in zip(found.pairs_in_file.tolist(), found.kinds)]
+    assert own == theirs and found.tiles > 3 and found.dropped == 1
+    assert {kind for _, _, kind in own} >= {"crossing", "touching", "pierce", "overlap", "degenerate"}
+    assert max(b for _, b, _ in own) == 400
+    assert found.counts == {kind: report["pairs"].get(kind, 0) for kind in tf.KINDS}
 
 
 def test_robots_are_those_of_the_tool(folder):

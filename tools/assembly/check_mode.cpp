@@ -3,7 +3,6 @@
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
 #include "tools/common/output_file.hpp"
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/read.hpp>
 
@@ -25,33 +24,19 @@ struct movable {
     std::vector<std::uint32_t> links{};  ///< of the robot, that have meshes
 };
 
-/// The meshes of a link, in its frame, as one.
-void add_link(job& work, const tf::urdf_robot& robot, std::uint32_t link, movable& all) {
-    tf::mesh joined;
-    const auto add = [&](tf::mesh_view mesh, const tf::transform<3>& place) {
-        const auto first = static_cast<std::uint32_t>(joined.points.size());
-        for (const tf::point3& p : mesh.points) joined.points.push_back(place(p));
-        for (const auto& [a, b, c] : mesh.faces)
-            joined.faces.push_back({first + a, first + b, first + c});
-    };
-    for (const tf::urdf_mesh& one : robot.meshes) {
-        if (one.link != link) continue;
-        add(one.shape, one.place);
-        if (one.file.empty()) continue;
-        json about{{"input", one.file.string()}};
-        tf::body_set set;
-        const tf::body_file& file = set.add(work.read(one.file.string(), about), one.file.string());
-        about["faces"] = file.content.stored_faces;
-        work.warn_of_non_finite(file.left_out, "face", "faces", file.label + ": ");
-        json& left_out = work.entry["skipped"]["non_finite"];
-        left_out = left_out.get<std::uint64_t>() + file.left_out;
-        work.entry["inputs"].push_back(std::move(about));
-        if (!set.shapes.empty()) add(set.shapes[0].view(), one.place);
-    }
-    if (joined.faces.empty()) return;
-    all.links.push_back(link);
-    all.names.push_back(robot.links[link]);
-    all.shapes.emplace_back(std::move(joined));
+/// The mesh in a file of a robot, which is an input, too.
+tf::mesh read_part(job& work, const std::string& path) {
+    json about{{"input", path}};
+    tf::body_set set;
+    const tf::body_file& file = set.add(work.read(path, about), path);
+    about["faces"] = file.content.stored_faces;
+    work.warn_of_non_finite(file.left_out, "face", "faces", file.label + ": ");
+    json& left_out = work.entry["skipped"]["non_finite"];
+    left_out = left_out.get<std::uint64_t>() + file.left_out;
+    work.entry["inputs"].push_back(std::move(about));
+    if (set.shapes.empty()) return {};
+    const auto [points, faces] = set.shapes[0].view();
+    return {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
 }
 
 movable read_robot(job& work, const assembly_settings& settings) {
@@ -67,18 +52,15 @@ movable read_robot(job& work, const assembly_settings& settings) {
                                     {"faces", nullptr}});
     for (const std::string& text : all.robot->approximated) work.warn("approximated", text);
     for (const std::string& text : all.robot->skipped) work.warn("no-mesh", text);
-    for (std::uint32_t link = 0; link < all.robot->links.size(); ++link)
-        add_link(work, *all.robot, link, all);
-    if (all.shapes.empty())
+    tf::robot_parts found = tf::parts_of(*all.robot, [&](const std::filesystem::path& path) {
+        return read_part(work, path.string());
+    });
+    if (found.parts.empty())
         throw failure(bad_input, "no-triangles", work.name + ": no link has a mesh");
-    const auto part_of = [&](std::uint32_t link) {
-        return static_cast<std::uint32_t>(std::find(all.links.begin(), all.links.end(), link) -
-                                          all.links.begin());
-    };
-    for (const auto& [a, b] : all.robot->adjacent()) {
-        const tf::part_pair pair{part_of(a), part_of(b)};
-        if (std::max(pair[0], pair[1]) < all.links.size()) all.adjacent.push_back(pair);
-    }
+    for (tf::mesh& part : found.parts) all.shapes.emplace_back(std::move(part));
+    for (const std::uint32_t link : found.links) all.names.push_back(all.robot->links[link]);
+    all.links = std::move(found.links);
+    all.adjacent = std::move(found.adjacent);
     return all;
 }
 

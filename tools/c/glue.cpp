@@ -12,6 +12,7 @@ namespace {
 // What a thread was told last. Too little memory for the text leaves a shorter one.
 thread_local std::string last_text;
 thread_local const char* last_error = "";
+thread_local treeform::progress_callback progress_of_thread;
 
 }  // namespace
 
@@ -70,6 +71,29 @@ tf::progress_callback progress(treeform_progress call, void* data) {
     if (!call) return {};
     return [call, data](double done) { return call(done, data) == 0; };
 }
+
+tf::process_team team(const treeform_team* of) {
+    if (!of) return {};
+    const auto call = &need(of->exchange, "the exchange of the team");
+    if (of->rank >= of->size)
+        throw std::invalid_argument("the team has " + std::to_string(of->size) +
+                                    " processes; the rank is " + std::to_string(of->rank));
+    const auto exchange = [=, size = of->size, data = of->data](const std::string& told) {
+        std::vector<std::string> all;
+        const auto hear = [](const void* bytes, std::size_t count, void* listener) {
+            static_cast<std::vector<std::string>*>(listener)->emplace_back(
+                static_cast<const char*>(bytes), count);
+        };
+        if (call(told.data(), told.size(), hear, &all, data) != 0) throw cancelled{};
+        if (all.size() != size)
+            throw std::invalid_argument("exchange: " + std::to_string(all.size()) + " of " +
+                                        std::to_string(size) + " processes were heard");
+        return all;
+    };
+    return {of->rank, of->size, exchange};
+}
+
+const tf::progress_callback& thread_progress() { return progress_of_thread; }
 
 treeform_certificate certificate_of(const tf::certificate& kept, const char* message) {
     treeform_certificate c{};
@@ -144,6 +168,12 @@ struct treeform_thread_limit {
 };
 
 const char* treeform_last_error(void) { return last_error; }
+
+void treeform_set_progress(treeform_progress progress, void* data) {
+    const treeform_code done =
+        glue::guard([&] { progress_of_thread = glue::progress(progress, data); });
+    static_cast<void>(done);
+}
 
 const char* treeform_code_name(treeform_code code) {
     switch (code) {

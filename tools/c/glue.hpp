@@ -7,9 +7,11 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/process_team.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
+#include <tools/common/pieces.hpp>
 #include <treeform.h>
 
 #include <cmath>
@@ -164,6 +166,36 @@ template <class Options>
     return progress(options.progress, options.progress_data);
 }
 
+/// One that is alone for null.
+[[nodiscard]] tf::process_team team(const treeform_team* of);
+
+/// What `treeform_set_progress` has set for this thread.
+[[nodiscard]] const tf::progress_callback& thread_progress();
+
+/// `body(begin, end)` for pieces of `count` questions, all at once where nobody wants to know.
+///
+/// \throws cancelled
+template <class Body>
+void in_pieces(std::size_t count, const Body& body) {
+    if (!thread_progress())
+        body(std::size_t{0}, count);
+    else if (!tools::in_pieces(count, thread_progress(), body))
+        throw cancelled{};
+}
+
+/// Adds lists to others, [begin, all] as results have them; `begin` has a 0 at first.
+template <class T>
+void append(std::vector<std::size_t>& begin, std::vector<T>& all, std::vector<std::size_t>&& more,
+            std::vector<T>&& values) {
+    if (begin.size() == 1 && !more.empty()) {
+        begin = std::move(more);
+        all = std::move(values);
+        return;
+    }
+    for (std::size_t i = 1; i < more.size(); ++i) begin.push_back(all.size() + more[i]);
+    all.insert(all.end(), values.begin(), values.end());
+}
+
 /// Writes the defaults into the `size` bytes of a caller's struct.
 template <class C>
 void init(C* options, std::size_t size, C defaults) noexcept {
@@ -278,6 +310,27 @@ template <class Ask>
     const treeform_mesh& b = need(second, "the second mesh");
     return a.one_use && b.one_use ? ask(a.prepared->view(), b.prepared->view())
                                   : ask(*a.prepared, *b.prepared);
+}
+/// `ask(mesh, begin, end)` for pieces of `count` questions; a piece that is not all of them finds the
+/// indexes that the first one has built.
+template <class Ask>
+void asked_in_pieces(const treeform_mesh* mesh, std::size_t count, const Ask& ask) {
+    if (thread_progress())
+        in_pieces(count, [&, &m = *need(mesh, "mesh").prepared](
+                             std::size_t begin, std::size_t end) { ask(m, begin, end); });
+    else
+        asked(mesh, [&](const auto& m) { ask(m, std::size_t{0}, count); });
+}
+template <class Ask>
+void asked_in_pieces(const treeform_mesh* first, const treeform_mesh* second, std::size_t count,
+                     const Ask& ask) {
+    const auto& a = *need(first, "the first mesh").prepared;
+    const auto& b = *need(second, "the second mesh").prepared;
+    if (thread_progress())
+        in_pieces(count, [&](std::size_t begin, std::size_t end) { ask(a, b, begin, end); });
+    else
+        asked(first, second,
+              [&](const auto& x, const auto& y) { ask(x, y, std::size_t{0}, count); });
 }
 [[nodiscard]] inline tf::mesh_view view(const treeform_mesh* mesh) {
     return need(mesh, "mesh").prepared->view();

@@ -10,8 +10,8 @@ namespace tf = treeform;
 
 namespace {
 
-void answer(const std::vector<tf::point_location>& found, std::uint8_t* where,
-            std::int32_t* winding, std::uint32_t* on) {
+void answer(std::span<const tf::point_location> found, std::uint8_t* where, std::int32_t* winding,
+            std::uint32_t* on) {
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (where) where[i] = static_cast<std::uint8_t>(found[i].where);
         if (winding) winding[i] = found[i].winding;
@@ -19,10 +19,18 @@ void answer(const std::vector<tf::point_location>& found, std::uint8_t* where,
     }
 }
 
-std::vector<tf::point_location> located(const treeform_mesh* mesh, const double* points,
-                                        std::size_t count) {
+template <class T>
+T* from(T* array, std::size_t begin) {
+    return array ? array + begin : nullptr;
+}
+
+void locate(const treeform_mesh* mesh, const double* points, std::size_t count, std::uint8_t* where,
+            std::int32_t* winding, std::uint32_t* on) {
     const tf::points_view all = glue::points(points, count, "points");
-    return glue::asked(mesh, [&](const auto& m) { return tf::locate(m, all); });
+    glue::asked_in_pieces(mesh, count, [&](const auto& m, std::size_t begin, std::size_t end) {
+        answer(tf::locate(m, all.subspan(begin, end - begin)), from(where, begin),
+               from(winding, begin), from(on, begin));
+    });
 }
 
 std::vector<tf::ray3> rays_of(const treeform_ray* rays, std::size_t count) {
@@ -47,14 +55,14 @@ treeform_hit hit_of(const std::optional<tf::mesh_hit>& from) {
 
 treeform_code treeform_locate(const treeform_mesh* mesh, const double* points, size_t count,
                               uint8_t* where, int32_t* winding, uint32_t* on) {
-    return glue::guard([&] { answer(located(mesh, points, count), where, winding, on); });
+    return glue::guard([&] { locate(mesh, points, count, where, winding, on); });
 }
 
 treeform_code treeform_contains(const treeform_mesh* mesh, const double* points, size_t count,
                                 uint8_t* inside) {
     return glue::guard([&] {
         const std::span out = glue::array(inside, count, "inside");
-        answer(located(mesh, points, count), inside, nullptr, nullptr);
+        locate(mesh, points, count, inside, nullptr, nullptr);
         for (std::uint8_t& one : out) one = one == TREEFORM_OUTSIDE ? 0 : 1;
     });
 }
@@ -63,7 +71,7 @@ treeform_code treeform_winding_number(const treeform_mesh* mesh, const double* p
                                       int32_t* winding) {
     return glue::guard([&] {
         (void)glue::array(winding, count, "winding");
-        answer(located(mesh, points, count), nullptr, winding, nullptr);
+        locate(mesh, points, count, nullptr, winding, nullptr);
     });
 }
 
@@ -80,9 +88,12 @@ treeform_code treeform_locate_in_curves(const double* points, size_t point_count
         const tf::curve_view curves{{reinterpret_cast<const tf::point2*>(points), point_count},
                                     {reinterpret_cast<const tf::curve_edge*>(edges), edge_count}};
         const tf::tree<2> tree = tf::edge_tree(curves);
-        answer(tf::curve_locator(curves, tree)
-                   .locate(std::span(reinterpret_cast<const tf::point2*>(queries), count)),
-               where, winding, nullptr);
+        const tf::curve_locator locator(curves, tree);
+        const std::span all(reinterpret_cast<const tf::point2*>(queries), count);
+        glue::in_pieces(count, [&](std::size_t begin, std::size_t end) {
+            answer(locator.locate(all.subspan(begin, end - begin)), from(where, begin),
+                   from(winding, begin), nullptr);
+        });
     });
 }
 
@@ -91,9 +102,10 @@ treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* ra
     return glue::guard([&] {
         const std::span out = glue::array(hits, count, "hits");
         const std::vector<tf::ray3> all = rays_of(rays, count);
-        const auto found = glue::asked(
-            mesh, [&](const auto& m) { return tf::raycast(m, std::span<const tf::ray3>(all)); });
-        std::transform(found.begin(), found.end(), out.begin(), hit_of);
+        glue::asked_in_pieces(mesh, count, [&](const auto& m, std::size_t begin, std::size_t end) {
+            const auto found = tf::raycast(m, std::span(all).subspan(begin, end - begin));
+            std::transform(found.begin(), found.end(), out.data() + begin, hit_of);
+        });
     });
 }
 
@@ -102,9 +114,10 @@ treeform_code treeform_raycast_any(const treeform_mesh* mesh, const treeform_ray
     return glue::guard([&] {
         const std::span out = glue::array(hit, count, "hit");
         const std::vector<tf::ray3> all = rays_of(rays, count);
-        const auto found =
-            glue::asked(mesh, [&](const auto& m) { return tf::raycast_any(m, all); });
-        std::copy(found.begin(), found.end(), out.begin());
+        glue::asked_in_pieces(mesh, count, [&](const auto& m, std::size_t begin, std::size_t end) {
+            const auto found = tf::raycast_any(m, std::span(all).subspan(begin, end - begin));
+            std::copy(found.begin(), found.end(), out.data() + begin);
+        });
     });
 }
 
@@ -114,8 +127,11 @@ treeform_code treeform_raycast_all(const treeform_mesh* mesh, const treeform_ray
         glue::start(hits);
         const std::vector<tf::ray3> all = rays_of(rays, count);
         auto made = glue::make<treeform_hits>();
-        const auto& found =
-            made->keep(glue::asked(mesh, [&](const auto& m) { return tf::raycast_all(m, all); }));
+        auto& found = made->keep(tf::mesh_hits{{0}, {}});
+        glue::asked_in_pieces(mesh, count, [&](const auto& m, std::size_t begin, std::size_t end) {
+            auto some = tf::raycast_all(m, std::span(all).subspan(begin, end - begin));
+            glue::append(found.begin, found.hits, std::move(some.begin), std::move(some.hits));
+        });
         made->value.begin = found.begin.data();
         made->value.hits = glue::same<treeform_hit>(found.hits);
         made->value.count = count;

@@ -48,6 +48,11 @@ void fill(treeform_deviation_result& r, const tf::deviation_result& d) {
         r.within = d.band->within;
         r.above = d.band->above;
     }
+    if (d.sides) {
+        r.sides[0] = d.sides->inside;
+        r.sides[1] = d.sides->on;
+        r.sides[2] = d.sides->outside;
+    }
 }
 
 }  // namespace
@@ -75,15 +80,17 @@ treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* qu
                                      double* points) {
     return glue::guard([&] {
         const tf::points_view from = glue::points(queries, count, "queries");
-        const auto found =
-            glue::asked(mesh, [&](const auto& m) { return tf::closest_point(m, from, radius); });
-        for (std::size_t i = 0; i < count; ++i) {
-            if (faces) faces[i] = found[i] ? found[i]->face : TREEFORM_NONE;
-            if (distances) distances[i] = found[i] ? found[i]->distance : infinity;
-            if (points)
-                glue::copy(found[i] ? found[i]->point : tf::point3{not_known, not_known, not_known},
-                           points + 3 * i);
-        }
+        glue::asked_in_pieces(mesh, count, [&](const auto& m, std::size_t begin, std::size_t end) {
+            const auto some = tf::closest_point(m, from.subspan(begin, end - begin), radius);
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto& found = some[i - begin];
+                if (faces) faces[i] = found ? found->face : TREEFORM_NONE;
+                if (distances) distances[i] = found ? found->distance : infinity;
+                if (points)
+                    glue::copy(found ? found->point : tf::point3{not_known, not_known, not_known},
+                               points + 3 * i);
+            }
+        });
     });
 }
 
@@ -124,10 +131,12 @@ treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mes
     return glue::guard([&] {
         const std::span out = glue::array(distances, count, "distances");
         const auto where = glue::positions(moves_a, moves_b, count);
-        const std::vector<double> found = glue::asked(a, b, [&](const auto& x, const auto& y) {
-            return tf::distance(x, y, std::span<const tf::mesh_positions>(where), radius);
-        });
-        std::copy(found.begin(), found.end(), out.begin());
+        glue::asked_in_pieces(
+            a, b, count, [&](const auto& x, const auto& y, std::size_t begin, std::size_t end) {
+                const std::vector<double> found =
+                    tf::distance(x, y, std::span(where).subspan(begin, end - begin), radius);
+                std::copy(found.begin(), found.end(), out.data() + begin);
+            });
     });
 }
 

@@ -1,3 +1,4 @@
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/read.hpp>
 
 #include <tools/c/glue.hpp>
@@ -75,6 +76,31 @@ treeform_code treeform_robot_look(const treeform_robot* robot, treeform_robot_vi
         v.adjacent = adjacent.empty() ? nullptr : adjacent.data()->data();
         v.adjacent_count = adjacent.size();
         glue::give(std::move(made), view);
+    });
+}
+
+treeform_code treeform_robot_parts_of(const treeform_robot* robot, treeform_robot_parts** parts) {
+    return glue::guard([&] {
+        glue::start(parts);
+        auto made = glue::make<treeform_robot_parts>();
+        auto& from = made->keep(tf::parts_of(
+            glue::need(robot, "robot").content,
+            [](const std::filesystem::path& file) { return tf::as_mesh(tf::read(file)).mesh; }));
+        auto& shapes = made->keep(std::vector<tf::prepared_mesh>());
+        for (tf::mesh& part : from.parts) shapes.emplace_back(std::move(part));
+        auto& handles = made->keep(std::vector<treeform_mesh>(shapes.size()));
+        std::vector<const treeform_mesh*> meshes;
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            handles[i].prepared = &shapes[i];
+            handles[i].set = shapes.data();
+            meshes.push_back(&handles[i]);
+        }
+        made->value.meshes = made->keep(std::move(meshes)).data();
+        made->value.links = from.links.data();
+        made->value.count = from.links.size();
+        made->value.adjacent = from.adjacent.empty() ? nullptr : from.adjacent[0].data();
+        made->value.adjacent_count = from.adjacent.size();
+        glue::give(std::move(made), parts);
     });
 }
 

@@ -22,6 +22,7 @@ tf::stream_search_options options_of(const treeform_search_file_options* options
     how.memory = o.memory;
     how.folder = glue::text(o.folder);
     how.faces_per_tile = o.faces_per_tile;
+    how.team = glue::team(o.team);
     if (o.progress)
         how.progress = [call = o.progress, data = o.progress_data](std::string_view, double done) {
             return call(done, data) == 0;
@@ -99,6 +100,18 @@ treeform_code treeform_search_scatter(treeform_search* search, size_t* tiles) {
         (void)glue::need(tiles, "tiles");
         check(steps(search).scatter());
         *tiles = steps(search).tiles();
+    });
+}
+
+treeform_code treeform_search_unfinished(treeform_search* search, treeform_indices** tiles) {
+    return glue::guard([&] {
+        glue::start(tiles);
+        const auto found = steps(search).unfinished();
+        auto made = glue::make<treeform_indices>();
+        made->value.values =
+            made->keep(std::vector<std::uint32_t>(found.begin(), found.end())).data();
+        made->value.count = found.size();
+        glue::give(std::move(made), tiles);
     });
 }
 

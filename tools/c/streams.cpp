@@ -6,6 +6,13 @@
 
 namespace tf = treeform;
 
+struct treeform_shared_weld {
+    void* owner;
+    std::optional<treeform::stream_weld> steps;
+    treeform::weld_stream_outputs outputs;
+    bool looked;
+};
+
 struct treeform_point_reader {
     void* owner;
     std::optional<treeform::point_reader> reader;
@@ -17,6 +24,30 @@ struct treeform_point_writer {
 };
 
 namespace {
+
+tf::cloud_inputs inputs_of(const char* const* inputs, std::size_t count,
+                           const treeform_weld_stream_options& o) {
+    tf::cloud_inputs from;
+    for (const std::string& one : glue::texts(inputs, count, "inputs"))
+        from.paths.emplace_back(one);
+    if (from.paths.empty()) throw std::invalid_argument("no inputs to weld");
+    from.format = glue::text(o.format);
+    return from;
+}
+
+tf::weld_stream_outputs outputs_of(const treeform_weld_stream_options& o, const char* output) {
+    tf::weld_stream_outputs to;
+    const tf::write_options how = glue::write_options_of(o.write);
+    to.welded = {&glue::need(output, "output"), how};
+    if (o.removed) to.removed = {o.removed, how};
+    to.label = glue::text(o.label);
+    to.withhold = o.withhold != 0;
+    if (o.map)
+        to.map = [map = o.map, data = o.map_data](std::span<const std::uint64_t> numbers) {
+            map(numbers.data(), numbers.size(), data);
+        };
+    return to;
+}
 
 tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
     tf::weld_stream_options how;
@@ -32,11 +63,22 @@ tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
     how.memory = o.memory;
     how.folder = glue::text(o.folder);
     how.points_per_tile = o.points_per_tile;
+    how.team = glue::team(o.team);
     if (o.progress)
         how.progress = [call = o.progress, data = o.progress_data](std::string_view, double done) {
             return call(done, data) == 0;
         };
     return how;
+}
+
+void check(tf::status status) {
+    if (status == tf::status::cancelled) throw glue::cancelled{};
+}
+
+/// Once.
+void look(treeform_shared_weld& weld) {
+    if (!weld.looked) check(weld.steps->look());
+    weld.looked = true;
 }
 
 void give_streamed(tf::weld_stream_result from, treeform_weld_stream_result** out) {
@@ -70,23 +112,56 @@ treeform_code treeform_weld_stream(const char* const* inputs, size_t count, cons
     return glue::guard([&] {
         glue::start(result);
         const auto o = glue::chosen(options, treeform_weld_stream_options_init);
-        tf::cloud_inputs from;
-        for (const std::string& one : glue::texts(inputs, count, "inputs"))
-            from.paths.emplace_back(one);
-        if (from.paths.empty()) throw std::invalid_argument("no inputs to weld");
-        from.format = glue::text(o.format);
-        const tf::write_options how = glue::write_options_of(o.write);
-        tf::weld_stream_outputs to;
-        to.welded = {&glue::need(output, "output"), how};
-        if (o.removed) to.removed = {o.removed, how};
-        to.label = glue::text(o.label);
-        to.withhold = o.withhold != 0;
-        if (o.map)
-            to.map = [&](std::span<const std::uint64_t> numbers) {
-                o.map(numbers.data(), numbers.size(), o.map_data);
-            };
-        give_streamed(tf::weld_stream(from, to, options_of(o)), result);
+        const tf::cloud_inputs from = inputs_of(inputs, count, o);
+        give_streamed(tf::weld_stream(from, outputs_of(o, output), options_of(o)), result);
     });
+}
+
+treeform_code treeform_shared_weld_create(const char* const* inputs, size_t count,
+                                          const treeform_weld_stream_options* options,
+                                          treeform_shared_weld** weld) {
+    return glue::guard([&] {
+        glue::start(weld);
+        const auto o = glue::chosen(options, treeform_weld_stream_options_init);
+        tf::weld_stream_options how = options_of(o);
+        how.shared = true;
+        auto made = glue::make<treeform_shared_weld>();
+        made->value.outputs = outputs_of(o, "");
+        made->value.steps.emplace(inputs_of(inputs, count, o), how);
+        glue::give(std::move(made), weld);
+    });
+}
+
+treeform_code treeform_shared_weld_scatter(treeform_shared_weld* weld, size_t* tiles) {
+    return glue::guard([&] {
+        (void)glue::need(tiles, "tiles");
+        look(glue::need(weld, "weld"));
+        check(weld->steps->scatter());
+        *tiles = weld->steps->survey().tiles;
+    });
+}
+
+treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile) {
+    return glue::guard([&] { check(glue::need(weld, "weld").steps->weld_tile(tile)); });
+}
+
+treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld, const char* output,
+                                          treeform_weld_stream_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        tf::stream_weld& steps = *glue::need(weld, "weld").steps;
+        tf::weld_stream_outputs to = weld->outputs;
+        to.welded->path = &glue::need(output, "output");
+        steps.check_tiles();
+        look(*weld);
+        check(steps.weld());
+        check(steps.write(to));
+        give_streamed({steps.survey(), steps.counts(), steps.written()}, result);
+    });
+}
+
+treeform_code treeform_shared_weld_remove_folder(treeform_shared_weld* weld) {
+    return glue::guard([&] { glue::need(weld, "weld").steps->remove_folder(); });
 }
 
 uint64_t treeform_default_memory(void) {

@@ -33,7 +33,6 @@ std::span<const point_of<D>> points_of(const double* data, std::size_t count, co
 template <std::size_t D>
 struct points_and_tree {
     static constexpr std::size_t dimensions = D;
-    std::vector<point_of<D>> points;
     tf::point_search<D> search;
 };
 
@@ -83,49 +82,42 @@ void give_pairs(const std::vector<tf::id_pair>& found, treeform_id_pairs** out) 
 /// [count] lists that `list_of(i)` makes in parallel, one after the other.
 template <class ListOf>
 void give_lists(std::size_t count, const ListOf& list_of, treeform_id_lists** out) {
-    std::vector<std::vector<std::uint32_t>> lists(count);
-    tf::for_chunks(count, 64, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) lists[i] = list_of(i);
-    });
     auto made = glue::make<treeform_id_lists>();
-    std::vector<std::size_t> begin{0};
+    std::vector<std::size_t> begins{0};
     std::vector<std::uint32_t> ids;
-    for (const auto& one : lists) {
-        ids.insert(ids.end(), one.begin(), one.end());
-        begin.push_back(ids.size());
-    }
+    glue::in_pieces(count, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::vector<std::uint32_t>> lists(end - begin);
+        tf::for_chunks(lists.size(), 64, [&](std::size_t from, std::size_t to, std::size_t) {
+            for (std::size_t i = from; i < to; ++i) lists[i] = list_of(begin + i);
+        });
+        for (const auto& one : lists) {
+            ids.insert(ids.end(), one.begin(), one.end());
+            begins.push_back(ids.size());
+        }
+    });
     made->value.count = count;
-    made->value.begin = made->keep(std::move(begin)).data();
+    made->value.begin = made->keep(std::move(begins)).data();
     made->value.ids = made->keep(std::move(ids)).data();
     glue::give(std::move(made), out);
 }
 
-/// Rows of k answers, filled up where there are fewer; `distance_of(neighbor)` is not squared.
+/// Rows of k answers from query `begin` on, filled up where there are fewer; `distance_of(neighbor)` is
+/// not squared.
 template <class Lists, class DistanceOf>
-void fill_rows(const Lists& found, std::size_t k, std::uint32_t* ids, double* distances,
-               const DistanceOf& distance_of) {
+void fill_rows(const Lists& found, std::size_t begin, std::size_t k, std::uint32_t* ids,
+               double* distances, const DistanceOf& distance_of) {
     for (std::size_t query = 0; query < found.size(); ++query) {
         const auto row = found[query];
         for (std::size_t i = 0; i < k; ++i) {
-            if (ids) ids[query * k + i] = i < row.size() ? row[i].id : TREEFORM_NONE;
-            if (distances)
-                distances[query * k + i] = i < row.size() ? distance_of(row[i]) : infinity;
+            const std::size_t at = (begin + query) * k + i;
+            if (ids) ids[at] = i < row.size() ? row[i].id : TREEFORM_NONE;
+            if (distances) distances[at] = i < row.size() ? distance_of(row[i]) : infinity;
         }
     }
 }
 
 template <class Tree>
 constexpr std::size_t dimensions_of = std::remove_cvref_t<Tree>::dimensions;
-
-template <std::size_t D>
-double squared_distance(const tf::aabb<double, D>& box, const point_of<D>& from) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < D; ++k) {
-        const double gap = std::max({box.min[k] - from[k], from[k] - box.max[k], 0.0});
-        sum += gap * gap;
-    }
-    return sum;
-}
 
 }  // namespace
 
@@ -150,27 +142,6 @@ void with(const treeform_box_tree* tree, const Call& call) {
     std::visit(call, glue::need(tree, "tree").of);
 }
 
-/// The pairs of points, block by block, so that the lists of all points are never there at once.
-template <std::size_t D>
-std::vector<tf::id_pair> near_pairs(const points_and_tree<D>& of, double radius) {
-    constexpr std::size_t block = std::size_t{1} << 16;
-    std::vector<tf::id_pair> pairs;
-    const std::span<const point_of<D>> points(of.points);
-    if (points.empty()) (void)of.search.all_within(point_of<D>{}, radius);  // checks the radius
-    for (std::size_t begin = 0; begin < points.size(); begin += block) {
-        const std::size_t count = std::min(block, points.size() - begin);
-        const auto found = of.search.all_within(points.subspan(begin, count), radius);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto a = static_cast<std::uint32_t>(begin + i);
-            const std::size_t first = pairs.size();
-            for (const tf::near_point& one : found[i])
-                if (one.id > a) pairs.emplace_back(a, one.id);
-            std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
-        }
-    }
-    return pairs;
-}
-
 }  // namespace
 
 treeform_code treeform_point_tree_create(const double* points, size_t count, uint32_t dimensions,
@@ -180,8 +151,7 @@ treeform_code treeform_point_tree_create(const double* points, size_t count, uin
         auto made = glue::make<treeform_point_tree>();
         with_dimensions(dimensions, [&](auto d) {
             const auto all = points_of<d.value>(points, count, "points");
-            made->value.of =
-                points_and_tree<d.value>{{all.begin(), all.end()}, tf::point_search<d.value>(all)};
+            made->value.of = points_and_tree<d.value>{tf::point_search<d.value>(all)};
         });
         glue::give(std::move(made), tree);
     });
@@ -190,7 +160,7 @@ treeform_code treeform_point_tree_create(const double* points, size_t count, uin
 treeform_code treeform_point_tree_size(const treeform_point_tree* tree, size_t* count) {
     return glue::guard([&] {
         (void)glue::need(count, "count");
-        with(tree, [&](const auto& of) { *count = of.points.size(); });
+        with(tree, [&](const auto& of) { *count = of.search.size(); });
     });
 }
 
@@ -200,8 +170,10 @@ treeform_code treeform_point_tree_nearest(const treeform_point_tree* tree, const
     return glue::guard([&] {
         with(tree, [&](const auto& of) {
             const auto all = points_of<dimensions_of<decltype(of)>>(queries, count, "queries");
-            fill_rows(of.search.k_nearest(all, k, radius), k, ids, distances,
-                      [](const tf::near_point& one) { return one.distance; });
+            glue::in_pieces(count, [&](std::size_t begin, std::size_t end) {
+                fill_rows(of.search.k_nearest(all.subspan(begin, end - begin), k, radius), begin, k,
+                          ids, distances, [](const tf::near_point& one) { return one.distance; });
+            });
         });
     });
 }
@@ -214,7 +186,12 @@ treeform_code treeform_point_tree_within(const treeform_point_tree* tree, const 
         auto made = glue::make<treeform_neighbors>();
         with(tree, [&](const auto& of) {
             const auto all = points_of<dimensions_of<decltype(of)>>(queries, count, "queries");
-            const auto& found = made->keep(of.search.all_within(all, radius));
+            auto& found = made->keep(tf::neighbor_lists<tf::near_point>{{0}, {}});
+            glue::in_pieces(count, [&](std::size_t begin, std::size_t end) {
+                auto some = of.search.all_within(all.subspan(begin, end - begin), radius);
+                glue::append(found.begin, found.neighbors, std::move(some.begin),
+                             std::move(some.neighbors));
+            });
             made->value.begin = found.begin.data();
             made->value.neighbors = glue::same<treeform_neighbor>(found.neighbors);
             made->value.count = count;
@@ -227,7 +204,16 @@ treeform_code treeform_point_tree_pairs(const treeform_point_tree* tree, double 
                                         treeform_id_pairs** pairs) {
     return glue::guard([&] {
         glue::start(pairs);
-        with(tree, [&](const auto& of) { give_pairs(near_pairs(of, radius), pairs); });
+        with(tree, [&](const auto& of) {
+            bool stopped = false;
+            const auto report = [&](double done) {
+                stopped = glue::thread_progress() && !glue::thread_progress()(done);
+                return !stopped;
+            };
+            const auto found = of.search.pairs_within(radius, report);
+            if (stopped) throw glue::cancelled{};
+            give_pairs(found, pairs);
+        });
     });
 }
 
@@ -332,14 +318,17 @@ treeform_code treeform_box_tree_nearest(const treeform_box_tree* tree, const dou
     return glue::guard([&] {
         with(tree, [&](const auto& of) {
             const auto queries = points_of<dimensions_of<decltype(of)>>(points, count, "points");
-            const auto found =
-                tf::k_nearest_batch(of.tree, queries, k,
-                                    [&](std::size_t query, std::uint32_t id) {
-                                        return squared_distance(of.boxes[id], queries[query]);
-                                    },
-                                    {.radius = radius});
-            fill_rows(found, k, ids, distances,
-                      [](const auto& one) { return std::sqrt(one.squared_distance()); });
+            glue::in_pieces(count, [&](std::size_t begin, std::size_t end) {
+                const auto some = queries.subspan(begin, end - begin);
+                const auto found =
+                    tf::k_nearest_batch(of.tree, some, k,
+                                        [&](std::size_t query, std::uint32_t id) {
+                                            return tf::squared_distance(of.boxes[id], some[query]);
+                                        },
+                                        {.radius = radius});
+                fill_rows(found, begin, k, ids, distances,
+                          [](const auto& one) { return std::sqrt(one.squared_distance()); });
+            });
         });
     });
 }

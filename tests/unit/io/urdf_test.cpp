@@ -154,6 +154,45 @@ TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is 
     CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), options).meshes.empty());
 }
 
+TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame of its link") {
+    const scratch folder;
+    const auto box = [](const char* x) {
+        return "<collision><origin xyz=\"" + std::string(x) +
+               " 0 0\"/><geometry><box size=\"2 2 2\"/></geometry></collision>";
+    };
+    const auto link = [](const char* name, const std::string& shapes) {
+        return "<link name=\"" + std::string(name) + "\">" + shapes + "</link>";
+    };
+    const auto r = tf::read_urdf(
+        folder.write(robot(link("a", box("0")) + link("b", "") + link("c", box("5") + box("9")) +
+                           link("d", box("1")) + joint("p", "fixed", "a", "b") +
+                           joint("q", "fixed", "b", "c") + joint("r", "fixed", "c", "d"))));
+    const auto no_file = [](const std::filesystem::path&) -> tf::mesh {
+        throw std::logic_error("there is no file");
+    };
+    const tf::robot_parts made = tf::parts_of(r, no_file);
+    CHECK(made.links == std::vector<std::uint32_t>{0, 2, 3});
+    using pairs = std::vector<std::array<std::uint32_t, 2>>;
+    CHECK(made.adjacent == pairs{{0, 1}, {1, 2}});
+    REQUIRE(made.parts.size() == 3);
+    CHECK(made.parts[1].points.size() == 16);
+    CHECK(made.parts[1].faces.size() == 24);
+    CHECK(tf::bounding_box(made.parts[1].points)->min == tf::point3{4, -1, -1});
+    CHECK(tf::bounding_box(made.parts[1].points)->max == tf::point3{10, 1, 1});
+    CHECK(tf::signed_volume(made.parts[1]) == 16.0);
+    // Links without faces are no parts, whatever they are joined to.
+    auto only_files = r;
+    for (tf::urdf_mesh& one : only_files.meshes) one.file = std::to_string(one.link);
+    std::vector<std::string> asked;
+    const auto parts = tf::parts_of(only_files, [&](const std::filesystem::path& path) {
+        asked.push_back(path.string());
+        return path == "3" ? r.meshes[0].shape : tf::mesh{};
+    });
+    CHECK(asked == std::vector<std::string>{"0", "2", "2", "3"});
+    CHECK(parts.links == std::vector<std::uint32_t>{3});
+    CHECK(parts.adjacent.empty());
+}
+
 TEST_CASE("urdf: boxes are exact, cylinders and spheres are closed meshes around them") {
     const scratch folder;
     const auto link = [](const std::string& shape) {

@@ -149,6 +149,35 @@ TEST_CASE("point search: answers are those of brute force, to the last bit and t
     }
 }
 
+TEST_CASE("point search: pairs are those of brute force, whatever the scale") {
+    for (const double scale : {1e-200, 1.0, 1e200}) {
+        cloud<3> points = points_of<3>("mixed", 400, 3);
+        double extent = 0.0;
+        for (auto& p : points)
+            for (double& x : p) extent = std::max(extent, std::abs(x));
+        for (auto& p : points)
+            for (double& x : p) x = x / extent * scale;
+        const tf::point_search<3> search(points);
+        std::vector<tf::id_pair> expected;
+        for (std::uint32_t a = 0; a < points.size(); ++a)
+            for (std::uint32_t b = a + 1; b < points.size(); ++b)
+                if (std::hypot(points[a][0] - points[b][0], points[a][1] - points[b][1],
+                               points[a][2] - points[b][2]) <= 0.1 * scale)
+                    expected.emplace_back(a, b);
+        CHECK(search.pairs_within(0.1 * scale) == expected);
+        CHECK(expected.size() > 10);
+        CHECK(search.pairs_within(0.1 * scale, [](double) { return false; }).empty());
+        const tf::thread_scope one(1);
+        int looks = 0;
+        CHECK(search.pairs_within(2.0 * scale, [&](double) { return ++looks == 1; }).empty());
+        CHECK(looks == 2);
+        CHECK(search.pairs_within(4.0 * scale).size() == 400 * 399 / 2);
+        CHECK(search.pairs_within(0.0).size() < 400);
+    }
+    CHECK(tf::point_search<2>().pairs_within(1.0).empty());
+    CHECK_THROWS_AS((void)tf::point_search<2>().pairs_within(-1.0), std::invalid_argument);
+}
+
 TEST_CASE("point search: answers are the same on any number of threads") {
     const tf::point_search<3> search(points_of<3>("mixed", 2000, 1));
     const cloud<3> queries = points_of<3>("mixed", 3000, 2);

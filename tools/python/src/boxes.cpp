@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -63,6 +66,11 @@ class boxes {
     /// The boxes that overlap each query: where its list begins, and numbers, ascending.
     py::tuple query(const array_of<double>& mins, const array_of<double>& maxs) const {
         const std::vector<box> all = boxes_of(mins, maxs);
+        for (std::size_t q = 0; q < all.size(); ++q)
+            for (std::size_t k = 0; k < D; ++k)
+                if (std::isnan(all[q].min[k]) || std::isnan(all[q].max[k]))
+                    throw std::invalid_argument("query " + std::to_string(q) +
+                                                " has a coordinate that is NaN");
         std::vector<id> begins{0}, ids;
         run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             std::vector<std::vector<std::uint32_t>> found(end - begin);
@@ -89,10 +97,12 @@ class boxes {
         std::vector<id> ids(distances.size(), static_cast<id>(size()));
         run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             const auto some = all.subspan(begin, end - begin);
-            const auto found = tf::k_nearest_batch(
-                tree_, some, std::min(k, size()),
-                [&](std::size_t q, std::uint32_t i) { return squared(some[q], boxes_[i]); },
-                {.radius = radius});
+            const auto found =
+                tf::k_nearest_batch(tree_, some, std::min(k, size()),
+                                    [&](std::size_t q, std::uint32_t i) {
+                                        return tf::squared_distance(boxes_[i], some[q]);
+                                    },
+                                    {.radius = radius});
             for (std::size_t q = 0; q < found.size(); ++q)
                 for (std::size_t i = 0; i < found[q].size(); ++i) {
                     distances[(begin + q) * k + i] = std::sqrt(found[q][i].squared_distance());
@@ -113,15 +123,6 @@ class boxes {
             all[i].max = high[i];
         }
         return all;
-    }
-
-    static double squared(const point& p, const box& b) {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < D; ++k) {
-            const double away = std::max({b.min[k] - p[k], p[k] - b.max[k], 0.0});
-            sum += away * away;
-        }
-        return sum;
     }
 
     static py::array as_pairs(const std::vector<tf::id_pair>& pairs) {

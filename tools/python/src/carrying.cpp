@@ -29,8 +29,17 @@ bool has_values(const tf::attributes& all, bool single) {
 const file_data* data_of(const held_mesh& mesh, bool single) {
     if (mesh.data().is_none()) return nullptr;
     const auto& data = mesh.data().cast<const file_data&>();
-    return has_values(data.file.attributes, single) ? &data : nullptr;
+    return has_values(data.file().attributes, single) ? &data : nullptr;
 }
+
+/// A copy of what a mesh has, with normals turned as `matrix` turns the mesh.
+py::object turned(const file_data& data, const array_of<double>& matrix) {
+    file_data copy = data;
+    tf::transform_normals(copy.own(), transform_of(matrix));
+    return py::cast(std::move(copy));
+}
+
+}  // namespace
 
 void require_rows(const tf::mesh_file& file, std::size_t operand) {
     const std::size_t triangles = file.mesh.faces.size();
@@ -53,15 +62,6 @@ void require_rows(const tf::mesh_file& file, std::size_t operand) {
         refuse(fault);
 }
 
-/// A copy of what a mesh has, with normals turned as `matrix` turns the mesh.
-py::object turned(const file_data& data, const array_of<double>& matrix) {
-    file_data copy = data;
-    tf::transform_normals(copy.file, transform_of(matrix));
-    return py::cast(std::move(copy));
-}
-
-}  // namespace
-
 carrying::carrying(const held_meshes& operands) {
     const bool single = operands.size() == 1;
     if (std::ranges::all_of(operands,
@@ -69,7 +69,7 @@ carrying::carrying(const held_meshes& operands) {
         return;
     for (const held_mesh* one : operands) {
         tf::mesh_file& file = files_.emplace_back();
-        if (const file_data* data = data_of(*one, single)) file = data->file;
+        if (const file_data* data = data_of(*one, single)) file = data->file();
         const auto [points, faces] = one->view();
         file.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
         require_rows(file, files_.size() - 1);
@@ -84,13 +84,13 @@ std::vector<std::uint32_t> carrying::face_groups() const {
 template <class Carry>
 py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
     if (sources_.empty()) return py::none();
-    file_data result;
+    tf::mesh_file result;
     without_lock([&] {
-        result.file.mesh = made;
-        carry(result.file);
-        result.file.mesh = {};
+        result.mesh = made;
+        carry(result);
+        result.mesh = {};
     });
-    return py::cast(std::move(result));
+    return py::cast(file_data(std::move(result)));
 }
 
 py::object carrying::to(const tf::mesh& made, const tf::carried_elements& elements) const {

@@ -13,6 +13,9 @@
 
 namespace binding {
 
+/// \throws std::invalid_argument where attributes are not those of the mesh
+void require_rows(const tf::mesh_file& file, std::size_t operand);
+
 /// The operands of an operation, with their attributes as they are now.
 class carrying {
   public:

@@ -1,16 +1,12 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "job.hpp"
-#include <treeform/tree/build.hpp>
 #include <treeform/tree/point_search.hpp>
-#include <treeform/tree/search.hpp>
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -83,20 +79,11 @@ class cloud {
                               as_array<double>(std::move(distances)));
     }
 
-    /// [n][2] the pairs of points within `radius`, ascending. `points` are those of the cloud.
-    py::array query_pairs(const array_of<double>& points, double radius) const {
+    /// [n][2] the pairs of points within `radius`, ascending.
+    [[nodiscard]] py::array query_pairs(double radius) const {
         if (!(radius >= 0.0)) throw std::invalid_argument("r: negative or NaN");
-        const auto all = rows_of<point>(points);
-        const auto found = run([&](const tf::progress_callback&) {
-            const std::atomic<bool>* const stop = stop_of_job();
-            return tf::search_self_all(
-                tree_around(all, radius), [&](std::uint32_t a, std::uint32_t b) {
-                    if (stop != nullptr && *stop) return false;
-                    double sum = 0.0;
-                    for (std::size_t k = 0; k < D; ++k)
-                        sum += (all[a][k] - all[b][k]) * (all[a][k] - all[b][k]);
-                    return std::sqrt(sum) <= radius;
-                });
+        const auto found = run([&](const tf::progress_callback& report) {
+            return search_.pairs_within(radius, report);
         });
         return column(found, [](const tf::id_pair& pair) {
             return std::array<id, 2>{pair.first, pair.second};
@@ -104,20 +91,6 @@ class cloud {
     }
 
   private:
-    /// Over boxes that overlap where two points are within `radius`, and where they are not far from
-    /// that.
-    static tf::tree<D> tree_around(std::span<const point> points, double radius) {
-        return tf::build(points, [half = radius * 0.5 * (1 + 1e-15)](const point& p) {
-            constexpr double infinity = std::numeric_limits<double>::infinity();
-            tf::aabb<double, D> box;
-            for (std::size_t k = 0; k < D; ++k) {
-                box.min[k] = std::nextafter(p[k] - half, -infinity);
-                box.max[k] = std::nextafter(p[k] + half, infinity);
-            }
-            return box;
-        });
-    }
-
     tf::point_search<D> search_;
 };
 

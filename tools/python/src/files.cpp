@@ -14,6 +14,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,7 +69,7 @@ namespace binding {
 
 template <class State>
 static void all_fields(State& state, file_data& d) {
-    state(d.file);
+    state(d.own());
 }
 
 namespace {
@@ -103,7 +104,7 @@ tf::write_result write_to(const std::filesystem::path& path, const held_mesh& me
     if (data == nullptr && certified)
         return tf::write(path, certified_mesh{std::move(copy)}, options);
     if (data == nullptr) return tf::write(path, std::move(copy), options);
-    tf::mesh_file file = data->file;
+    tf::mesh_file file = data->file();
     file.mesh = std::move(copy);
     if (file.stored_face.empty()) file.stored_faces = file.mesh.faces.size();
     tf::write_options as = options;
@@ -119,8 +120,9 @@ py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const f
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };
+    const std::optional<file_data> kept = data == nullptr ? std::nullopt : std::optional(*data);
     const tf::write_result written = run([&](const tf::progress_callback&) {
-        return write_to(path, mesh, data, certified, options);
+        return write_to(path, mesh, kept ? &*kept : nullptr, certified, options);
     });
     py::dict made;
     made["format"] = written.format;
@@ -147,7 +149,7 @@ py::object column_values(const tf::column& c) {
 
 py::dict columns(const file_data& data, const std::string& element) {
     py::dict all;
-    if (const tf::element* rows = tf::find_element(data.file.attributes, element))
+    if (const tf::element* rows = tf::find_element(data.file().attributes, element))
         for (const tf::column& c : rows->columns)
             if (c.role == tf::column_role::data) all[py::str(c.name)] = column_values(c);
     return all;
@@ -159,7 +161,7 @@ void set_column(file_data& data, const std::string& element, const std::string& 
         throw std::invalid_argument(name +
                                     ": one value for each row, in an array of one dimension");
     const auto rows = static_cast<std::size_t>(values.size());
-    tf::element& to = tf::obtain_element(data.file.attributes, element, rows);
+    tf::element& to = tf::obtain_element(data.own().attributes, element, rows);
     if (to.rows != rows)
         throw std::invalid_argument(name + ": " + std::to_string(rows) + " values for " +
                                     std::to_string(to.rows) + " rows");
@@ -178,20 +180,20 @@ void set_column(file_data& data, const std::string& element, const std::string& 
 
 py::list parts(const file_data& data) {
     py::list all;
-    for (const tf::part& one : data.file.attributes.parts)
+    for (const tf::part& one : data.file().attributes.parts)
         all.append(py::make_tuple(one.object, one.group, one.material, one.first_face));
     return all;
 }
 
 py::list warnings(const file_data& data) {
     py::list all;
-    for (const tf::io_warning& one : data.file.warnings)
+    for (const tf::io_warning& one : data.file().warnings)
         all.append(py::make_tuple(one.code, one.text));
     return all;
 }
 
 py::dict corners(const file_data& data) {
-    tf::corner_values copy = data.file.attributes.corners;
+    tf::corner_values copy = data.file().attributes.corners;
     py::dict all;
     all["texture"] = as_array<double>(std::move(copy.texture));
     all["texture_of_corner"] = as_array(std::move(copy.texture_of_corner));
@@ -201,8 +203,8 @@ py::dict corners(const file_data& data) {
 }
 
 py::object stored_face(const file_data& data) {
-    if (data.file.stored_face.empty()) return py::none();
-    std::vector<std::uint32_t> copy = data.file.stored_face;
+    if (data.file().stored_face.empty()) return py::none();
+    std::vector<std::uint32_t> copy = data.file().stored_face;
     return as_array(std::move(copy));
 }
 
@@ -213,21 +215,22 @@ void add_files(py::module_& module) {
         .def(py::init<>())
         .def(py::init<const file_data&>())
         .def(pickled<file_data>())
-        .def_property_readonly("format", [](const file_data& d) { return d.file.format; })
+        .def_property_readonly("format", [](const file_data& d) { return d.file().format; })
         .def_property_readonly(
             "precision",
-            [](const file_data& d) { return word_of(precision_words, d.file.stored_as); })
+            [](const file_data& d) { return word_of(precision_words, d.file().stored_as); })
         .def_property_readonly("warnings", &warnings)
         .def_property_readonly("parts", &parts)
         .def_property_readonly("corners", &corners)
         .def_property_readonly("stored_face", &stored_face)
         .def_property_readonly("comments",
-                               [](const file_data& d) { return d.file.attributes.comments; })
-        .def_property_readonly("is_las", [](const file_data& d) { return d.file.las.has_value(); })
+                               [](const file_data& d) { return d.file().attributes.comments; })
+        .def_property_readonly("is_las",
+                               [](const file_data& d) { return d.file().las.has_value(); })
         .def_property_readonly("elements",
                                [](const file_data& d) {
                                    std::vector<std::string> names;
-                                   for (const tf::element& one : d.file.attributes.elements)
+                                   for (const tf::element& one : d.file().attributes.elements)
                                        names.push_back(one.name);
                                    return names;
                                })

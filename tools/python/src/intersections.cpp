@@ -1,6 +1,7 @@
 #include "bindings.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
+#include "steps.hpp"
 #include "words.hpp"
 #include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -9,6 +10,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,8 +53,12 @@ std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::
     const auto kind = rows_of<std::uint8_t>(kinds);
     if (kind.size() != numbers.size()) throw std::invalid_argument("kinds: one for each pair");
     std::vector<tf::face_pair> all;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (kind[i] >= kind_words.size())
+            throw std::invalid_argument("kinds: " + std::to_string(kind[i]) + " at " +
+                                        std::to_string(i) + " is none");
         all.push_back({numbers[i][0], numbers[i][1], static_cast<tf::pair_kind>(kind[i])});
+    }
     return all;
 }
 
@@ -64,20 +74,27 @@ py::dict self_intersections(const held_mesh& mesh, const std::vector<std::string
     }));
 }
 
-py::dict self_intersections_of_file(const std::filesystem::path& path,
-                                    const std::vector<std::string>& kinds,
-                                    const std::optional<std::string>& vertices,
-                                    const std::string& format, std::uint64_t memory,
-                                    const std::filesystem::path& folder) {
-    tf::stream_search_options options{
-        .kinds = kinds_of(kinds), .format = format, .memory = memory, .folder = folder};
-    if (vertices) options.vertices = identity_of(*vertices);
-    tf::stream_search_result result = run([&](const tf::progress_callback& report) {
-        options.progress = [&](std::string_view step, double share) {
-            return !report || report(step == "scatter" ? share / 2 : 0.5 + share / 2);
-        };
-        return tf::self_intersections_of_file(path, options);
-    });
+/// How to search a file, from Python.
+struct search_settings {
+    std::vector<std::string> kinds{};
+    std::optional<std::string> vertices{};
+    std::string format{};
+    std::uint64_t memory = 0;
+    std::filesystem::path folder{};
+    std::uint64_t faces_per_tile = 0;
+
+    [[nodiscard]] tf::stream_search_options options() const {
+        tf::stream_search_options made{.kinds = kinds_of(kinds),
+                                       .format = format,
+                                       .memory = memory,
+                                       .folder = folder,
+                                       .faces_per_tile = faces_per_tile};
+        if (vertices) made.vertices = identity_of(*vertices);
+        return made;
+    }
+};
+
+py::dict as_dict(tf::stream_search_result&& result) {
     py::dict made = found(result.found);
     std::vector<std::uint32_t> numbers(result.part.mesh.faces.size());
     for (std::size_t f = 0; f < numbers.size(); ++f)
@@ -89,6 +106,74 @@ py::dict self_intersections_of_file(const std::filesystem::path& path,
     made["dropped"] = result.part.dropped;
     made["tiles"] = result.tiles;
     return made;
+}
+
+py::dict self_intersections_of_file(const std::filesystem::path& path,
+                                    const search_settings& settings, const py::object& team) {
+    tf::stream_search_options options = settings.options();
+    options.team = team_of(team);
+    return as_dict(run([&](const tf::progress_callback& report) {
+        options.progress = [&](std::string_view step, double share) {
+            return !report || report(step == "scatter" ? share / 2 : 0.5 + share / 2);
+        };
+        return tf::self_intersections_of_file(path, options);
+    }));
+}
+
+using search_in_steps = work_in_steps<tf::stream_search>;
+
+std::unique_ptr<search_in_steps> search_of(const std::filesystem::path& path,
+                                           const search_settings& settings) {
+    tf::stream_search_options options = settings.options();
+    return run([&](const tf::progress_callback&) {
+        return std::make_unique<search_in_steps>([&](const step_progress& progress) {
+            options.progress = std::ref(progress);
+            return tf::stream_search(path, options);
+        });
+    });
+}
+
+void add_search_in_steps(py::module_& module) {
+    py::class_<search_settings>(module, "SearchSettings")
+        .def(py::init([](std::vector<std::string> kinds, std::optional<std::string> vertices,
+                         std::string format, std::uint64_t memory, std::filesystem::path folder,
+                         std::uint64_t faces_per_tile) {
+            return search_settings{std::move(kinds), std::move(vertices), std::move(format),
+                                   memory,           std::move(folder),   faces_per_tile};
+        }));
+    py::class_<search_in_steps>(module, "SearchInSteps")
+        .def("scatter",
+             [](search_in_steps& all) {
+                 return all.step([](tf::stream_search& search) {
+                     return search.scatter() == tf::status::ok ? search.tiles() : 0;
+                 });
+             })
+        .def("tiles",
+             [](search_in_steps& all) {
+                 return all.step([](tf::stream_search& search) { return search.tiles(); });
+             })
+        .def("unfinished",
+             [](search_in_steps& all) {
+                 return all.step([](tf::stream_search& search) { return search.unfinished(); });
+             })
+        .def("search_tile",
+             [](search_in_steps& all, std::size_t tile) {
+                 all.step([=](tf::stream_search& search) { return search.search_tile(tile); });
+             })
+        .def(
+            "finish",
+            [](search_in_steps& all) {
+                return as_dict(all.step([](tf::stream_search& search) { return search.finish(); }));
+            })
+        .def("remove_folder",
+             [](search_in_steps& all) {
+                 all.step([](tf::stream_search& search) {
+                     search.remove_folder();
+                     return true;
+                 });
+             })
+        .def("close", &search_in_steps::close);
+    module.def("search_of", &search_of);
 }
 
 py::tuple group_pairs(const held_mesh& mesh, const ids_array& pairs,
@@ -153,6 +238,7 @@ void add_intersections(py::module_& module) {
     module.def("intersection_paths", &intersection_paths);
     module.def("mesh_intersections", &mesh_intersections);
     module.def("faces_in_box", &faces_in_box);
+    add_search_in_steps(module);
 }
 
 }  // namespace binding

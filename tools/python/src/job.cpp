@@ -1,6 +1,7 @@
 #include "job.hpp"
 
 #include "held_mesh.hpp"
+#include "tools/common/pieces.hpp"
 
 #include <pthread.h>
 #include <unistd.h>
@@ -21,7 +22,6 @@ namespace binding {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 
 constexpr milliseconds between_looks{15};
 constexpr milliseconds to_notice{50};  ///< after that, nobody waits for a job that is to stop
@@ -51,17 +51,28 @@ void come_back(PyThreadState* state) {
 /// As long as it lives, this thread does not have the interpreter's lock.
 class without_interpreter {
   public:
-    without_interpreter() {
-        ++outside;
-        state_ = PyEval_SaveThread();
-    }
+    without_interpreter() { leave(); }
     without_interpreter(const without_interpreter&) = delete;
     without_interpreter& operator=(const without_interpreter&) = delete;
-    ~without_interpreter() { come_back(state_); }
+    ~without_interpreter() { enter(); }
+
+    void leave() {
+        ++outside;
+        state_ = PyEval_SaveThread();
+        before_ = std::exchange(innermost, this);
+    }
+    void enter() {
+        innermost = before_;
+        come_back(state_);
+    }
+
+    static thread_local without_interpreter* innermost;
 
   private:
-    PyThreadState* state_;
+    PyThreadState* state_ = nullptr;
+    without_interpreter* before_ = nullptr;
 };
+thread_local without_interpreter* without_interpreter::innermost = nullptr;
 
 /// A call, and what becomes of it. Python's objects in it are touched with the interpreter's lock.
 struct job {
@@ -340,22 +351,22 @@ void without_lock(const std::function<void()>& body) {
     body();
 }
 
+void with_lock(const std::function<void()>& body) {
+    without_interpreter* const mine = without_interpreter::innermost;
+    if (mine == nullptr) {
+        const py::gil_scoped_acquire lock;
+        return body();
+    }
+    struct inside {
+        explicit inside(without_interpreter* of) : of_(of) { of_->enter(); }
+        ~inside() { of_->leave(); }
+        without_interpreter* of_;
+    } const now(mine);
+    body();
+}
+
 void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {
-    without_lock([&] {
-        const treeform::progress_callback report = report_of_job();
-        std::size_t piece = 128;
-        for (std::size_t begin = 0; begin < count;) {
-            const double share = static_cast<double>(begin) / static_cast<double>(count);
-            if (report && !report(share)) return;
-            const auto started = steady_clock::now();
-            const std::size_t end = std::min(count, begin + piece);
-            body(begin, end);
-            const auto taken = steady_clock::now() - started;
-            if (taken < milliseconds(10)) piece *= 2;
-            if (taken > milliseconds(40)) piece = std::max<std::size_t>(1, piece / 2);
-            begin = end;
-        }
-    });
+    without_lock([&] { (void)tools::in_pieces(count, report_of_job(), body); });
 }
 
 py::object build(const py::object& type, const py::args& arguments) { return type(*arguments); }

@@ -41,6 +41,9 @@ const std::atomic<bool>* stop_of_job();
 /// Does `body` without the interpreter's lock.
 void without_lock(const std::function<void()>& body);
 
+/// Does `body` with the interpreter's lock, within work that goes on without it.
+void with_lock(const std::function<void()>& body);
+
 /// What `body(progress_callback)` returns. It runs without the interpreter's lock and must not touch
 /// Python.
 template <class Body>
@@ -52,8 +55,7 @@ auto run(Body&& body) {
 }
 
 /// `body(begin, end)` for pieces of `count` elements, without the interpreter's lock, for work that
-/// cannot be asked to stop. Pieces are as large as takes some hundredths of a second; answers must
-/// not depend on that.
+/// cannot be asked to stop: `tools::in_pieces`.
 void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
 
 /// For jobs: makes objects that take long to make, as `build(type, arguments...)`.

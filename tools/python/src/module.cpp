@@ -7,6 +7,7 @@
 #include <treeform/tree/version.hpp>
 
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -40,9 +41,13 @@ void translate(std::exception_ptr thrown) {
         raise("Cancelled", "progress has returned False");
     } catch (const std::invalid_argument& error) {
         PyErr_SetString(PyExc_ValueError, in_python(error.what()).c_str());
+    } catch (const std::out_of_range& error) {
+        PyErr_SetString(PyExc_IndexError, in_python(error.what()).c_str());
     } catch (const tf::io_error& error) {
         raise("FileError", in_python(error.what()).c_str());
     } catch (const tf::stream_error& error) {
+        raise("FileError", error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
         raise("FileError", error.what());
     } catch (const std::system_error& error) {
         if (error.code() != std::errc::resource_unavailable_try_again) throw;
@@ -135,9 +140,14 @@ constexpr const char* jobs[] = {"self_intersections",
 /// All functions of the module but those that only look something up, and what trees are asked.
 void make_jobs(py::module_& module) {
     module.def("build", &build);
-    for (const char* name : {"read", "write", "read_urdf", "self_intersections_of_file",
-                             "weld_stream", "wrap", "pack", "page", "picture"})
+    for (const char* name :
+         {"read", "write", "read_urdf", "self_intersections_of_file", "search_of", "weld_of",
+          "weld_stream", "wrap", "pack", "page", "picture"})
         make_job(module, name, true);
+    for (const char* name : {"scatter", "search_tile", "finish"})
+        make_job(module.attr("SearchInSteps"), name, true);
+    for (const char* name : {"scatter", "weld_tile", "finish"})
+        make_job(module.attr("WeldInSteps"), name, true);
     for (const char* name : jobs) make_job(module, name);
     for (const char* type : {"Cloud2", "Cloud3"})
         for (const char* name : {"query", "query_ball", "query_pairs"})

@@ -71,7 +71,7 @@ std::vector<tf::ray3> rays_of(tf::points_view origins, tf::points_view direction
     return rays;
 }
 
-/// `t` of a hit of ray `i`. It may be infinite by the length of the direction alone.
+/// `t` of a hit of ray `i` of a piece. It may be infinite by the length of the direction alone.
 double finite(double t, std::size_t i) {
     if (t < infinity && t > -infinity) return t;
     throw std::invalid_argument("directions: that of ray " + std::to_string(i) +
@@ -89,7 +89,7 @@ py::tuple raycast(const held_mesh& mesh, const points_array& origins,
             tf::raycast(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (!hits[i]) continue;
-            t[begin + i] = finite(hits[i]->t, begin + i);
+            t[begin + i] = finite(hits[i]->t, i);
             faces[begin + i] = hits[i]->face;
             at[begin + i] = static_cast<std::uint8_t>(hits[i]->at);
         }
@@ -110,7 +110,7 @@ py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
             for (std::size_t h = found.begin[i]; h < found.begin[i + 1]; ++h) {
                 ray_of_hit.push_back(static_cast<std::uint32_t>(begin + i));
                 faces.push_back(found.hits[h].face);
-                t.push_back(finite(found.hits[h].t, begin + i));
+                t.push_back(finite(found.hits[h].t, i));
             }
     });
     return py::make_tuple(as_array<double>(std::move(t)), as_array(std::move(ray_of_hit)),
@@ -145,6 +145,9 @@ py::object deviation(const held_mesh& a, const held_mesh& b,
     made["distances"] = as_array<double>(std::move(found->distances));
     made["faces"] = as_array(std::move(found->faces));
     made["is_signed"] = found->is_signed;
+    made["side_counts"] = py::none();
+    if (const auto& sides = found->sides)
+        made["side_counts"] = py::make_tuple(sides->inside, sides->on, sides->outside);
     made["mean"] = found->mean;
     made["mean_absolute"] = found->mean_absolute;
     made["rms"] = found->rms;

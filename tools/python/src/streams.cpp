@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "job.hpp"
+#include "steps.hpp"
 #include "words.hpp"
 #include <treeform/mesh/weld_stream.hpp>
 
@@ -8,7 +9,10 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,39 +47,138 @@ py::dict as_dict(const tf::weld_stream_result& result) {
     return made;
 }
 
-py::dict weld_stream(const std::vector<std::filesystem::path>& inputs,
-                     const std::filesystem::path& output, const std::string& removed,
-                     const std::string& label, double tolerance, bool relative,
-                     const std::string& rule, const conditions& same, const std::string& keep,
-                     const std::string& keep_by, const std::string& order,
-                     const std::string& order_by, std::uint64_t memory, const std::string& folder,
-                     std::uint64_t points_per_tile) {
-    tf::weld_stream_options options{
-        .tolerance = tolerance,
-        .relative = relative,
-        .rule = choice<tf::weld_rule>("rule", weld_rule_words, rule),
-        .keep = choice<tf::weld_keep>("keep", weld_keep_words, keep),
-        .keep_by = keep_by,
-        .order = choice<tf::weld_order>("order", weld_order_words, order),
-        .order_by = order_by,
-        .memory = memory,
-        .folder = folder,
-        .points_per_tile = points_per_tile};
-    for (const auto& [name, within] : same) options.same.push_back({name, within});
+/// How to weld a cloud of files, from Python.
+struct stream_settings {
+    tf::cloud_inputs inputs{};
+    tf::weld_stream_options options{};
+};
+
+stream_settings settings_of(std::vector<std::filesystem::path> inputs, double tolerance,
+                            bool relative, const std::string& rule, const conditions& same,
+                            const std::string& keep, const std::string& keep_by,
+                            const std::string& order, const std::string& order_by,
+                            std::uint64_t memory, const std::string& folder,
+                            std::uint64_t points_per_tile) {
+    stream_settings made;
+    made.inputs.paths = std::move(inputs);
+    made.options = {.tolerance = tolerance,
+                    .relative = relative,
+                    .rule = choice<tf::weld_rule>("rule", weld_rule_words, rule),
+                    .keep = choice<tf::weld_keep>("keep", weld_keep_words, keep),
+                    .keep_by = keep_by,
+                    .order = choice<tf::weld_order>("order", weld_order_words, order),
+                    .order_by = order_by,
+                    .memory = memory,
+                    .folder = folder,
+                    .points_per_tile = points_per_tile};
+    for (const auto& [name, within] : same) made.options.same.push_back({name, within});
+    return made;
+}
+
+tf::weld_stream_outputs outputs_of(const std::filesystem::path& output, const std::string& removed,
+                                   const std::string& label) {
     tf::weld_stream_outputs outputs;
     outputs.welded = {output, {}};
     if (!removed.empty()) outputs.removed = {removed, {}};
     outputs.label = label;
+    return outputs;
+}
+
+py::dict weld_stream(const stream_settings& settings, const std::filesystem::path& output,
+                     const std::string& removed, const std::string& label, const py::object& team) {
+    tf::weld_stream_options options = settings.options;
+    options.team = team_of(team);
     return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(whole_share(step, share));
         };
-        return tf::weld_stream({.paths = inputs}, outputs, options);
+        return tf::weld_stream(settings.inputs, outputs_of(output, removed, label), options);
     }));
+}
+
+// ---- step by step, by many processes ----
+
+struct shared_weld {
+    tf::stream_weld work;
+    bool looked = false;
+
+    [[nodiscard]] tf::status look() {
+        if (looked) return tf::status::ok;
+        const tf::status ended = work.look();
+        looked = ended == tf::status::ok;
+        return ended;
+    }
+    /// The number of tiles.
+    [[nodiscard]] std::size_t scatter() {
+        if (look() != tf::status::ok || work.scatter() != tf::status::ok) return 0;
+        return work.survey().tiles;
+    }
+    [[nodiscard]] tf::weld_stream_result finish(const tf::weld_stream_outputs& outputs) {
+        work.check_tiles();
+        tf::weld_stream_result result;
+        result.status = look();
+        if (result.status == tf::status::ok) result.status = work.weld();
+        if (result.status == tf::status::ok) result.status = work.write(outputs);
+        result.survey = work.survey();
+        result.counts = work.counts();
+        return result;
+    }
+};
+
+using weld_in_steps = work_in_steps<shared_weld>;
+
+std::unique_ptr<weld_in_steps> weld_of(const stream_settings& settings) {
+    tf::weld_stream_options options = settings.options;
+    options.shared = true;
+    return run([&](const tf::progress_callback&) {
+        return std::make_unique<weld_in_steps>([&](const step_progress& progress) {
+            options.progress = std::ref(progress);
+            return shared_weld{tf::stream_weld(settings.inputs, options)};
+        });
+    });
+}
+
+void add_weld_in_steps(py::module_& module) {
+    py::class_<weld_in_steps>(module, "WeldInSteps")
+        .def("scatter",
+             [](weld_in_steps& all) {
+                 return all.step([](shared_weld& one) { return one.scatter(); });
+             })
+        .def("tiles",
+             [](weld_in_steps& all) {
+                 return all.step([](shared_weld& one) {
+                     one.work.check_tiles();
+                     return one.work.survey().tiles;
+                 });
+             })
+        .def("weld_tile",
+             [](weld_in_steps& all, std::size_t tile) {
+                 all.step([=](shared_weld& one) { return one.work.weld_tile(tile); });
+             })
+        .def("finish",
+             [](weld_in_steps& all, const std::filesystem::path& output, const std::string& removed,
+                const std::string& label) {
+                 return as_dict(all.step([&](shared_weld& one) {
+                     return one.finish(outputs_of(output, removed, label));
+                 }));
+             })
+        .def("remove_folder",
+             [](weld_in_steps& all) {
+                 all.step([](shared_weld& one) {
+                     one.work.remove_folder();
+                     return true;
+                 });
+             })
+        .def("close", &weld_in_steps::close);
+    module.def("weld_of", &weld_of);
 }
 
 }  // namespace
 
-void add_streams(py::module_& module) { module.def("weld_stream", &weld_stream); }
+void add_streams(py::module_& module) {
+    py::class_<stream_settings>(module, "StreamSettings").def(py::init(&settings_of));
+    module.def("weld_stream", &weld_stream);
+    add_weld_in_steps(module);
+}
 
 }  // namespace binding

@@ -1,4 +1,5 @@
 #include "bindings.hpp"
+#include "carrying.hpp"
 #include "file_data.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
@@ -7,6 +8,7 @@
 
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,18 +32,24 @@ py::dict statistics_of(const tf::weld_statistics& s) {
     return made;
 }
 
-/// What results of meshes and clouds have in common.
+/// What all results have in common.
 template <class Result>
-py::dict common(Result& result, const file_data* data) {
+py::dict common(Result& result) {
     py::dict made;
     made["index"] = as_array(std::move(result.groups.group_of_point));
     made["source"] = as_array(std::move(result.point_of_group));
     made["statistics"] = statistics_of(result.statistics);
     made["data"] = py::none();
-    if (data != nullptr) {
+    return made;
+}
+
+/// The same with attributes, which come from `data` where there are any.
+template <class Result>
+py::dict common(Result& result, const std::optional<file_data>& data) {
+    py::dict made = common(result);
+    if (data) {
         file_data kept = *data;
-        kept.file.attributes = std::move(result.attributes);
-        kept.file.stored_face.clear();
+        kept.own().attributes = std::move(result.attributes);
         made["data"] = std::move(kept);
     }
     return made;
@@ -73,32 +81,59 @@ struct weld_settings {
     ids_array label;
 };
 
+py::dict with_faces(py::dict made, tf::mesh&& mesh, std::vector<std::uint32_t>&& face_of_new) {
+    made["face_source"] = as_array(std::move(face_of_new));
+    made["points"] = as_array(std::move(mesh.points));
+    made["faces"] = as_array(std::move(mesh.faces));
+    return made;
+}
+
+/// Attributes of polygons have a row for each polygon, as a file has them.
+py::dict weld_polygons(const held_mesh& mesh, const file_data& data, tf::weld_options options) {
+    tf::file_weld_result result = run([&](const tf::progress_callback& report) {
+        const auto [points, faces] = mesh.view();
+        tf::mesh_file file = data.file();
+        file.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
+        file.indexed = true;
+        require_rows(file, 0);
+        options.progress = report;
+        return tf::weld(file, options);
+    });
+    py::dict made =
+        with_faces(common(result), std::move(result.file.mesh), std::move(result.face_of_new));
+    result.file.mesh = {};
+    made["data"] = file_data(std::move(result.file));
+    return made;
+}
+
+std::optional<file_data> copy_of(const file_data* data) {
+    return data == nullptr ? std::nullopt : std::optional(*data);
+}
+
 py::dict weld_mesh(const held_mesh& mesh, const file_data* data, const weld_settings& settings) {
+    const std::optional<file_data> kept = copy_of(data);
     tf::weld_options options = settings.options;
     options.label = rows_of<std::uint32_t>(settings.label);
+    if (kept && !kept->file().stored_face.empty()) return weld_polygons(mesh, *kept, options);
     tf::weld_result result = run([&](const tf::progress_callback& report) {
         options.progress = report;
-        if (data != nullptr) return tf::weld(mesh.view(), data->file.attributes, options);
+        if (kept) return tf::weld(mesh.view(), kept->file().attributes, options);
         return mesh.with([&](const auto& m) { return tf::weld(m, options); });
     });
-    py::dict made = common(result, data);
-    made["face_source"] = as_array(std::move(result.face_of_new));
-    made["points"] = as_array(std::move(result.mesh.points));
-    made["faces"] = as_array(std::move(result.mesh.faces));
-    return made;
+    return with_faces(common(result, kept), std::move(result.mesh), std::move(result.face_of_new));
 }
 
 py::dict weld_cloud(const points_array& points, const file_data* data,
                     const weld_settings& settings) {
+    const std::optional<file_data> kept = copy_of(data);
     const tf::points_view all = points_of(points);
     tf::weld_options options = settings.options;
     options.label = rows_of<std::uint32_t>(settings.label);
     tf::cloud_weld_result result = run([&](const tf::progress_callback& report) {
         options.progress = report;
-        return data == nullptr ? tf::weld(all, options)
-                               : tf::weld(all, data->file.attributes, options);
+        return kept ? tf::weld(all, kept->file().attributes, options) : tf::weld(all, options);
     });
-    py::dict made = common(result, data);
+    py::dict made = common(result, kept);
     made["points"] = as_array(std::move(result.points));
     return made;
 }

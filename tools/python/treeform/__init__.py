@@ -20,7 +20,7 @@ from ._core import Certificate
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
                       NotSolidError)
 from ._files import Written, read, write
-from ._intersections import (KINDS, FacePairs, FilePairs, Region, faces_in_box,
+from ._intersections import (KINDS, FacePairs, FilePairs, Region, StreamSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
                              self_intersections, self_intersections_of_file)
 from ._mesh import Attributes, Mesh, MeshLike, from_trimesh
@@ -39,7 +39,8 @@ from ._robots import Joint, Robot, read_urdf
 from ._show import Picture, View, plot, show
 from ._threads import thread_count, threads
 from ._trees import BoxTree, Neighbors, PointTree
-from ._weld import (WeldResult, WeldStreamResult, count_nearly_equal, weld, weld_stream)
+from ._weld import (StreamWeld, WeldResult, WeldStreamResult, count_nearly_equal, weld,
+                    weld_stream)
 
 __version__: str = _core.version()
 

@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from typing import Iterable
+from typing import Any, Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._files import Path
+from ._errors import need, settings
+from ._files import Path, path_of
 from ._mesh import Mesh, MeshLike, held
 from ._progress import Progress
 from ._results import Result
+from ._steps import InSteps, Team, in_team
 
 #: How two faces meet; a number in `kinds` is a place in this list.
 KINDS = tuple(_core.KINDS)
 _ALL = list(KINDS)
 _NO_LIMIT = 2**64 - 1
+
+
+def _kinds(kinds: Iterable[str] | None) -> list[str]:
+    if kinds is None:
+        return _ALL
+    return [_arrays.word(kind, "kinds") for kind in _arrays.several(kinds, "kinds")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -69,7 +76,7 @@ def self_intersections(mesh: MeshLike, *, kinds: Iterable[str] | None = None,
     FacePairs(pairs=uint32[78, 2], kinds=uint8[78], counts={'crossing': 78})
     """
     return FacePairs(**_core.self_intersections(
-        held(mesh), _ALL if kinds is None else list(kinds), vertices, first_only,
+        held(mesh), _kinds(kinds), vertices, first_only,
         _NO_LIMIT if limit is None else limit, progress=progress))
 
 
@@ -90,7 +97,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
     6
     """
     return FacePairs(**_core.mesh_intersections(
-        held(a), held(b), _ALL if kinds is None else list(kinds), first_only,
+        held(a), held(b), _kinds(kinds), first_only,
         _NO_LIMIT if limit is None else limit, _arrays.matrix(move_a, "move_a"),
         _arrays.matrix(move_b, "move_b"), progress=progress))
 
@@ -116,26 +123,108 @@ class FilePairs(FacePairs):
         return self.face_in_file[self.pairs]
 
 
+def _search_settings(kinds: Iterable[str] | None, vertices: str | None, format: str, memory: int,
+                     folder: Path, faces_per_tile: int) -> _core.SearchSettings:
+    return settings(
+        _core.SearchSettings, _kinds(kinds), vertices, _arrays.word(format, "format"),
+        _arrays.number(memory, "memory", 0), path_of(folder),
+        _arrays.number(faces_per_tile, "faces_per_tile", 0))
+
+
+def _file_pairs(made: dict[str, Any]) -> FilePairs:
+    mesh = Mesh._of(made.pop("points"), made.pop("faces"))
+    return FilePairs(mesh=mesh, **made)
+
+
 def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None,
                                vertices: str | None = None, format: str = "", memory: int = 0,
-                               folder: Path = "", progress: Progress = None) -> FilePairs:
+                               folder: Path = "", faces_per_tile: int = 0,
+                               team: Team | None = None, progress: Progress = None) -> FilePairs:
     """The same for a file that may be larger than memory: binary STL, and PLY whose vertices come
     ahead of its faces. Space is cut into tiles on the disk.
 
     vertices: None: 'by_coordinates' for STL, else 'by_index'.
     memory: bytes that the process may take; 0: three quarters of the machine's.
     folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
+    faces_per_tile: at most about so many; 0: as the memory allows.
+    team: processes that do it together, as for `weld_stream`; the first one gets the result, all
+    others an empty one.
+
+    Raises FileError, ValueError.
 
     >>> import treeform
     >>> found = treeform.self_intersections_of_file("data/two_spheres.stl")
     >>> found.counts["crossing"], found.pairs_in_file.shape
     (78, (78, 2))
     """
-    made = _core.self_intersections_of_file(
-        os.fspath(path), _ALL if kinds is None else list(kinds), vertices, format, memory,
-        os.fspath(folder), progress=progress)
-    mesh = Mesh._of(made.pop("points"), made.pop("faces"))
-    return FilePairs(mesh=mesh, **made)
+    how = _search_settings(kinds, vertices, format, memory, folder, faces_per_tile)
+    return in_team(team, lambda all: _file_pairs(_core.self_intersections_of_file(
+        path_of(path), how, all, progress=progress)))
+
+
+class StreamSearch(InSteps[_core.SearchInSteps]):
+    """`self_intersections_of_file` step by step, for many processes, of one machine or of several
+    that see the folder: those of Dask, of Slurm, of `multiprocessing`.
+
+    All make it with the same arguments. One calls `scatter`; then each calls `search_tile` for its
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that is
+    finished is not searched again. Arguments are those of `self_intersections_of_file`; empty
+    `folder`: the input's name and ".search-tiles".
+
+    It has a hold on the folder until `close`, the end of a `with`, or its own end. A copy for another
+    process (pickle) is made anew from its arguments. A step before its turn raises FileError, a tile
+    that is not there IndexError.
+
+    >>> import tempfile, treeform
+    >>> with tempfile.TemporaryDirectory() as home:
+    ...     options = dict(folder=home + "/tiles", faces_per_tile=100)
+    ...     with treeform.StreamSearch("data/two_spheres.stl", **options) as first:
+    ...         count = first.scatter()
+    ...     for tile in range(count):  # in as many processes as there are
+    ...         with treeform.StreamSearch("data/two_spheres.stl", **options) as one:
+    ...             one.search_tile(tile)
+    ...     with treeform.StreamSearch("data/two_spheres.stl", **options) as last:
+    ...         found = last.finish()
+    ...         last.remove_folder()
+    >>> count > 1, len(found)
+    (True, 78)
+    """
+
+    def __init__(self, path: Path, *, kinds: Iterable[str] | None = None,
+                 vertices: str | None = None, format: str = "", memory: int = 0, folder: Path = "",
+                 faces_per_tile: int = 0, progress: Progress = None) -> None:
+        kinds = None if kinds is None else _kinds(kinds)
+        super().__init__(
+            _core.search_of(path_of(path), _search_settings(kinds, vertices, format, memory, folder,
+                                                            faces_per_tile), progress=progress),
+            path, kinds=kinds, vertices=vertices, format=format, memory=memory, folder=folder,
+            faces_per_tile=faces_per_tile)
+
+    def scatter(self, *, progress: Progress = None) -> int:
+        """Gives each tile its faces, unless they have them. Returns the number of tiles."""
+        return self._work.scatter(progress=progress)
+
+    @property
+    def tiles(self) -> int:
+        """The number of tiles, once they are there."""
+        return self._work.tiles()
+
+    @property
+    def unfinished(self) -> list[int]:
+        """The tiles that are to be searched."""
+        return self._work.unfinished()
+
+    def search_tile(self, tile: int, *, progress: Progress = None) -> None:
+        """Searches a tile, from 0, unless that is done."""
+        self._work.search_tile(_arrays.number(tile, "tile", 0), progress=progress)
+
+    def finish(self, *, progress: Progress = None) -> FilePairs:
+        """Puts together what was found, when all tiles are searched."""
+        return _file_pairs(self._work.finish(progress=progress))
+
+    def remove_folder(self) -> None:
+        """Removes the folder of the tiles."""
+        self._work.remove_folder()
 
 
 @dataclass(frozen=True, repr=False)
@@ -161,6 +250,7 @@ def intersection_regions(mesh: MeshLike, found: FacePairs, *,
     >>> len(regions), regions[0].pairs
     (1, 78)
     """
+    need(found, "found", FacePairs)
     regions, of_pair = _core.group_pairs(held(mesh), found.pairs, found.kinds,
                                          progress=progress)
     return [Region(faces, np.stack([low, high]), pairs)
@@ -180,6 +270,7 @@ def intersection_curves(mesh: MeshLike, found: FacePairs, *,
     >>> [len(curve) for curve in curves]
     [79]
     """
+    need(found, "found", FacePairs)
     points, paths = _core.intersection_paths(held(mesh), found.pairs, found.kinds,
                                              progress=progress)
     return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]

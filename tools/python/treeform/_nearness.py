@@ -224,6 +224,8 @@ class Deviation(Result):
     faces: Ids
     #: Whether distances have a sign.
     is_signed: bool
+    #: Where they have: how many points are inside, on, outside; exact. Else None.
+    side_counts: tuple[int, int, int] | None
     #: Of the signed distances.
     mean: float
     #: Of their magnitudes, as are the six below.
@@ -267,8 +269,8 @@ def deviation(a: Union[MeshLike, ArrayLike], b: Union[MeshLike, ArrayLike], *,
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> map = treeform.deviation([[0.5, 0.5, 0.75], [0.5, 0.5, 3.0]], cube, band=(-0.5, 0.5))
-    >>> map.distances.tolist(), map.band_counts, map.is_signed
-    ([-0.25, 2.0], (0, 1, 1), True)
+    >>> map.distances.tolist(), map.band_counts, map.is_signed, map.side_counts
+    ([-0.25, 2.0], (0, 1, 1), True, (1, 0, 1))
     """
     made = _core.deviation(held_body(a), held_body(b), band, bins, both_ways, progress=progress)
     if made is None:

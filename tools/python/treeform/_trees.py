@@ -191,7 +191,7 @@ class PointTree:
             raise ValueError(f"p: {p} is not 2, the only one there is")
         if output_type not in ("set", "ndarray"):
             raise ValueError(f"output_type: {output_type!r} is neither 'set' nor 'ndarray'")
-        pairs = self._cloud.query_pairs(self._data, r, progress=progress)
+        pairs = self._cloud.query_pairs(r, progress=progress)
         return pairs if output_type == "ndarray" else set(map(tuple, pairs.tolist()))
 
     def __repr__(self) -> str:

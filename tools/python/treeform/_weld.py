@@ -11,10 +11,12 @@ from numpy.typing import ArrayLike
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
+from ._errors import need, settings
 from ._files import Path, path_of
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
 from ._results import Result
+from ._steps import InSteps, Team, in_team
 
 
 @dataclass(frozen=True, repr=False)
@@ -39,6 +41,21 @@ class WeldResult(MeshResult):
 
 
 _Same = Mapping[str, float]
+
+
+def _conditions(same: _Same | None) -> list[tuple[str, float]]:
+    if same is None:
+        return []
+    need(same, "same", Mapping)
+    return [(_arrays.word(name, "same"), _arrays.number(within, f"same[{name!r}]"))
+            for name, within in same.items()]
+
+
+def _labels(label: ArrayLike) -> Ids:
+    array = _arrays.ids(label, "label")
+    if array.ndim != 1:
+        raise ValueError(f"label: the shape is {array.shape}, not (n,)")
+    return array
 
 
 def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
@@ -70,23 +87,23 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
     ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
     """
     none: Ids = np.empty(0, np.uint32)
-    settings = _core.WeldSettings(
-        _arrays.number(tolerance, "tolerance"), _arrays.word(rule, "rule"),
+    how = settings(
+        _core.WeldSettings, _arrays.number(tolerance, "tolerance"), _arrays.word(rule, "rule"),
         _arrays.word(keep, "keep"), keep_by, _arrays.word(order, "order"), order_by,
-        list((same or {}).items()), list(across),
+        _conditions(same), _arrays.several(across, "across"),
         keep_seams, only_borders, keep_manifold, keep_degenerate,
-        none if label is None else _arrays.ids(label, "label"))
+        none if label is None else _labels(label))
     points = cloud_of(mesh_or_points)
     if points is not None:
-        made = _core.weld_cloud(points, None, settings, progress=progress)
+        made = _core.weld_cloud(points, None, how, progress=progress)
         made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     else:
         mesh = as_mesh(mesh_or_points)
         data = None if mesh._attributes is None else mesh._attributes._data
         if len(mesh._faces):
-            made = _core.weld_mesh(mesh._held, data, settings, progress=progress)
+            made = _core.weld_mesh(mesh._held, data, how, progress=progress)
         else:
-            made = _core.weld_cloud(mesh._vertices, data, settings, progress=progress)
+            made = _core.weld_cloud(mesh._vertices, data, how, progress=progress)
             made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     welded = Mesh._of(made.pop("points"), made.pop("faces"), None, made.pop("data"))
     return WeldResult(mesh=welded, **made)
@@ -127,11 +144,26 @@ class WeldStreamResult(Result):
     warnings: list[str]
 
 
+def _settings(files: Union[Path, Iterable[Path]], tolerance: float, relative: bool, rule: str,
+              keep: str, keep_by: str, order: str, order_by: str, same: _Same | None, memory: int,
+              folder: Path, points_per_tile: int) -> _core.StreamSettings:
+    paths = [files] if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
+    if not paths:
+        raise ValueError("files: there are none")
+    return settings(
+        _core.StreamSettings, [path_of(path) for path in paths],
+        _arrays.number(tolerance, "tolerance"), relative,
+        _arrays.word(rule, "rule"), _conditions(same), _arrays.word(keep, "keep"),
+        _arrays.word(keep_by, "keep_by"), _arrays.word(order, "order"),
+        _arrays.word(order_by, "order_by"), _arrays.number(memory, "memory", 0), path_of(folder),
+        _arrays.number(points_per_tile, "points_per_tile", 0))
+
+
 def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float = 0.0, *,
                 relative: bool = False, rule: str = "first", keep: str = "first",
                 keep_by: str = "", order: str = "given", order_by: str = "",
                 same: _Same | None = None, removed: Path = "", label: str = "", memory: int = 0,
-                folder: Path = "", points_per_tile: int = 0,
+                folder: Path = "", points_per_tile: int = 0, team: Team | None = None,
                 progress: Progress = None) -> WeldStreamResult:
     """Welds clouds that may be larger than memory, from files to a file, with the same bytes as
     `weld` of the whole.
@@ -142,6 +174,9 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     property of this name.
     memory: bytes that the process may take; 0: three quarters of the machine's. folder: for tiles;
     empty: beside the first input. Where a run was killed, the same call goes on.
+    team: processes that do it together, each its share, in a folder that all see: anything with
+    `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where one
+    fails, all raise; one that is interrupted leaves the others waiting.
     rule, keep, keep_by, order, order_by, same: as for `weld`.
 
     Raises FileError, ValueError.
@@ -154,9 +189,77 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     >>> done.points, done.kept
     (3, 2)
     """
-    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
-    return WeldStreamResult(**_core.weld_stream(
-        [path_of(path) for path in paths], path_of(out), path_of(removed), label,
-        _arrays.number(tolerance, "tolerance"), relative, rule, list((same or {}).items()), keep,
-        keep_by, order, order_by, _arrays.number(memory, "memory", 0), path_of(folder),
-        _arrays.number(points_per_tile, "points_per_tile", 0), progress=progress))
+    how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
+                    memory, folder, points_per_tile)
+    return in_team(team, lambda all: WeldStreamResult(**_core.weld_stream(
+        how, path_of(out), path_of(removed), _arrays.word(label, "label"), all,
+        progress=progress)))
+
+
+class StreamWeld(InSteps[_core.WeldInSteps]):
+    """`weld_stream` step by step, for many processes, of one machine or of several that see the
+    folder: those of Dask, of Slurm, of `multiprocessing`.
+
+    All make it with the same arguments. One calls `scatter`; then each calls `weld_tile` for its
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that is
+    finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
+    input's name and ".tiles".
+
+    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs all
+    others to have let go of it. A copy for another process (pickle) is made anew from its arguments.
+    A step before its turn raises FileError, a tile that is not there IndexError. After Cancelled,
+    make it anew.
+
+    >>> import os, tempfile, treeform
+    >>> with tempfile.TemporaryDirectory() as home:
+    ...     cloud = os.path.join(home, "cloud.xyz")
+    ...     _ = treeform.write(cloud, ([[x, 0, 0] for x in range(1000)], []))
+    ...     options = dict(tolerance=1.5, points_per_tile=100)
+    ...     with treeform.StreamWeld(cloud, **options) as first:
+    ...         count = first.scatter()
+    ...     for tile in range(count):  # in as many processes as there are
+    ...         with treeform.StreamWeld(cloud, **options) as one:
+    ...             one.weld_tile(tile)
+    ...     with treeform.StreamWeld(cloud, **options) as last:
+    ...         done = last.finish(os.path.join(home, "thin.xyz"))
+    ...         last.remove_folder()
+    >>> count > 1, done.kept
+    (True, 500)
+    """
+
+    def __init__(self, files: Union[Path, Iterable[Path]], tolerance: float = 0.0, *,
+                 relative: bool = False, rule: str = "first", keep: str = "first",
+                 keep_by: str = "", order: str = "given", order_by: str = "",
+                 same: _Same | None = None, memory: int = 0, folder: Path = "",
+                 points_per_tile: int = 0, progress: Progress = None) -> None:
+        files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
+        how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
+                        memory, folder, points_per_tile)
+        super().__init__(
+            _core.weld_of(how, progress=progress), files, tolerance, relative=relative,
+            rule=rule, keep=keep, keep_by=keep_by, order=order, order_by=order_by, same=same,
+            memory=memory, folder=folder, points_per_tile=points_per_tile)
+
+    def scatter(self, *, progress: Progress = None) -> int:
+        """Gives each tile its points, unless they have them. Returns the number of tiles."""
+        return self._work.scatter(progress=progress)
+
+    @property
+    def tiles(self) -> int:
+        """The number of tiles, once they are there."""
+        return self._work.tiles()
+
+    def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
+        """Welds a tile, from 0, unless that is done."""
+        self._work.weld_tile(_arrays.number(tile, "tile", 0), progress=progress)
+
+    def finish(self, out: Path, *, removed: Path = "", label: str = "",
+               progress: Progress = None) -> WeldStreamResult:
+        """Welds what lies along the borders of tiles, when all are welded, and writes the outputs,
+        each whole or not at all. Once."""
+        return WeldStreamResult(**self._work.finish(
+            path_of(out), path_of(removed), _arrays.word(label, "label"), progress=progress))
+
+    def remove_folder(self) -> None:
+        """Removes the folder of the tiles."""
+        self._work.remove_folder()

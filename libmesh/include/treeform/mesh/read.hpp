@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -130,6 +131,18 @@ struct urdf_options {
 ///         that are none, sizes that are not above 0, a mesh whose file is not found
 [[nodiscard]] TREEFORM_API urdf_robot read_urdf(const std::filesystem::path& path,
                                                 const urdf_options& options = {});
+
+/// A robot as parts of an assembly: its links that have faces.
+struct robot_parts {
+    std::vector<mesh> parts{};           ///< [P] all meshes of a link as one, in its frame
+    std::vector<std::uint32_t> links{};  ///< [P] ascending
+    std::vector<std::array<std::uint32_t, 2>> adjacent{};  ///< `urdf_robot::adjacent`, by parts
+};
+
+/// The parts of a robot. `mesh_of_file` gives the mesh of a file, and is asked in the order of
+/// `urdf_robot::meshes`, once for each that has one.
+[[nodiscard]] TREEFORM_API robot_parts parts_of(
+    const urdf_robot& robot, const std::function<mesh(const std::filesystem::path&)>& mesh_of_file);
 
 /// The value of a joint: an angle in radians, or a length.
 struct joint_value {

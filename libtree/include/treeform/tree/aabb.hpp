@@ -65,6 +65,18 @@ template <class T, std::size_t D>
     return true;
 }
 
+/// The squared distance of a point, anything with [], from a box; 0 in it.
+template <class T, std::size_t D, class Point>
+[[nodiscard]] constexpr double squared_distance(const aabb<T, D>& box, const Point& point) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < D; ++i) {
+        const double below = box.min[i] - point[i], above = point[i] - box.max[i];
+        const double away = below > 0.0 ? below : above > 0.0 ? above : 0.0;
+        sum += away * away;
+    }
+    return sum;
+}
+
 /// The intersection of two boxes; empty when they have no common point.
 template <class T, std::size_t D>
 [[nodiscard]] constexpr aabb<T, D> common_box(const aabb<T, D>& a, const aabb<T, D>& b) {

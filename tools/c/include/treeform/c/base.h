@@ -95,6 +95,30 @@ TREEFORM_C_API void treeform_free(void* what);
 /// `TREEFORM_CANCELLED`. It is called from one thread at a time, not always the caller's.
 typedef int (*treeform_progress)(double done, void* data);
 
+/// From here on, also those calls of this thread report progress that have no options and answer many
+/// questions: of points, rays, boxes, positions, and all pairs of points. Null: none does, as at
+/// first. A call that is cancelled has filled its arrays in part.
+///
+/// All other calls without progress run to their end: they read or write a file once, take one or two
+/// meshes through once (a million faces or points in less than half a second on two cores), or build a tree (the
+/// same). `treeform_find_features` is the slowest of them, with some seconds for a million faces.
+TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
+
+/// Takes what one process of a team has told: `bytes` [count].
+typedef void (*treeform_hear)(const void* bytes, size_t count, void* listener);
+
+/// Processes that do one work together, each its share, in a folder that all see, such as those that
+/// mpirun starts. All call the same with the same options; outputs are those of rank 0.
+typedef struct treeform_team {
+    size_t rank;
+    size_t size;
+    /// Gives all of them what each gives (`told` [count]): calls `hear(bytes, count, listener)` for
+    /// each in the order of the ranks, with what that one told. Returning other than 0, as it must
+    /// where one has failed, ends the call with `TREEFORM_CANCELLED`.
+    int (*exchange)(const void* told, size_t count, treeform_hear hear, void* listener, void* data);
+    void* data;
+} treeform_team;
+
 /// The version of the library that is loaded, comparable with `TREEFORM_C_VERSION`.
 TREEFORM_C_API int32_t treeform_version(void);
 

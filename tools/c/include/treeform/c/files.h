@@ -343,6 +343,20 @@ typedef struct treeform_robot_view {
 TREEFORM_C_API treeform_code treeform_robot_look(const treeform_robot* robot,
                                                  treeform_robot_view** view);
 
+/// A robot as parts of an assembly, for `treeform_check_poses`: its links that have faces.
+typedef struct treeform_robot_parts {
+    void* owner;
+    const treeform_mesh* const* meshes;  ///< [count] all meshes of a link as one, in its frame
+    const uint32_t* links;               ///< [count] ascending
+    size_t count;
+    const uint32_t* adjacent;  ///< [adjacent_count][2] pairs of parts that need not be compared
+    size_t adjacent_count;
+} treeform_robot_parts;
+
+/// The parts of a robot; reads the files of its meshes.
+TREEFORM_C_API treeform_code treeform_robot_parts_of(const treeform_robot* robot,
+                                                     treeform_robot_parts** parts);
+
 /// `places` [link_count][12]: where each link is when `joints` [count] have these `values`, in
 /// radians or lengths. Joints without a value are at 0.
 TREEFORM_C_API treeform_code treeform_link_transforms(const treeform_robot* robot,

@@ -190,6 +190,7 @@ typedef struct treeform_search_file_options {
     uint64_t faces_per_tile;  ///< 0: as the memory allows
     treeform_progress progress;
     void* progress_data;
+    const treeform_team* team;  ///< not for `treeform_search_create`; null: this process alone
 } treeform_search_file_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_search_file_options_init(treeform_search_file_options* options,
@@ -230,6 +231,9 @@ TREEFORM_C_API treeform_code treeform_search_create(const char* path,
                                                     treeform_search** search);
 /// Gives each tile its faces, unless they have them; `tiles` is their number. One process does it.
 TREEFORM_C_API treeform_code treeform_search_scatter(treeform_search* search, size_t* tiles);
+/// The tiles that are to be searched.
+TREEFORM_C_API treeform_code treeform_search_unfinished(treeform_search* search,
+                                                        treeform_indices** tiles);
 /// Searches a tile, unless that is done. Each process does its share.
 TREEFORM_C_API treeform_code treeform_search_tile(treeform_search* search, size_t tile);
 /// Puts together what was found, when all tiles are searched. Steps that come before their turn

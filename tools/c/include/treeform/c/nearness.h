@@ -231,6 +231,7 @@ typedef struct treeform_deviation_result {
     uint64_t below;  ///< points below, in and above the band
     uint64_t within;
     uint64_t above;
+    uint64_t sides[3];  ///< points inside, on and outside the solid; 0 unless `is_signed`
 } treeform_deviation_result;
 
 /// Signed distances of the points of `a` from the surface of `fixed` [fixed_count] together; null

@@ -35,6 +35,7 @@ typedef struct treeform_weld_stream_options {
     const treeform_write_options* write;  ///< how to write the output; or null
     treeform_progress progress;           ///< its share starts anew with each step
     void* progress_data;
+    const treeform_team* team;  ///< null: this process alone
 } treeform_weld_stream_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_options* options,
@@ -63,6 +64,28 @@ TREEFORM_C_API treeform_code treeform_weld_stream(const char* const* inputs, siz
                                                   const char* output,
                                                   const treeform_weld_stream_options* options,
                                                   treeform_weld_stream_result** result);
+
+/// The same step by step, for many processes that see one folder: one calls `scatter`; then each
+/// calls `tile` for its share of the tiles; and when all have ended, one calls `finish` and
+/// `remove_folder`. A tile that is finished is not welded again.
+typedef struct treeform_shared_weld treeform_shared_weld;
+/// Begins, and has a hold on the folder until it is freed: all processes give the same inputs and
+/// options. What options say of outputs is for `finish`; `team` is not for this.
+TREEFORM_C_API treeform_code treeform_shared_weld_create(
+    const char* const* inputs, size_t count, const treeform_weld_stream_options* options,
+    treeform_shared_weld** weld);
+/// Gives each tile its points, unless they have them; `tiles` is their number.
+TREEFORM_C_API treeform_code treeform_shared_weld_scatter(treeform_shared_weld* weld,
+                                                          size_t* tiles);
+/// Welds a tile, unless that is done.
+TREEFORM_C_API treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile);
+/// Welds what lies along the borders of tiles, when all are welded and the others have let go of the
+/// folder, and writes `output`, whole or not at all.
+TREEFORM_C_API treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld,
+                                                         const char* output,
+                                                         treeform_weld_stream_result** result);
+/// Removes the folder.
+TREEFORM_C_API treeform_code treeform_shared_weld_remove_folder(treeform_shared_weld* weld);
 
 /// The memory limit when none is given: three quarters of the machine's, in bytes.
 TREEFORM_C_API uint64_t treeform_default_memory(void);

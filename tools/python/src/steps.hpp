@@ -1,0 +1,86 @@
+#pragma once
+/// \file
+/// Work in a folder that is done step by step, as a job each.
+
+#include "job.hpp"
+#include <treeform/mesh/process_team.hpp>
+
+#include <pybind11/stl.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace binding {
+
+/// The team of (rank, size, exchange) as Python has it, or one that is alone for None. Its copies may go
+/// without the interpreter's lock as long as the first one stays.
+inline treeform::process_team team_of(const py::object& team) {
+    treeform::process_team made;
+    if (team.is_none()) return made;
+    made.rank = team.attr("rank").cast<std::size_t>();
+    made.size = team.attr("size").cast<std::size_t>();
+    made.exchange =
+        [all = std::make_shared<py::object>(team.attr("exchange"))](const std::string& told) {
+            std::vector<std::string> heard;
+            with_lock([&] { heard = (*all)(py::bytes(told)).cast<std::vector<std::string>>(); });
+            return heard;
+        };
+    return made;
+}
+
+/// What reports the progress of the step that is done now.
+class step_progress {
+  public:
+    /// As options of the library take it.
+    bool operator()(std::string_view, double share) const { return !report_ || report_(share); }
+
+    void begin(treeform::progress_callback report) { report_ = std::move(report); }
+
+  private:
+    treeform::progress_callback report_;
+};
+
+/// A `Work` that Python's threads share: one step after the other. Also a step that nobody waits for
+/// any more ends before the next one begins.
+template <class Work>
+class work_in_steps {
+  public:
+    /// `make(progress)` makes the work; its options refer to `progress`.
+    template <class Make>
+    explicit work_in_steps(Make&& make) : work_(make(progress_)) {}
+
+    /// What `body(work)` returns, without the interpreter's lock.
+    ///
+    /// \throws std::invalid_argument after `close`
+    template <class Body>
+    auto step(Body&& body) {
+        return run([&](const treeform::progress_callback& report) {
+            const std::lock_guard one_at_a_time(mutex_);
+            if (!work_) throw std::invalid_argument("closed: it has let go of the folder");
+            progress_.begin(report);
+            return body(*work_);
+        });
+    }
+
+    /// Lets others have the folder.
+    void close() {
+        without_lock([&] {
+            const std::lock_guard one_at_a_time(mutex_);
+            work_.reset();
+        });
+    }
+
+  private:
+    step_progress progress_;
+    std::mutex mutex_;
+    std::optional<Work> work_;
+};
+
+}  // namespace binding

@@ -1,0 +1,94 @@
+"""Work that many processes do in a folder that they share: step by step, or as a team."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any, Callable, Generic, Protocol, TypeVar
+
+from ._errors import Cancelled, Error
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+
+class Team(Protocol):
+    """Processes that work together, such as `mpi4py.MPI.COMM_WORLD`."""
+
+    @property
+    def rank(self) -> int: ...
+    @property
+    def size(self) -> int: ...
+
+    def allgather(self, told: Any, /) -> list[Any]:
+        """What each of them tells, in the order of the ranks."""
+        ...
+
+
+_Made = TypeVar("_Made")
+
+
+class _Members:
+    """A team whose members learn that one has failed, with the next that they tell each other."""
+
+    def __init__(self, team: Team) -> None:
+        self.rank, self.size, self._all = team.rank, team.size, team.allgather
+        self._failed = False
+
+    def exchange(self, told: bytes) -> list[bytes]:
+        heard = self._all((told, None))
+        for rank, (_, fault) in enumerate(heard):
+            if fault is not None:
+                self._failed = True
+                raise Error(f"process {rank}: {fault}")
+        return [bytes_of for bytes_of, _ in heard]
+
+    def fail(self, fault: BaseException) -> None:
+        if not self._failed:
+            self._all((b"", str(fault) or type(fault).__name__))
+
+
+def in_team(team: Team | None, work: Callable[[_Members | None], _Made]) -> _Made:
+    """`work(members)`: what it returns, once all have come so far; where one fails, all do."""
+    if team is None:
+        return work(None)
+    if not all(hasattr(team, name) for name in ("rank", "size", "allgather")):
+        raise ValueError(f"team: {team!r} has no rank, size and allgather")
+    members = _Members(team)
+    try:
+        made = work(members)
+    except Cancelled:
+        raise  # it may still be at work
+    except Exception as fault:
+        members.fail(fault)
+        raise
+    members.exchange(b"")
+    return made
+
+
+class _Closable(Protocol):
+    def close(self) -> None: ...
+
+
+_Work = TypeVar("_Work", bound=_Closable)
+
+
+class InSteps(Generic[_Work]):
+    """Has a hold on the folder until it is closed; pickled as its arguments."""
+
+    def __init__(self, work: _Work, *arguments: Any, **named: Any) -> None:
+        self._work = work
+        self._made_of = (arguments, named)
+
+    def close(self) -> None:
+        """Lets go of the folder."""
+        self._work.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        arguments, named = self._made_of
+        return partial(type(self), **named), arguments
