@@ -1,4 +1,5 @@
 #include <libmesh/base/union_find.hpp>
+#include <libmesh/intersect/check_pairs.hpp>
 #include <libmesh/intersect/meetings.hpp>
 #include <libmesh/intersect/same_points.hpp>
 #include <treeform/mesh/curves.hpp>
@@ -116,6 +117,7 @@ class path_walker {
 }  // namespace
 
 curve_network intersection_paths(mesh_view mesh, std::span<const face_pair> pairs) {
+    detail::intersect::check_pairs("intersection_paths", mesh, pairs, true);
     const detail::intersect::mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
     point_table table(mesh, met);
     std::vector<segment> segments;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr known_format formats[] = {
     {"stl", "stl-binary", "stl-ascii", write_stl_binary, write_stl_text, true, false, nullptr},
-    {"obj", "", "obj", nullptr, write_obj, false, false, nullptr},
+    {"obj", "", "obj", nullptr, write_obj, false, false, start_obj_points},
     {"ply", "ply-binary-le", "ply-ascii", write_ply, write_ply, false, false, start_ply_points},
     {"off", "", "off", nullptr, write_off, false, false, nullptr},
     {"xyz", "", "xyz", nullptr, write_xyz, false, false, start_xyz_points},

@@ -20,6 +20,9 @@ namespace {
     switch (found.kind) {
         case detail::io::file_kind::ply:
             return detail::io::open_ply_points(in, first, with_rows);
+        case detail::io::file_kind::stl_binary:
+            if (with_rows) return detail::io::open_stl_points(in, first);
+            in.fail("corners of faces are no points that are read alone");
         case detail::io::file_kind::pcd:
             return detail::io::open_pcd_points(in, first);
         case detail::io::file_kind::las:

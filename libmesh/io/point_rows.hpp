@@ -41,6 +41,8 @@ struct point_rows {
 ///         `point_reader`
 [[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0,
                                          bool with_rows = false);
+/// The corners of a binary STL, facets behind them.
+[[nodiscard]] point_rows open_stl_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format);

@@ -26,7 +26,11 @@ namespace {
     head.attributes.comments = header.attributes.comments;
     head.attributes.obj_info = header.attributes.obj_info;
     head.las = header.las;
+    bool has_vertices = find_element(header.attributes, "vertex") == nullptr;
     for (const element& e : header.attributes.elements) {
+        has_vertices = has_vertices || e.name == "vertex";
+        if (!has_vertices && e.rows > 0)
+            refuse_block("rows of " + e.name + " cannot be ahead of the points");
         element& mine = head.attributes.elements.emplace_back();
         detail::io::restart(mine, e);
         detail::io::check_columns(mine);
@@ -37,7 +41,7 @@ namespace {
 
 /// Whether it is written behind the points.
 [[nodiscard]] bool is_behind(const element& e) {
-    return e.name != "vertex" && e.rows > 0 && !e.columns.empty();
+    return e.name != "vertex" && e.rows > 0 && (e.name == "face" || !e.columns.empty());
 }
 
 /// True when the columns are those of the header's element "vertex".
@@ -61,7 +65,7 @@ struct point_writer::state {
         const detail::io::known_format& format = detail::io::find_format(path, options);
         if (format.start == nullptr)
             throw io_error(path.string() +
-                           ": only PLY, PCD, LAS, LAZ, XYZ and CSV are written in blocks");
+                           ": only PLY, OBJ, PCD, LAS, LAZ, XYZ and CSV are written in blocks");
         std::ranges::copy_if(head.attributes.elements, std::back_inserter(behind), is_behind);
         result.format =
             detail::io::writes_text(format, options) ? format.text_name : format.binary_name;
@@ -76,7 +80,7 @@ struct point_writer::state {
                             count);
         if (!behind.empty() && !rows.behind)
             throw io_error(path.string() +
-                           ": of faces and other elements, only PLY is written in blocks");
+                           ": of faces and other elements, only PLY and OBJ are written in blocks");
         head_size = out->size();
     }
 

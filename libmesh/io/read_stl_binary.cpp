@@ -1,8 +1,10 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/io/face_rows.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/reserve.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +20,9 @@ namespace {
 constexpr std::size_t header_bytes = 84;
 constexpr std::size_t record_bytes = 50;
 constexpr std::size_t block = 128;  // facets converted at a time; their points stay in cache
+
+/// What the column of the bits behind facets is called.
+const char* const bits_name = "stl_attribute";
 
 template <class T>
 T little(const char* at) {
@@ -79,7 +84,7 @@ class facet_bits {
     void store(mesh_file& file) const {
         if (used_)
             obtain_element(file.attributes, "face", file.stored_faces)
-                .columns.push_back(make_column<std::uint16_t>("stl_attribute", bits_));
+                .columns.push_back(make_column<std::uint16_t>(bits_name, bits_));
     }
 
   private:
@@ -157,6 +162,49 @@ face_rows open_stl_faces(const source& in, const file_part& part) {
                                  corners_of(facets + record_bytes * done)});
         in.release_before(facets + record_bytes * done);
         return some;
+    };
+    return rows;
+}
+
+point_rows open_stl_points(const source& in, std::uint64_t first) {
+    point_rows rows;
+    const std::uint32_t count = facet_count(in, rows.head.warnings);
+    rows.head.stored_faces = count;
+    rows.head.indexed = false;
+    rows.head.stored_as = precision::float32;
+    rows.head.format = "stl-binary";
+    rows.head.attributes.header.assign(in.begin(), 80);
+    element& faces = obtain_element(rows.head.attributes, "face", count);
+    faces.columns.push_back({.name = bits_name, .type = scalar_type::uint16});
+    const element declared = faces;
+    rows.count = std::uint64_t{3} * count;
+    rows.left_out = first;
+    const char* const facets = in.begin() + header_bytes;
+    rows.append = [&in, facets, next = first, end = *rows.count](auto& points, element&,
+                                                                 std::size_t most, auto&) mutable {
+        const std::uint64_t some = std::min<std::uint64_t>(most, end - next);
+        for (std::uint64_t i = 0; i < some; ++i, ++next)
+            points.push_back(corners_of(facets + record_bytes * (next / 3))[next % 3]);
+        in.release_before(facets + record_bytes * (next / 3));
+        return static_cast<std::size_t>(some);
+    };
+    rows.behind = [&in, facets, declared, count, next = std::uint32_t{0}](
+                      row_block& some, std::size_t most, auto&) mutable {
+        restart(some.rows, declared);
+        some.corners.clear();
+        some.first_corner.assign(1, 0);
+        if (next == 0) in.rewind();
+        const auto end = static_cast<std::uint32_t>(std::min<std::uint64_t>(count, next + most));
+        std::vector<std::uint16_t> bits;
+        for (; next < end; ++next) {
+            for (std::uint32_t k = 0; k < 3; ++k) some.corners.push_back(3 * next + k);
+            some.first_corner.push_back(some.corners.size());
+            bits.push_back(little<std::uint16_t>(facets + record_bytes * next + 48));
+        }
+        in.release_before(facets + record_bytes * next);
+        some.rows.rows = bits.size();
+        some.rows.columns.front() = make_column<std::uint16_t>(bits_name, bits);
+        return !bits.empty();
     };
     return rows;
 }

@@ -44,9 +44,8 @@ void put_number(sink& out, const column& c, std::size_t i) {
     });
 }
 
-std::vector<const column*> scalar_columns(const mesh_file& file, std::string_view element_name,
+std::vector<const column*> scalar_columns(const element* e,
                                           std::span<const std::string_view> names) {
-    const element* e = find_element(file.attributes, element_name);
     std::vector<const column*> found;
     for (const std::string_view name : names) {
         const column* c = e == nullptr ? nullptr : find_column(*e, name);
@@ -56,10 +55,19 @@ std::vector<const column*> scalar_columns(const mesh_file& file, std::string_vie
     return found;
 }
 
-std::vector<const column*> color_columns(const mesh_file& file, std::string_view element_name) {
+std::vector<const column*> scalar_columns(const mesh_file& file, std::string_view element_name,
+                                          std::span<const std::string_view> names) {
+    return scalar_columns(find_element(file.attributes, element_name), names);
+}
+
+std::vector<const column*> color_columns(const element* e) {
     constexpr std::string_view names[] = {"red", "green", "blue", "alpha"};
-    auto found = scalar_columns(file, element_name, names);
-    return found.empty() ? scalar_columns(file, element_name, std::span(names).first(3)) : found;
+    auto found = scalar_columns(e, names);
+    return found.empty() ? scalar_columns(e, std::span(names).first(3)) : found;
+}
+
+std::vector<const column*> color_columns(const mesh_file& file, std::string_view element_name) {
+    return color_columns(find_element(file.attributes, element_name));
 }
 
 }  // namespace detail::io

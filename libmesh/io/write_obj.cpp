@@ -7,10 +7,9 @@ namespace treeform::detail::io {
 
 namespace {
 
-void put_vertices(const write_job& job) {
-    auto colors = color_columns(job.file, "vertex");
+void put_vertices(const write_job& job, std::span<const point3> points, const element* vertices) {
+    auto colors = color_columns(vertices);
     if (colors.size() == 4) colors.pop_back();
-    const auto& points = job.file.mesh.points;
     put_by_pieces(job, points.size(), [&](const write_job& piece, auto first, auto last) {
         for (std::size_t v = first; v < last; ++v) {
             piece.out.put("v ");
@@ -95,14 +94,31 @@ void put_names(sink& out, const part& now, const part& before) {
     if (now.material != before.material) put_name(out, "usemtl", now.material);
 }
 
+void put_head(const write_job& job, std::uint64_t points) {
+    // A file of no bytes would be taken for one that was cut off.
+    if (points == 0) job.out.put("# no vertices\n");
+    for (const std::string& name : job.file.attributes.material_files)
+        put_name(job.out, "mtllib", name);
+}
+
+void put_faces(const write_job& job, const row_block& block) {
+    if (block.rows.name != "face") return;
+    put_by_pieces(job, block.rows.rows, [&](const write_job& piece, auto first, auto last) {
+        const std::span<const std::uint32_t> all(block.corners);
+        const std::vector<face> none;
+        const face_lines lines{row_numbers(none), row_numbers(none)};
+        for (std::size_t f = first; f < last; ++f)
+            lines.put(piece.out, f,
+                      all.subspan(block.first_corner[f],
+                                  block.first_corner[f + 1] - block.first_corner[f]));
+    });
+}
+
 }  // namespace
 
 void write_obj(const write_job& job) {
-    // A file of no bytes would be taken for one that was cut off.
-    if (job.file.mesh.points.empty()) job.out.put("# no vertices\n");
-    for (const std::string& name : job.file.attributes.material_files)
-        put_name(job.out, "mtllib", name);
-    put_vertices(job);
+    put_head(job, job.file.mesh.points.size());
+    put_vertices(job, job.file.mesh.points, find_element(job.file.attributes, "vertex"));
     const corner_values& values = job.file.attributes.corners;
     put_corner_values(job.out, values);
     const face_lines lines{row_numbers(values.texture_of_corner),
@@ -127,6 +143,16 @@ void write_obj(const write_job& job) {
         }
         lines.put(job.out, first, corners);
     });
+}
+
+point_sink start_obj_points(const write_job& job, std::uint64_t count) {
+    put_head(job, count);
+    if (!job.file.attributes.texture_files.empty())
+        job.result.warnings.push_back(
+            {"materials", "names of texture files left out: obj does not hold them"});
+    return {.rows = [job](std::span<const point3> points,
+                          const element* vertices) { put_vertices(job, points, vertices); },
+            .behind = [job](const row_block& block) { put_faces(job, block); }};
 }
 
 }  // namespace treeform::detail::io

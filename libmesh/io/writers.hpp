@@ -76,6 +76,7 @@ void write_laz(const write_job& job);
 
 /// Start a file of `count` points; the points of the job's file are not looked at.
 [[nodiscard]] point_sink start_ply_points(const write_job& job, std::uint64_t count);
+[[nodiscard]] point_sink start_obj_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_xyz_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_csv_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_pcd_points(const write_job& job, std::uint64_t count);
@@ -159,12 +160,16 @@ void put_bits(sink& out, const column& c, std::size_t i) {
     put_bits_as<order, std::uint64_t>(out, c, i);
 }
 
-/// The columns of these names, all of them with one value a row; empty when one is missing.
+/// The columns of these names, all of them with one value a row; empty when one is missing. The
+/// element may be null.
+[[nodiscard]] std::vector<const column*> scalar_columns(const element* e,
+                                                        std::span<const std::string_view> names);
 [[nodiscard]] std::vector<const column*> scalar_columns(const mesh_file& file,
                                                         std::string_view element,
                                                         std::span<const std::string_view> names);
 
 /// Columns red, green, blue, and alpha where there is one.
+[[nodiscard]] std::vector<const column*> color_columns(const element* e);
 [[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
                                                        std::string_view element);
 

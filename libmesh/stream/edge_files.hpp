@@ -3,22 +3,42 @@
 /// Counts edges of more than two faces, of more faces than memory holds.
 
 #include <libmesh/stream/pacer.hpp>
-#include <libmesh/stream/row_file.hpp>
+#include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/work_folder.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::stream {
 
-inline constexpr std::size_t piece_of_edges = std::size_t{1}
-                                              << 20;  ///< bytes read or written at a time
+using numbered_edge = std::uint64_t;               ///< by the numbers of its ends
+using placed_edge = std::array<std::uint64_t, 3>;  ///< by the places of its ends, in floats
+
+[[nodiscard]] inline numbered_edge edge_between(std::uint32_t a, std::uint32_t b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+}
+
+/// Equal where the ends have equal coordinates (-0 equals +0). \pre float32 holds these
+[[nodiscard]] inline placed_edge edge_between(const point3& a, const point3& b) {
+    const auto bits = [](double x) {
+        return std::uint64_t{std::bit_cast<std::uint32_t>(static_cast<float>(x) + 0.0F)};
+    };
+    std::array<std::uint64_t, 3> from{bits(a.x), bits(a.y), bits(a.z)};
+    std::array<std::uint64_t, 3> to{bits(b.x), bits(b.y), bits(b.z)};
+    if (to < from) std::swap(from, to);
+    return {from[0] << 32 | from[1], from[2] << 32 | to[0], to[1] << 32 | to[2]};
+}
 
 /// All uses of an edge go to the same of several files, each of which memory holds.
+template <class Edge>
 class TREEFORM_API edge_files {
   public:
     /// For at most `uses` of edges. Files are called `name` and a number. About `memory` bytes are
@@ -30,20 +50,27 @@ class TREEFORM_API edge_files {
     edge_files& operator=(const edge_files&) = delete;
 
     /// A face has this edge.
-    void put(std::uint32_t a, std::uint32_t b) {
-        const std::uint64_t edge = a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
-        writers_[static_cast<std::size_t>((edge * 0x9e3779b97f4a7c15 >> 32) * writers_.size() >>
-                                          32)]
-            .put(edge);
+    void put(const Edge& edge) {
+        writers_[static_cast<std::size_t>((mixed(edge) >> 32) * writers_.size() >> 32)].put(edge);
     }
     /// How many edges more than two faces have. Call it once, after all were put.
     /// \throws stream_error, cancelled
     [[nodiscard]] std::uint64_t count_nonmanifold(pacer& pace);
 
   private:
+    static std::uint64_t mixed(std::uint64_t edge) { return edge * 0x9e3779b97f4a7c15; }
+    static std::uint64_t mixed(const placed_edge& edge) {
+        std::uint64_t sum = 0;
+        for (const std::uint64_t word : edge) sum = mixed(std::rotl(sum, 29) ^ word);
+        return sum;
+    }
+
     std::vector<std::filesystem::path> paths_{};
-    std::vector<row_writer> writers_{};
+    std::vector<record_writer<Edge>> writers_{};
     std::size_t most_;  ///< uses held at a time
 };
+
+extern template class edge_files<numbered_edge>;
+extern template class edge_files<placed_edge>;
 
 }  // namespace treeform::detail::stream

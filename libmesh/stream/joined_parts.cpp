@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t piece = std::size_t{1} << 20;
+constexpr std::size_t bytes_at_once = std::size_t{1} << 20;
 
 fs::path path_of(const fs::path& to, const team* all, const fs::path& part) {
     return all == nullptr || all->leads() ? fs::path(to.string() + ".unfinished") : part;
@@ -23,10 +23,10 @@ fs::path path_of(const fs::path& to, const team* all, const fs::path& part) {
 
 void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, std::uint64_t at,
                 std::uint64_t count) {
-    std::vector<std::byte> some(piece);
+    std::vector<std::byte> some(bytes_at_once);
     for (std::uint64_t done = 0; done < count;) {
         const std::span<std::byte> block = std::span(some).first(
-            static_cast<std::size_t>(std::min<std::uint64_t>(piece, count - done)));
+            static_cast<std::size_t>(std::min<std::uint64_t>(bytes_at_once, count - done)));
         if (read_from(from, first + done, block) != block.size()) fail_damaged(from);
         write_to(to, at + done, block);
         done += block.size();
@@ -40,7 +40,7 @@ text_out::text_out(fs::path to, const team* all, const fs::path& part)
 
 void text_out::write(std::string_view text) {
     held_ += text;
-    if (held_.size() >= piece) flush();
+    if (held_.size() >= bytes_at_once) flush();
 }
 
 void text_out::flush() {

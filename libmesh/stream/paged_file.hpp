@@ -21,7 +21,7 @@ class paged_file {
   public:
     /// Of `count` records; about `memory` bytes are held.
     paged_file(std::filesystem::path path, std::uint64_t count, std::uint64_t memory)
-        : path_(std::move(path)), count_(count) {
+        : file_(std::move(path)), count_(count) {
         const std::uint64_t most = std::max<std::uint64_t>(memory / (page * sizeof(Record)), 16);
         slots_ = static_cast<std::size_t>(std::min(most, count / page + 1));
         held_.assign(slots_, none);
@@ -46,11 +46,12 @@ class paged_file {
             static_cast<std::size_t>(std::min<std::uint64_t>(page, count_ - p * page));
         const auto bytes = std::as_writable_bytes(std::span(records_).subspan(slot * page, some));
         held_[slot] = none;
-        if (read_from(path_, p * page * sizeof(Record), bytes) != bytes.size()) fail_damaged(path_);
+        if (file_.read(p * page * sizeof(Record), bytes) != bytes.size())
+            fail_damaged(file_.path());
         held_[slot] = p;
     }
 
-    std::filesystem::path path_;
+    open_file file_;
     std::uint64_t count_;
     std::size_t slots_ = 1;
     std::vector<std::uint64_t> held_{};

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace treeform::detail::stream {
 namespace {
@@ -85,21 +86,29 @@ void sync_file(const std::filesystem::path& path) {
     if (file.get() < 0 || ::fdatasync(file.get()) != 0) fail(reason::write, path);
 }
 
-std::size_t read_from(const std::filesystem::path& path, std::uint64_t at,
-                      std::span<std::byte> bytes) {
-    if (bytes.empty()) return 0;
-    const descriptor file(path, O_RDONLY);
-    if (file.get() < 0) fail(reason::read, path);
+open_file::open_file(std::filesystem::path path)
+    : path_(std::move(path)), fd_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (fd_ < 0) fail(reason::read, path_);
+}
+
+open_file::~open_file() { ::close(fd_); }
+
+std::size_t open_file::read(std::uint64_t at, std::span<std::byte> bytes) const {
     std::size_t read = 0;
     while (read < bytes.size()) {
-        const ssize_t count = ::pread(file.get(), bytes.data() + read, bytes.size() - read,
-                                      static_cast<off_t>(at + read));
+        const ssize_t count =
+            ::pread(fd_, bytes.data() + read, bytes.size() - read, static_cast<off_t>(at + read));
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail(reason::read, path);
+        if (count < 0) fail(reason::read, path_);
         if (count == 0) break;
         read += static_cast<std::size_t>(count);
     }
     return read;
+}
+
+std::size_t read_from(const std::filesystem::path& path, std::uint64_t at,
+                      std::span<std::byte> bytes) {
+    return bytes.empty() ? 0 : open_file(path).read(at, bytes);
 }
 
 std::optional<std::uint64_t> size_of(const std::filesystem::path& path) {

@@ -48,6 +48,23 @@ TREEFORM_API void sync_file(const std::filesystem::path& path);
 /// Reads from byte `at` on, as many as there are. \throws stream_error
 [[nodiscard]] TREEFORM_API std::size_t read_from(const std::filesystem::path& path,
                                                  std::uint64_t at, std::span<std::byte> bytes);
+/// A file that is open to be read, for many short looks.
+class TREEFORM_API open_file {
+  public:
+    /// \throws stream_error
+    explicit open_file(std::filesystem::path path);
+    ~open_file();
+    open_file(const open_file&) = delete;
+    open_file& operator=(const open_file&) = delete;
+
+    /// As `read_from`.
+    [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::byte> bytes) const;
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    int fd_;
+};
 /// None where there is no such file.
 [[nodiscard]] std::optional<std::uint64_t> size_of(const std::filesystem::path& path);
 [[noreturn]] TREEFORM_API void fail_damaged(const std::filesystem::path& path);

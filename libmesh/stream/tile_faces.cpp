@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/stream/tile_faces.hpp>
 #include <libmesh/weld/carried_rows.hpp>
@@ -15,9 +16,9 @@ namespace {
 
 constexpr std::size_t rows_a_block = std::size_t{1} << 15;
 
-const char* const numbers_file = "new_numbers";
-const char* const before_file = "places_before";
-const char* const after_file = "places_after";
+const char* const renumbering_name = "new_numbers";
+const char* const places_before_name = "places_before";
+const char* const places_after_name = "places_after";
 
 /// The corners of a face that grows, and whether it has one.
 class grown_face {
@@ -43,6 +44,12 @@ class grown_face {
     std::unordered_set<std::uint32_t> many_{};
 };
 
+bool are_zeros(const element& e) {
+    return std::ranges::all_of(e.columns, [](const column& c) {
+        return std::ranges::all_of(c.values, [](std::byte b) { return b == std::byte{0}; });
+    });
+}
+
 /// Corners of the face that has most.
 std::size_t longest(const row_block& block) {
     std::size_t most = 0;
@@ -61,7 +68,7 @@ bool has_rows_behind(const mesh_file& header) {
 
 tile_faces::~tile_faces() {
     std::error_code ignored;
-    for (const char* name : {numbers_file, before_file, after_file})
+    for (const char* name : {renumbering_name, places_before_name, places_after_name})
         std::filesystem::remove(folder_.file(name), ignored);
 }
 
@@ -80,10 +87,12 @@ std::vector<io_warning> tile_faces::each_block(const Take& take) {
 
 void tile_faces::look(cloud_survey& survey) {
     survey.faces = survey.triangles = 0;
+    is_blank_ = is_soup_;
     const std::vector<io_warning> warnings = each_block([&](const row_block& block) {
         if (block.rows.name != "face") return;
         survey.faces += block.rows.rows;
         survey.triangles += block.corners.size() - 2 * block.rows.rows;
+        is_blank_ = is_blank_ && are_zeros(block.rows);
         most_corners_ = std::max(most_corners_, longest(block));
     });
     for (const io_warning& w : warnings)
@@ -103,35 +112,64 @@ void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_m
     source.rewind();
     if (rows != nullptr) rows->rewind();
     tile_steps::leaders leaders(steps_, welded);
-    record_writer<std::uint64_t> new_numbers(folder_.file(numbers_file), piece);
+    record_writer<std::uint64_t> renumbering(folder_.file(renumbering_name), piece);
     std::optional<record_writer<point3>> before;
     std::optional<record_writer<point3>> after;
-    if (has_moves) before.emplace(folder_.file(before_file), piece);
-    if (has_moves) after.emplace(folder_.file(after_file), piece);
+    if (has_moves) before.emplace(folder_.file(places_before_name), piece);
+    if (has_moves) after.emplace(folder_.file(places_after_name), piece);
     std::uint64_t point = 0;
     for (point_block block; source.read(block, points_a_block); pace_.check()) {
         if (before) before->put(block.points);
+        if (is_soup_) look_at_corners(block);
         for (std::size_t i = 0; i < block.points.size(); ++i, ++point) {
-            new_numbers.put(welded.kept.number_of(leaders.of(point)));
+            renumbering.put(welded.kept.number_of(leaders.of(point)));
             if (!after || !welded.kept.keeps(point)) continue;
             if (rows != nullptr && !welded.followed->keeps(point)) rows->replace(block, i);
             after->put(block.points[i]);
         }
     }
     const std::uint64_t memory = task_.options.memory / 8;
-    numbers_.emplace(folder_.file(numbers_file), new_numbers.finish_unsynced().records, memory);
+    numbers_.emplace(folder_.file(renumbering_name), renumbering.finish_unsynced().records,
+                     2 * memory);
     if (before)
-        before_.emplace(folder_.file(before_file), before->finish_unsynced().records, memory);
-    if (after) after_.emplace(folder_.file(after_file), after->finish_unsynced().records, memory);
+        before_.emplace(folder_.file(places_before_name), before->finish_unsynced().records,
+                        memory);
+    if (after)
+        after_.emplace(folder_.file(places_after_name), after->finish_unsynced().records, memory);
+}
+
+/// Of a soup, as of what `weld` looks at: equal corners are one.
+void tile_faces::look_at_corners(const point_block& block) {
+    std::vector<point3>& held = corners_of_soup_;
+    for (const point3& p : block.points) {
+        held.push_back(p);
+        if (held.size() < 3) continue;
+        const auto equal = [&](std::size_t i, std::size_t j) {
+            return held[i] == held[j] && base::is_finite(held[i]);
+        };
+        if (equal(0, 1) || equal(1, 2) || equal(2, 0)) {
+            ++counts_.degenerate;
+        } else {
+            // No other face has a corner that is not finite.
+            for (std::size_t k = 0; k < 3; ++k)
+                if (const point3& to = held[k == 2 ? 0 : k + 1];
+                    base::is_finite(held[k]) && base::is_finite(to))
+                    edges_of_soup_->put(edge_between(held[k], to));
+        }
+        held.clear();
+    }
 }
 
 void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts) {
-    number_points(welded, rows, counts.max_displacement > 0.0);
-    steps_.step_done();
     counts_ = counts;
     const std::uint64_t uses = 3 * steps_.survey().triangles;
     const std::uint64_t memory = task_.options.memory / 8;
-    edges_before_.emplace(folder_, "edges_before", uses, memory);
+    if (is_soup_)
+        edges_of_soup_.emplace(folder_, "edges_before", uses, memory);
+    else
+        edges_before_.emplace(folder_, "edges_before", uses, memory);
+    number_points(welded, rows, counts.max_displacement > 0.0);
+    steps_.step_done();
     edges_after_.emplace(folder_, "edges_after", uses, memory);
     counts_now_ = true;
     row_block carried;
@@ -144,8 +182,11 @@ void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts&
     counts_now_ = false;
     before_.reset();
     after_.reset();
-    counts_.nonmanifold_before = edges_before_->count_nonmanifold(pace_);
+    counts_.nonmanifold_before = is_soup_ ? edges_of_soup_->count_nonmanifold(pace_)
+                                          : edges_before_->count_nonmanifold(pace_);
+    edges_of_soup_.reset();
     edges_before_.reset();
+    if (is_soup_) counts_.collapsed -= counts_.degenerate;  // those collapse, too
     counts_.nonmanifold_after = edges_after_->count_nonmanifold(pace_);
     edges_after_.reset();
     counts = counts_;
@@ -198,8 +239,8 @@ bool tile_faces::is_kept(const face& before, const face& after) {
     if (!is_whole) ++(was_whole ? counts_.collapsed : counts_.degenerate);
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;
-        if (was_whole) edges_before_->put(before[k], before[next]);
-        if (is_whole) edges_after_->put(after[k], after[next]);
+        if (was_whole && edges_before_) edges_before_->put(edge_between(before[k], before[next]));
+        if (is_whole) edges_after_->put(edge_between(after[k], after[next]));
     }
     if (!kept) return false;
     ++counts_.triangles;
@@ -225,14 +266,26 @@ void tile_faces::renumber(row_block& block) {
 }
 
 void tile_faces::tell(mesh_file& head, bool all) const {
-    for (element& e : head.attributes.elements)
-        if (e.name == "face" && e.rows > 0 && !all)
-            e.rows = static_cast<std::size_t>(counts_.faces);
+    for (element& e : head.attributes.elements) {
+        if (e.name != "face" || e.rows == 0) continue;
+        if (!all) e.rows = static_cast<std::size_t>(counts_.faces);
+        drop_blank(e);
+    }
+    if (is_blank_)
+        std::erase_if(head.attributes.elements,
+                      [](const element& e) { return e.name == "face" && e.rows == 0; });
+}
+
+/// In memory, a soup has a column only where a value is not zero, and without it no element where no
+/// face is left.
+void tile_faces::drop_blank(element& faces) const {
+    if (is_blank_) faces.columns.clear();
 }
 
 void tile_faces::give(point_writer& to, bool all) {
     row_block carried;
     each_block([&](row_block& block) {
+        if (block.rows.name == "face") drop_blank(block.rows);
         if (all) return to.write(block);
         if (block.rows.name == "face") {
             carry(block, carried);

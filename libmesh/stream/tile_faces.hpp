@@ -23,7 +23,11 @@ namespace treeform::detail::stream {
 class tile_faces {
   public:
     tile_faces(pacer& pace, const work_folder& folder, const tile_task& task, tile_steps& steps)
-        : pace_(pace), folder_(folder), task_(task), steps_(steps) {}
+        : pace_(pace),
+          folder_(folder),
+          task_(task),
+          steps_(steps),
+          is_soup_(!steps.source().header().indexed) {}
     ~tile_faces();
     tile_faces(const tile_faces&) = delete;
     tile_faces& operator=(const tile_faces&) = delete;
@@ -48,6 +52,8 @@ class tile_faces {
     template <class Take>
     std::vector<io_warning> each_block(const Take& take);
     void number_points(tiles_welded& welded, kept_rows* rows, bool has_moves);
+    void look_at_corners(const point_block& block);
+    void drop_blank(element& faces) const;
     void carry(const row_block& from, row_block& to);
     void carry_face(std::span<const std::uint32_t> corners, std::uint32_t row, row_block& to);
     void renumber(row_block& block);
@@ -65,11 +71,15 @@ class tile_faces {
     std::size_t most_kept_corners_ = 0;
     weld_stream_counts counts_{};
     bool counts_now_ = false;                             ///< in the pass that counts
+    bool is_blank_ = false;                               ///< a soup that has nothing but corners
+    bool is_soup_;                                        ///< faces have corners of their own
+    std::vector<point3> corners_of_soup_{};               ///< of the face that begins
     std::optional<paged_file<std::uint64_t>> numbers_{};  ///< new ones, by points
     std::optional<paged_file<point3>> before_{};          ///< places, by points
     std::optional<paged_file<point3>> after_{};           ///< places, by new numbers
-    std::optional<edge_files> edges_before_{};
-    std::optional<edge_files> edges_after_{};
+    std::optional<edge_files<numbered_edge>> edges_before_{};
+    std::optional<edge_files<placed_edge>> edges_of_soup_{};
+    std::optional<edge_files<numbered_edge>> edges_after_{};
     std::vector<std::uint32_t> rows_{};     ///< that faces of a block come from
     std::vector<std::uint32_t> corners_{};  ///< new ones of a face
 };

@@ -11,7 +11,7 @@
 namespace treeform::detail::stream {
 namespace {
 
-constexpr std::uint64_t rows_a_check = 65536;
+constexpr std::uint64_t ranks_a_check = 65536;
 constexpr std::uint64_t samples_each = 2048;  ///< of the points of a process; ranges differ by 10 %
 
 using keyed = std::array<std::uint64_t, 2>;  ///< the key and the number of a point
@@ -103,7 +103,7 @@ void tile_steps::number_by_rank(row_merge& by_key, std::uint64_t rank) {
         const std::uint64_t id = by_key.front()[1];
         in_order.put(id);
         by_number.put(owner_of(id), std::array{id, rank});
-        if (rank % rows_a_check == 0) pace_.check();
+        if (rank % ranks_a_check == 0) pace_.check();
     }
     state_writer told;
     store_count(in_order.finish(), told);
@@ -170,7 +170,7 @@ void tile_steps::leaders::number(const tile_steps& s, const team& all, const sha
         for (; !ranks.empty() && ranks.front()[0] == rank; ranks.pop())
             leader = border_.leader_of(ranks.front()[1]);
         if (leader) by_leader.put(owner(*leader), std::array{*leader, points.front()[0]});
-        if (rank % rows_a_check == 0) s.pace_.check();
+        if (rank % ranks_a_check == 0) s.pace_.check();
     }
     rank = told.first;
     row_chain points = s.numbers_by_rank(told);

@@ -231,7 +231,7 @@ class giving_back {
             result_.emplace(*asked_.welded, head_,
                             drops_nothing() ? survey_.points : survey_.points - dropped, parts,
                             part("welded"),
-                             faces_ == nullptr ? 0 : faces_->most_corners(drops_nothing()));
+                            faces_ == nullptr ? 0 : faces_->most_corners(drops_nothing()));
         if (result_)
             result_->start_part(work_, head_, "welded",
                                 drops_nothing() ? mine : mine - welded_.kept.dropped());

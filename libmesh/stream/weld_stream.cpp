@@ -71,6 +71,16 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
     return {std::move(inputs), std::move(options), std::move(identity), memory};
 }
 
+/// In memory, equal corners of a soup are one before anything else is asked. Where that makes a
+/// difference, tiles do not do it.
+void check_soup(const mesh_file& header, const weld_stream_options& o) {
+    if (header.indexed) return;
+    if (o.keep != weld_keep::first || (o.tolerance > 0.0 && o.rule == weld_rule::first))
+        throw std::invalid_argument(
+            "treeform::weld_stream: an STL is welded in tiles with weld_keep::first, and without a "
+            "tolerance or by weld_rule::chain; a PLY made of it is with all options");
+}
+
 work_folder::use use_of(const weld_stream_options& o, const detail::stream::team& all) {
     if (o.shared) return work_folder::use::shared;
     if (!all.leads()) all.meet();  // the first one makes the folder
@@ -99,6 +109,7 @@ struct stream_weld::state {
           steps(pace, folder, task, all, source, keys) {
         if (all.leads()) all.meet();
         if (!detail::stream::has_rows_behind(source.header())) return;
+        check_soup(source.header(), task.options);
         if (!all.is_alone())
             throw std::invalid_argument(
                 "treeform::weld_stream: a mesh is welded by one process, not by a team");

@@ -147,7 +147,7 @@ point_groups group_points(points_view points, const weld_options& options) {
 }
 
 std::uint64_t count_nearly_equal(points_view points, double distance) {
-    const std::size_t distinct = find_equal_points(points).first_of_new.size();
+    const std::size_t distinct = group_points(points, {.tolerance = 0.0}).first_of_group.size();
     return distinct - group_points(points, {.tolerance = distance}).first_of_group.size();
 }
 

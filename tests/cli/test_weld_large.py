@@ -295,16 +295,16 @@ class Large(WeldTest):
         corners = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(float(i % 97 + k) for k in range(9)),
                                        0) for i in range(100000))
         self.write("in.stl", 80 * b" " + struct.pack("<I", 100000) + corners)
-        command = ["in.stl", "-o", "out.ply", "-f"]
+        command = ["in.stl", "-o", "out.off", "-f"]
         self.assertNotIn("--memory", self.run_tool(*command, status=0).err)
-        report = self.report(*command, "--memory", "70M", status=0)
+        report = self.report(*command, "--memory", "55M", status=0)
         self.assertIn("in-memory", [w["code"] for w in report["files"][0]["warnings"]])
         run = self.run_tool(*command, "--memory", "16M", status=5)
-        self.assertIn("in memory, not in tiles", run.err)
+        self.assertIn("the output format off of a mesh needs the whole mesh in memory", run.err)
         self.write("in.stl", 80 * b" " + struct.pack("<I", 800000))
         os.truncate(self.path("in.stl"), 84 + 50 * 800000)  # more than the memory
         run = self.run_tool(*command, "--memory", "32M", status=5)
-        self.assertIn("faces name points anywhere", run.err)
+        self.assertIn("--memory is not enough for 41 MB of file", run.err)
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_memory_that_is_too_little_is_said_at_once_with_what_would_be_enough(self):

@@ -195,7 +195,7 @@ class Shared(WeldTest):
         run = self.run_tool("in.ply", "-t", "0.03", "--plan", *work, status=4)
         self.assertIn("holds tiles of another input or of other options", run.err)
         self.write("cube.obj", obj_bytes(cube()))
-        self.assertIn("meshes are welded by one, in memory",
+        self.assertIn("other meshes are welded by one, in memory",
                       self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
 
     @unittest.skipIf(NO_MPI, NO_MPI)
@@ -239,9 +239,11 @@ class Shared(WeldTest):
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
-        expected = self.one("-t", "0.02", "-o", "out.ply")
-        work = ["in.ply", "-t", "0.02", "-o", "out.ply", "--tile-points", 400, "--work", "tiles"]
-        for size in (2, 4):
+        gives = ["-t", "0.02", "-o", "out.ply", "--removed", "gone.ply"]
+        for size, more in ((2, []), (4, ["--order", "max:shade", "--map", "map.csv"]),
+                           (3, ["--keep", "mean"])):
+            expected = self.one(*gives, *more)
+            work = ["in.ply", *gives, *more, "--tile-points", 400, "--work", "tiles"]
             for step in range(1, 100):
                 run = self.mpi(size, *work, status=None, last=["--stop-at", step])
                 if run.status == 0:  # it had fewer steps
@@ -260,6 +262,7 @@ class Shared(WeldTest):
         for arguments, status, words in (
                 (["none.ply", "-o", "out.ply"], 3, "none.ply: No such file"),
                 (["in.ply", "-t", "0.1", "-o", "there.ply"], 4, "there.ply: exists"),
+                (["in.ply", "-t", "0.1", "--map", "there.ply"], 4, "there.ply: exists"),
                 (["in.ply", "--same", "color", "-o", "out.ply"], 3, "no such property"),
                 (["in.ply", "-t", "0.1"], 2, "nothing to give back")):
             run = self.mpi(3, *arguments, status=status)
@@ -276,6 +279,7 @@ class Shared(WeldTest):
                 (["--version"], 0, "built with"),
                 (["in.ply", "--bogus"], 2, "--bogus"),
                 (["in.ply", "-t", "0.1", "-o", "full.ply"], 4, "No space left"),
+                (["in.ply", "-t", "0.1", "--map", "full.ply"], 4, "No space left"),
                 (["in.ply", "-t", "0.1", "-o", "out.ply", "--timeout", "1e-9"], 5, "time limit"),
                 (["in.ply", "-t", "0.1", "-o", "out.ply", "--memory", "20M"], 5,
                  "would be enough")):

@@ -1,4 +1,4 @@
-"""Meshes in PLY that tf-weld welds in tiles on the disk: the bytes, maps and reports that memory gives."""
+"""Meshes in PLY and STL that tf-weld welds in tiles on the disk: the bytes, maps and reports that memory gives."""
 
 from weld_support import *
 
@@ -91,6 +91,12 @@ def mesh(rng, encoding, points, faces, edges=True):
     return ply_mesh(encoding, [("vertex", VERTEX, rows), ("face", FACE, faces)] + behind)
 
 
+def stl(points, faces, bits=0):
+    rows = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(x for p in f for x in points[p]), bits * i % 7)
+                    for i, f in enumerate(faces))
+    return 80 * b" " + struct.pack("<I", len(faces)) + rows
+
+
 OPTIONS = ([], ["--across", "normal,color"], ["--across", "normal", "--same", "kind"],
            ["--rule", "chain", "--across", "color,normal"], ["--keep", "last"],
            ["--keep", "mean", "--across", "normal,color"], ["--keep", "max:range", "--across", "color"],
@@ -139,9 +145,41 @@ class TilesOfMeshes(WeldTest):
         across = ["--across", "normal,color"]
         for encoding in ORDERS:
             self.write("in.ply", mesh(self.rng, encoding, points, faces))
+            self.check("in.ply", "-t", "0.01", *across, "--order", "max:range", out="out.obj", size=50)
             for which in (["--ascii"], ["--binary"], ["--label", "group"]):
                 also = ("--map", "map.bin") if "--label" in which else ("--removed", "gone.csv")
                 self.check("in.ply", "-t", "0.01", *across, *which, size=50, also=also)
+
+    def test_stl_is_indexed_as_in_memory(self):
+        points, faces = grid(9, self.rng)
+        points[4] = (NAN, 0.0, 0.0)
+        points[15] = (-0.0, *points[15][1:])
+        faces = [f[:3] for f in faces] + [(7, 7, 8), (8, 9, 8), (4, 4, 5)] + [f[:3] for f in faces[:9]]
+        where, corners = soup(points, faces, self.rng)
+        where[where.index((0.0, 0.0, 0.0))] = (-0.0, 0.0, -0.0)
+        for bits in (0, 1):
+            self.write("in.stl", stl(where, corners, bits))
+            for which in (["-t", "0"], ["-t", "0.05", "--rule", "chain"], ["-t", "0", "--order", "z"],
+                          ["-t", "0", "--keep-degenerate"], ["-t", "3%", "--rule", "chain", "--same", "x"],
+                          ["-t", "9", "--rule", "chain"]):
+                for out in ("out.ply", "out.obj"):
+                    entry = self.check("in.stl", *which, size=60, out=out)
+                    self.assertEqual(entry["faces"]["degenerate"], 4)
+                    self.assertGreater(entry["nonmanifold_edges"]["before"], 0)
+            self.assertEqual(b"stl_attribute" in self.made("in.stl"), bits == 1)
+        self.write("in.stl", stl(where, corners) + b"more")
+        self.check("in.stl", size=60)
+        self.write("in.stl", stl(where, corners)[:-7])
+        said = [self.run_tool("in.stl", "-o", "out.ply", *tiled, status=3).err
+                for tiled in ([], ["--tile-points", 10])]
+        self.assertEqual(*(text.splitlines()[-1] for text in said))
+        self.assertEqual(self.listing(), ["in.stl"])
+
+    def made(self, name):
+        self.run_tool(name, "-o", "made.ply", "--tile-points", 60, status=0)
+        made = self.read_bytes("made.ply")
+        os.remove(self.path("made.ply"))
+        return made
 
     def test_counts_without_output_are_those_of_memory(self):
         points, faces = soup(*grid(6, self.rng), self.rng)
@@ -190,9 +228,16 @@ class TilesOfMeshes(WeldTest):
     def test_what_tiles_cannot_do_says_so(self):
         points, faces = grid(5, self.rng)
         self.write("in.ply", mesh(self.rng, "ascii", points, faces))
-        for option in (["-o", "out.obj"], ["--keep-manifold", "-o", "out.ply"],
-                       ["--borders", "-o", "out.ply"], ["--precision", "float", "-o", "out.ply"]):
-            entry = self.entry("in.ply", *option, "-f", "--tile-points", 10, status=0)
+        self.write("in.stl", stl(*soup(points, [f[:3] for f in faces], self.rng)))
+        for name, option in (("in.ply", ["-o", "out.off"]),
+                             ("in.ply", ["--keep-manifold", "-o", "out.ply"]),
+                             ("in.ply", ["--borders", "-o", "out.ply"]),
+                             ("in.ply", ["--precision", "float", "-o", "out.ply"]),
+                             ("in.ply", ["--keep", "mean", "-o", "out.obj"]),
+                             ("in.stl", ["-t", "0.1", "-o", "out.ply"]),
+                             ("in.stl", ["--keep", "last", "-o", "out.ply"]),
+                             ("in.stl", ["--label", "group", "-o", "out.ply"])):
+            entry = self.entry(name, *option, "-f", "--tile-points", 10, status=0)
             self.assertIsNone(entry["tiles"])
             said = [w["text"] for w in entry["warnings"] if w["code"] == "in-memory"]
             self.assertIn("needs the whole mesh in memory", said[0])
@@ -231,6 +276,25 @@ class TilesOfMeshes(WeldTest):
                 self.assertEqual(self.listing(), ["in.ply", "memory.ply"])
             self.assertGreater(step, 7)
             os.remove(self.path("out.ply"))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_meshes_larger_than_the_memory_stay_within_it(self):
+        n = 600
+        with open(self.path("in.ply"), "wb") as file:  # this process stays small: others begin as it
+            file.write(b"ply\nformat binary_little_endian 1.0\nelement vertex %d\n"
+                       b"property float x\nproperty float y\nproperty float z\nelement face %d\n"
+                       b"property list uchar int vertex_indices\nend_header\n" % (4 * n * n, n * n))
+            for i in range(n):
+                for j in range(n):
+                    file.write(struct.pack("<12f", i, j, 0, i + 1, j, 0, i + 1, j + 1, 0, i, j + 1, 0))
+            for f in range(n * n):
+                file.write(struct.pack("<B4i", 4, *range(4 * f, 4 * f + 4)))
+        self.run_tool("in.ply", "-o", "memory.ply", status=0)
+        report = self.report("in.ply", "-o", "out.ply", "--memory", "56M", status=0)
+        self.assertGreater(report["files"][0]["tiles"]["count"], 1)
+        self.assertLess(report["peak_rss"], 56 << 20)
+        self.assertEqual(report["files"][0]["points"]["out"], (n + 1) ** 2)
+        self.assertEqual(self.read_bytes("out.ply"), self.read_bytes("memory.ply"))
 
     @unittest.skipUnless(MODELS, "needs TREEFORM_MODELS_DIR")
     def test_models_are_welded_as_in_memory(self):

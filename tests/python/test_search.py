@@ -231,6 +231,8 @@ def test_what_is_wrong_is_named_by_its_number():
     along = np.ones_like(points)
     none = along.copy()
     none[15_000] = 0
+    moves = np.tile(np.eye(4), (20_000, 1, 1))
+    moves[15_000, 0, 3] = np.inf
     tree, boxes = tf.PointTree(points), tf.BoxTree(points, points)
     for call in (lambda: tf.closest_point(CUBE, wrong), lambda: tf.locate(CUBE, wrong),
                  lambda: tf.signed_distance(CUBE, wrong), lambda: tf.raycast(CUBE, wrong, along),
@@ -238,7 +240,7 @@ def test_what_is_wrong_is_named_by_its_number():
                  lambda: tf.raycast_any(CUBE, points, none), lambda: tree.query(wrong),
                  lambda: tree.query_ball_point(wrong, 0.01), lambda: boxes.query(wrong, wrong),
                  lambda: boxes.nearest(wrong), lambda: tf.PointTree(wrong),
-                 lambda: tf.BoxTree(wrong, wrong), lambda: tf.deviation(wrong, CUBE)):
+                 lambda: tf.intersects(CUBE, CUBE, move_a=moves), lambda: tf.BoxTree(wrong, wrong), lambda: tf.deviation(wrong, CUBE)):
         with pytest.raises(ValueError, match=r"\b15000\b"):
             call()
 

@@ -93,6 +93,8 @@ def test_labels_and_other_options():
 
 def test_how_many_are_nearly_equal():
     assert tf.count_nearly_equal([[0, 0, 0], [0, 0, 0], [0, 0, 1e-6], [5, 5, 5]], 1e-5) == 1
+    for other in (np.nan, np.inf):  # is near nothing
+        assert tf.count_nearly_equal([[other] * 3] * 5 + [[0, 0, 0], [0, 0, 1e-6]], 1e-5) == 1
 
 
 def test_a_file_in_tiles_is_that_of_the_whole(tmp_path):

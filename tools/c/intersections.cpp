@@ -36,19 +36,6 @@ std::vector<tf::face_pair> pairs_of(std::size_t face_count, const treeform_face_
     return result;
 }
 
-/// The same, of faces with finite corners, as the curves take for granted.
-std::vector<tf::face_pair> finite_pairs(tf::mesh_view mesh, const treeform_face_pair* pairs,
-                                        std::size_t count) {
-    auto result = pairs_of(mesh.faces.size(), pairs, count);
-    const std::vector<std::uint32_t> bad = tf::find_defects(mesh).nonfinite_faces;
-    for (const tf::face_pair& pair : result)
-        for (const std::uint32_t face : {pair.a, pair.b})
-            if (std::binary_search(bad.begin(), bad.end(), face))
-                throw std::invalid_argument("face " + std::to_string(face) +
-                                            " has a corner that is not finite");
-    return result;
-}
-
 }  // namespace
 
 tf::pair_kinds glue::kinds(std::uint32_t bits) {
@@ -192,7 +179,7 @@ treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
         const tf::mesh_view view = glue::view(mesh);
         auto made = glue::make<treeform_segments>();
         const auto& found =
-            made->keep(tf::intersection_curves(view, finite_pairs(view, pairs, count)));
+            made->keep(tf::intersection_curves(view, pairs_of(view.faces.size(), pairs, count)));
         made->value.segments = glue::same<treeform_segment>(found);
         made->value.count = found.size();
         glue::give(std::move(made), segments);
@@ -205,12 +192,7 @@ treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
     return glue::guard([&] {
         glue::start(paths);
         const tf::mesh_view view = glue::view(mesh);
-        const auto of = finite_pairs(view, pairs, count);
-        const auto flat = tf::find_defects(view).degenerate_faces;
-        for (const tf::face_pair& pair : of)
-            for (const std::uint32_t face : {pair.a, pair.b})
-                if (std::binary_search(flat.begin(), flat.end(), face))
-                    throw std::invalid_argument("face " + std::to_string(face) + " has no area");
+        const auto of = pairs_of(view.faces.size(), pairs, count);
         auto made = glue::make<treeform_paths>();
         const auto& found = made->keep(tf::intersection_paths(view, of));
         std::vector<tf::point3> points;
@@ -232,7 +214,8 @@ treeform_code treeform_write_curves(const char* path, const treeform_mesh* mesh,
     return glue::guard([&] {
         (void)glue::need(path, "path");
         const tf::mesh_view view = glue::view(mesh);
-        tf::write_curves(path, view, finite_pairs(view, pairs, count), {}, glue::text(format));
+        tf::write_curves(path, view, pairs_of(view.faces.size(), pairs, count), {},
+                         glue::text(format));
     });
 }
 

@@ -127,14 +127,7 @@ class stream_files {
                  const tf::mesh_file& header)
         : work_(work), request_(request), tiles_(tiles), asked_(request.outputs), outputs_(work) {
         const common_options& o = work.options;
-        // Of a team, the first one has the files.
-        const auto add = [&](const fs::path& path, bool force) {
-            return leads() ? outputs_.add(path, force) : path;
-        };
-        if (!asked_.map.empty() && written_directly(asked_.map))
-            open_map();
-        else if (!asked_.map.empty())
-            add_map(add(asked_.map, o.force));
+        if (!asked_.map.empty()) add_map();
         if (!asked_.removed.empty() && !o.dry_run)
             to_.removed = {add(asked_.removed, o.force),
                            write_options_for(o, {check_points_format(asked_.removed), o.ascii})};
@@ -163,26 +156,25 @@ class stream_files {
   private:
     [[nodiscard]] bool leads() const { return tiles_.team.rank == 0; }
 
-    void add_map(const fs::path& path) {
-        to_.map_path = path;
+    /// Of a team, the first one has the files.
+    [[nodiscard]] fs::path add(const fs::path& path, bool force) {
+        return leads() ? outputs_.add(path, force) : path;
+    }
+
+    void add_map() {
         to_.map_text = [as_csv = map_is_csv(asked_.map)](std::uint64_t first, auto numbers) {
             std::string text = as_csv && first == 0 ? map_heading : "";
             for (const std::uint64_t number : numbers) put_map_row(text, first++, number, as_csv);
             return text;
         };
-    }
-
-    /// What is no file is written from the front, by the first one.
-    void open_map() {
-        to_.map = [](auto) {};
-        if (!leads()) return;
-        map_.emplace(asked_.map, work_.options.force, work_.keeper);
-        const bool as_csv = map_is_csv(asked_.map);
-        if (as_csv) map_->write(map_heading);
-        to_.map = [this, as_csv, next = std::uint64_t{0}](auto numbers) mutable {
-            std::string text;
-            for (const std::uint64_t number : numbers) put_map_row(text, next++, number, as_csv);
-            map_->write(text);
+        if (!written_directly(asked_.map)) {
+            to_.map_path = add(asked_.map, work_.options.force);
+            return;
+        }
+        if (leads()) map_.emplace(asked_.map, work_.options.force, work_.keeper);
+        to_.map = [this, next = std::uint64_t{0}](auto numbers) mutable {
+            map_->write(to_.map_text(next, numbers));
+            next += numbers.size();
         };
     }
 

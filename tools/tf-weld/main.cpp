@@ -104,8 +104,9 @@ const char* const epilogue =
     "In tiles, clouds are read three times: to look at them (the box that a DIST in\n"
     "percent needs, how many points, samples that say where to cut), to give each\n"
     "tile its points, and to write what is kept; --order and --keep read them once\n"
-    "more, and LAS of other formats three times more. Meshes, --borders and\n"
-    "--keep-manifold need all of it in memory.\n"
+    "more, and LAS of other formats three times more. Meshes in PLY and binary STL\n"
+    "are welded in tiles to PLY and OBJ; other meshes, --borders and --keep-manifold\n"
+    "need all of it in memory, and so do -t (with rule first) and --keep of an STL.\n"
     "\n"
     "With --order and rule first, no two kept points are within DIST, and every\n"
     "dropped point is within DIST of a kept one that comes earlier in that order.\n"
@@ -186,7 +187,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     add_what_to_give_back(line, r.outputs, options);
     add_meshes(line, r.settings);
     tools::add_tile_options(line, tiles,
-                            "Clouds larger than --memory are welded in tiles on the disk",
+                            "What is larger than --memory is welded in tiles on the disk",
                             "--tile-points");
     tools::add_sharing_options(line, tiles);
     line.group("Common options");

@@ -26,6 +26,12 @@ bool has_lists(const tf::mesh_file& header) {
            });
 }
 
+/// Other formats are written whole.
+bool is_of_blocks(const std::string& format, bool is_mesh) {
+    if (is_mesh) return format == "ply" || format == "obj";
+    return format != "off" && format != "stl" && format != "glb" && format != "3mf";
+}
+
 /// Why only memory will do; empty where tiles will, too.
 std::string what_needs_memory(const job& work, const weld_request& request,
                               const tf::cloud_outline& cloud) {
@@ -37,13 +43,19 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const bool chooses = o.keep != tf::weld_keep::first;
     if (chooses && has_lists(header)) return "--keep of points with lists";
     const auto path = mesh_output(work.options, work.path);
-    if (path && *path == "-" && (chooses || work.options.precision == "float"))
-        return "looking again at what goes to standard output";
-    if (cloud.has_rows && path && form_of(work, header, *path).format != "ply")
-        return "an output of a mesh that is not PLY";
+    if (!header.indexed && chooses) return "--keep of an STL";
+    if (!header.indexed && !request.outputs.label.empty()) return "--label of an STL";
+    if (!header.indexed && request.settings.tolerance.value > 0.0 && o.rule == tf::weld_rule::first)
+        return "-t of an STL (not of a PLY that tf-weld without -t makes of it)";
+    const std::string format = path ? form_of(work, header, *path).format : std::string();
+    if (path && !is_of_blocks(format, cloud.has_rows))
+        return "the output format " + format + (cloud.has_rows ? " of a mesh" : " of a cloud");
     if (cloud.has_rows && work.options.precision == "float" &&
         (header.stored_as == tf::precision::float64 || o.keep == tf::weld_keep::mean))
         return "--precision float of a mesh in doubles";
+    const bool looks_again = chooses || work.options.precision == "float";
+    if (path && *path == "-" && looks_again) return "looking again at what goes to standard output";
+    if (format == "obj" && looks_again) return "looking again at an OBJ";
     return {};
 }
 
@@ -113,11 +125,12 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         throw failure(
             bad_input, "read",
             work.name +
-                ": is no cloud or plain PLY that can be read by blocks, as several processes do; "
+                ": is no cloud, plain PLY or binary STL, which several processes read by blocks; "
                 "other meshes are welded by one, in memory");
     if (!cloud)
-        return weld_mesh(work, request, tiles, size,
-                         "meshes other than plain PLY are welded in memory, not in tiles");
+        return weld_mesh(
+            work, request, tiles, size,
+            "meshes other than plain PLY and binary STL are welded in memory, not in tiles");
     if (cloud->has_rows && tiles.team.size > 1)
         throw failure(
             bad_usage, "usage",

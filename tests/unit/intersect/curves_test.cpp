@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace {
@@ -59,6 +62,32 @@ TEST_CASE("curves: an overlap is outlined by a closed line") {
 TEST_CASE("curves: no pairs, no segments") {
     const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}};
     CHECK(curves_of(mesh).empty());
+}
+
+TEST_CASE("curves: pairs that are none of the mesh are refused") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 0, 0}, {nan, 0, 0}},
+                        {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {0, 1, 9}}};
+    const auto says = [&](std::uint32_t face, bool paths) -> std::string {
+        const std::vector<tf::face_pair> pairs{{0, 0}, {0, face}};
+        try {
+            if (paths)
+                static_cast<void>(tf::intersection_paths(mesh, pairs));
+            else
+                static_cast<void>(tf::intersection_curves(mesh, pairs));
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return {};
+    };
+    CHECK(says(1, false).empty());
+    CHECK(says(1, true) == "treeform::intersection_paths: pair 1 has face 1, which has no area");
+    for (const bool paths : {false, true}) {
+        CHECK(says(2, paths).ends_with("pair 1 has face 2, which has a corner that is not finite"));
+        CHECK(
+            says(3, paths).ends_with("pair 1 has face 3, which has a corner that is out of range"));
+        CHECK(says(4, paths).ends_with("pair 1 has face 4, which is out of range"));
+    }
 }
 
 TEST_CASE("curves: follow the order of the pairs on any number of threads") {

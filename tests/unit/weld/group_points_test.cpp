@@ -417,3 +417,13 @@ TEST_CASE("group_points: progress never decreases, and stops the work when it sa
             }
         }
 }
+
+TEST_CASE("group_points: points that are not finite are nearly equal to none, and never fewer") {
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const double x : {infinite, -infinite, std::numeric_limits<double>::quiet_NaN()}) {
+        std::vector<tf::point3> points(5, {x, x, x});
+        CHECK(tf::count_nearly_equal(points, 1.0) == 0);
+        points.insert(points.end(), {{0, 0, 0}, {-0.0, 0, 0}, {0, 0, 0.5}});
+        CHECK(tf::count_nearly_equal(points, 1.0) == 1);
+    }
+}

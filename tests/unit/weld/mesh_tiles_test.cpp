@@ -127,12 +127,12 @@ TEST_CASE("edge files: edges of more than two faces, with little memory") {
     for (const std::uint32_t points : {3U, 40U, 2000U}) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
         constexpr std::size_t count = 60000;
-        stream::edge_files files(folder, "edges", count, 1);
+        stream::edge_files<stream::numbered_edge> files(folder, "edges", count, 1);
         for (std::size_t i = 0; i < count; ++i) {
             const auto a = static_cast<std::uint32_t>(random.unit() * points);
             const auto b =
                 (a + 1 + static_cast<std::uint32_t>(random.unit() * (points - 1))) % points;
-            files.put(a, b);
+            files.put(stream::edge_between(a, b));
             ++uses[std::minmax(a, b)];
         }
         std::uint64_t expected = 0;

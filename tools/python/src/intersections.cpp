@@ -53,8 +53,12 @@ std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::
     const auto kind = rows_of<std::uint8_t>(kinds);
     if (kind.size() != numbers.size()) throw std::invalid_argument("kinds: one for each pair");
     std::vector<tf::face_pair> all;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (kind[i] >= kind_words.size())
+            throw std::invalid_argument("kinds: " + std::to_string(kind[i]) + " at " +
+                                        std::to_string(i) + " is none");
         all.push_back({numbers[i][0], numbers[i][1], static_cast<tf::pair_kind>(kind[i])});
+    }
     return all;
 }
 

@@ -7,6 +7,7 @@
 #include <treeform/tree/version.hpp>
 
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -45,6 +46,8 @@ void translate(std::exception_ptr thrown) {
     } catch (const tf::io_error& error) {
         raise("FileError", in_python(error.what()).c_str());
     } catch (const tf::stream_error& error) {
+        raise("FileError", error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
         raise("FileError", error.what());
     } catch (const std::system_error& error) {
         if (error.code() != std::errc::resource_unavailable_try_again) throw;

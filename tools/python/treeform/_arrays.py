@@ -17,9 +17,16 @@ _UINT32 = np.dtype(np.uint32)
 NONE = 0xFFFFFFFF
 
 
+def _array(values: ArrayLike, name: str) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except (ValueError, OverflowError) as error:
+        raise ValueError(f"{name}: no array: {str(error).split('. ')[0]}") from None
+
+
 def floats(values: ArrayLike, name: str) -> Floats:
     """`values` as float64, in one piece."""
-    array = values if type(values) is np.ndarray else np.asarray(values)
+    array = values if type(values) is np.ndarray else _array(values, name)
     if array.dtype == _FLOAT64 and array.flags.c_contiguous and array.flags.aligned:
         return array
     if array.dtype.kind not in "fiu":
@@ -71,7 +78,7 @@ def matrix(values: ArrayLike | None, name: str) -> Floats:
 
 def ids(values: ArrayLike, name: str) -> Ids:
     """`values` as uint32, in one piece."""
-    array = values if type(values) is np.ndarray else np.asarray(values)
+    array = values if type(values) is np.ndarray else _array(values, name)
     if array.dtype == _UINT32 and array.flags.c_contiguous and array.flags.aligned:
         return array
     if array.size == 0:
@@ -131,6 +138,14 @@ def number(value: Any, name: str, least: float | None = None) -> Any:
         kind = "a number" if least is None else "a whole number"
         raise ValueError(f"{name}: {kind} is needed, not {value!r}")
     return value
+
+
+def several(values: Any, name: str) -> list[Any]:
+    """`values`, which has to be something to go through."""
+    try:
+        return list(values)
+    except TypeError:
+        raise ValueError(f"{name}: several are needed, not {values!r}") from None
 
 
 def word(value: Any, name: str) -> str:

@@ -27,6 +27,9 @@ def _poses(values: ArrayLike | None, name: str) -> Floats:
     if array.ndim not in (2, 3) or array.shape[-2:] != (4, 4):
         raise ValueError(f"{name}: the shape is {array.shape}, not (4, 4) or (n, 4, 4)")
     array = array.reshape(-1, 4, 4)
+    if not np.isfinite(array).all():
+        at = int(np.argmin(np.isfinite(array).all(axis=(1, 2))))
+        raise ValueError(f"{name}: an entry of {at} is not finite")
     wrong = (array[:, 3] != (0.0, 0.0, 0.0, 1.0)).any(axis=1)
     if wrong.any():
         at = int(np.argmax(wrong))
@@ -149,8 +152,10 @@ class ClashResult(Result):
 
 
 def _pairs(pairs: Iterable[Sequence[int]]) -> Ids:
-    array = _arrays.ids(np.asarray(list(pairs), dtype=np.int64).reshape(-1, 2), "ignored")
-    return array
+    array = _arrays.ids(_arrays.several(pairs, "ignored"), "ignored")
+    if array.size and (array.ndim != 2 or array.shape[1] != 2):
+        raise ValueError(f"ignored: the shape is {array.shape}, not (n, 2)")
+    return array.reshape(-1, 2)
 
 
 def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *,
@@ -172,8 +177,9 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
     >>> [(one.a, one.b, one.how, one.volume) for one in found.pairs]
     [(0, 1, 'penetrating', 0.125)]
     """
-    made = _core.clash([held_body(part) for part in parts], clearance, volumes, depths, limit,
-                       _pairs(ignored), vertices, progress=progress)
+    bodies = [held_body(part) for part in _arrays.several(parts, "parts")]
+    made = _core.clash(bodies, clearance, volumes, depths, limit, _pairs(ignored), vertices,
+                       progress=progress)
     made["pairs"] = [PartClash(**one) for one in made["pairs"]]
     return ClashResult(**made)
 
@@ -222,7 +228,7 @@ def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
     >>> found.in_collision(3)
     array([ True, False, False])
     """
-    bodies = [held_body(part) for part in parts]
+    bodies = [held_body(part) for part in _arrays.several(parts, "parts")]
     array = _arrays.floats(poses, "poses")
     if array.ndim == 3 and array.shape[1:] == (4, 4):
         moves = np.tile(np.eye(4), (len(array), max(1, len(bodies)), 1, 1))

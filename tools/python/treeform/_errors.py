@@ -3,15 +3,18 @@ not enough is a MemoryError."""
 
 from __future__ import annotations
 
+import re
 import sys
 from numbers import Real
 from types import FrameType
-from typing import Any, Callable
+from typing import Any, Callable, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Certificate
+
+_Made = TypeVar("_Made")
 
 
 class Error(Exception):
@@ -78,8 +81,9 @@ def require(certificate: Certificate, *also: str, of_one: bool = False) -> None:
 
 #: What annotations ask for, and how that is said.
 _KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
-    "float": (lambda value: isinstance(value, Real), "a number"),
-    "int": (lambda value: isinstance(value, (int, np.integer)) and bool(value >= 0),
+    "float": (lambda value: isinstance(value, (float, np.floating))
+              or isinstance(value, Real) and abs(value) < 2**1023, "a number"),
+    "int": (lambda value: isinstance(value, (int, np.integer)) and bool(0 <= value < 2**64),
             "a whole number, not negative,"),
     "bool": (lambda value: isinstance(value, (bool, np.bool_)), "True or False"),
     "str": (lambda value: isinstance(value, str), "a word"),
@@ -91,15 +95,32 @@ def name_argument(error: TypeError) -> None:
     """Raises ValueError that names an argument which is not what its function's annotation asks for,
     where the extension has refused those it was called with."""
     frame: FrameType | None = sys._getframe(1)
-    if "incompatible function arguments" not in str(error):
+    if not re.search("incompatible (function|constructor) arguments", str(error)):
         return
     while frame is not None and frame.f_globals.get("__name__", "").startswith("treeform."):
         name = frame.f_code.co_name
         function = getattr(type(frame.f_locals.get("self")), name, frame.f_globals.get(name))
         for argument, annotation in getattr(function, "__annotations__", {}).items():
+            if argument == "return":
+                continue
             is_one, wanted = _KINDS.get(annotation.removesuffix(" | None"), (None, ""))
             value = frame.f_locals.get(argument)
             if is_one is None or (value is None and annotation.endswith("None")) or is_one(value):
                 continue
             raise ValueError(f"{argument}: {wanted} is needed, not {value!r}") from None
         frame = frame.f_back
+
+
+def settings(type: Callable[..., _Made], *arguments: Any) -> _Made:
+    """`type(*arguments)`, of the extension."""
+    try:
+        return type(*arguments)
+    except TypeError as error:
+        name_argument(error)
+        raise
+
+
+def need(value: Any, name: str, *types: type) -> None:
+    """Raises ValueError unless `value` is one of these."""
+    if not isinstance(value, types):
+        raise ValueError(f"{name}: {types[0].__name__} is needed, not {value!r}")

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
+from ._errors import need, settings
 from ._files import Path, path_of
 from ._mesh import Mesh, MeshLike, held
 from ._progress import Progress
@@ -20,6 +21,12 @@ from ._steps import InSteps, Team, in_team
 KINDS = tuple(_core.KINDS)
 _ALL = list(KINDS)
 _NO_LIMIT = 2**64 - 1
+
+
+def _kinds(kinds: Iterable[str] | None) -> list[str]:
+    if kinds is None:
+        return _ALL
+    return [_arrays.word(kind, "kinds") for kind in _arrays.several(kinds, "kinds")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -69,7 +76,7 @@ def self_intersections(mesh: MeshLike, *, kinds: Iterable[str] | None = None,
     FacePairs(pairs=uint32[78, 2], kinds=uint8[78], counts={'crossing': 78})
     """
     return FacePairs(**_core.self_intersections(
-        held(mesh), _ALL if kinds is None else list(kinds), vertices, first_only,
+        held(mesh), _kinds(kinds), vertices, first_only,
         _NO_LIMIT if limit is None else limit, progress=progress))
 
 
@@ -90,7 +97,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
     6
     """
     return FacePairs(**_core.mesh_intersections(
-        held(a), held(b), _ALL if kinds is None else list(kinds), first_only,
+        held(a), held(b), _kinds(kinds), first_only,
         _NO_LIMIT if limit is None else limit, _arrays.matrix(move_a, "move_a"),
         _arrays.matrix(move_b, "move_b"), progress=progress))
 
@@ -118,8 +125,8 @@ class FilePairs(FacePairs):
 
 def _search_settings(kinds: Iterable[str] | None, vertices: str | None, format: str, memory: int,
                      folder: Path, faces_per_tile: int) -> _core.SearchSettings:
-    return _core.SearchSettings(
-        _ALL if kinds is None else list(kinds), vertices, _arrays.word(format, "format"),
+    return settings(
+        _core.SearchSettings, _kinds(kinds), vertices, _arrays.word(format, "format"),
         _arrays.number(memory, "memory", 0), path_of(folder),
         _arrays.number(faces_per_tile, "faces_per_tile", 0))
 
@@ -150,9 +157,9 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     >>> found.counts["crossing"], found.pairs_in_file.shape
     (78, (78, 2))
     """
-    settings = _search_settings(kinds, vertices, format, memory, folder, faces_per_tile)
+    how = _search_settings(kinds, vertices, format, memory, folder, faces_per_tile)
     return in_team(team, lambda all: _file_pairs(_core.self_intersections_of_file(
-        path_of(path), settings, all, progress=progress)))
+        path_of(path), how, all, progress=progress)))
 
 
 class StreamSearch(InSteps[_core.SearchInSteps]):
@@ -186,7 +193,7 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
     def __init__(self, path: Path, *, kinds: Iterable[str] | None = None,
                  vertices: str | None = None, format: str = "", memory: int = 0, folder: Path = "",
                  faces_per_tile: int = 0, progress: Progress = None) -> None:
-        kinds = None if kinds is None else list(kinds)
+        kinds = None if kinds is None else _kinds(kinds)
         super().__init__(
             _core.search_of(path_of(path), _search_settings(kinds, vertices, format, memory, folder,
                                                             faces_per_tile), progress=progress),
@@ -243,6 +250,7 @@ def intersection_regions(mesh: MeshLike, found: FacePairs, *,
     >>> len(regions), regions[0].pairs
     (1, 78)
     """
+    need(found, "found", FacePairs)
     regions, of_pair = _core.group_pairs(held(mesh), found.pairs, found.kinds,
                                          progress=progress)
     return [Region(faces, np.stack([low, high]), pairs)
@@ -262,6 +270,7 @@ def intersection_curves(mesh: MeshLike, found: FacePairs, *,
     >>> [len(curve) for curve in curves]
     [79]
     """
+    need(found, "found", FacePairs)
     points, paths = _core.intersection_paths(held(mesh), found.pairs, found.kinds,
                                              progress=progress)
     return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
+from ._errors import need
 from ._mesh import Mesh, MeshLike, MeshResult, held, held_body
 from ._progress import Progress
 from ._properties import Feature
@@ -233,6 +234,8 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     >>> treeform.mate_features(other, cube, side, top).at_place
     'touching'
     """
+    need(of_moving, "of_moving", Feature)
+    need(of_fixed, "of_fixed", Feature)
     if of_moving.kind != of_fixed.kind:
         raise ValueError(f"of_fixed: {of_fixed.kind!r}, but of_moving is {of_moving.kind!r}")
     body = held_body(moving)
@@ -411,7 +414,7 @@ def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0
     extent = _arrays.floats(size, "size")
     if extent.shape == (2,):
         extent = np.append(extent, np.inf)
-    bodies = [held(part) for part in parts]
+    bodies = [held(part) for part in _arrays.several(parts, "parts")]
     made = _core.pack(bodies, _arrays.vector(extent, "size"), _arrays.vector(corner, "corner"),
                       spacing, turns, stack, plates, _arrays.vector(plate_step, "plate_step"), seed,
                       tries, seconds, precision, progress=progress)

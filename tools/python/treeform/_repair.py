@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable
+from typing import Any, Iterable, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +12,7 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
-from ._mesh import Mesh, MeshLike, MeshResult, held
+from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of, held
 from ._progress import Progress
 from ._results import Result
 
@@ -124,8 +124,9 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None =
     (True, 40, 2)
     """
     return RepairResult(**_mesh_of(
-        _core.repair(held(mesh), list(steps), gap, largest_hole, strays, inside, max_loss, sheet,
-                     precision, max_displacement, progress=progress), check, "sheet"))
+        _core.repair(held(mesh), _arrays.several(steps, "steps"), gap, largest_hole, strays,
+                     inside, max_loss, sheet, precision, max_displacement,
+                     progress=progress), check, "sheet"))
 
 
 def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
@@ -162,16 +163,18 @@ class ConvexHull(Result):
     normals: Floats
 
 
-def convex_hull(points: ArrayLike, *, progress: Progress = None) -> ConvexHull:
-    """The convex hull of points (n, 3). Exact: no point is outside the plane of a face, and faces
+def convex_hull(points: Union[MeshLike, ArrayLike], *, progress: Progress = None) -> ConvexHull:
+    """The convex hull of points (n, 3), or of those of a mesh. Exact: no point is outside the plane of a face, and faces
     are of one side if and only if they are exactly coplanar.
 
     >>> import treeform
-    >>> hull = treeform.convex_hull(treeform.read("data/cube.stl").vertices)
+    >>> hull = treeform.convex_hull(treeform.read("data/cube.stl"))
     >>> hull.dimension, len(hull.faces), hull.areas.tolist()
     (3, 12, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
     """
-    return ConvexHull(**_core.convex_hull(_arrays.points(points, "points"), progress=progress))
+    cloud = cloud_of(points)
+    return ConvexHull(**_core.convex_hull(
+        as_mesh(points).vertices if cloud is None else cloud, progress=progress))
 
 
 def rounded(points: ArrayLike, precision: str = "float32", *,

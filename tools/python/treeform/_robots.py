@@ -100,7 +100,8 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     >>> treeform.check_poses(robot.parts, robot.poses({"j": [0.5, 2.0]})).in_collision(2).tolist()
     [True, False]
     """
+    folders = _arrays.several(package_folders, "package_folders")
     data, name, links, joints, parts, link_of_part, adjacent, approximated, skipped = _core.read_urdf(
-        path_of(path), [path_of(folder) for folder in package_folders], visual, progress=progress)
+        path_of(path), [path_of(one) for one in folders], visual, progress=progress)
     return Robot(name, links, [Joint(*one) for one in joints], [Mesh._of(*one) for one in parts],
                  np.array(link_of_part, np.uint32), adjacent, approximated, skipped, data)

@@ -51,6 +51,8 @@ def in_team(team: Team | None, work: Callable[[_Members | None], _Made]) -> _Mad
     """`work(members)`: what it returns, once all have come so far; where one fails, all do."""
     if team is None:
         return work(None)
+    if not all(hasattr(team, name) for name in ("rank", "size", "allgather")):
+        raise ValueError(f"team: {team!r} has no rank, size and allgather")
     members = _Members(team)
     try:
         made = work(members)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
+from ._errors import need, settings
 from ._files import Path, path_of
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
@@ -42,6 +43,21 @@ class WeldResult(MeshResult):
 _Same = Mapping[str, float]
 
 
+def _conditions(same: _Same | None) -> list[tuple[str, float]]:
+    if same is None:
+        return []
+    need(same, "same", Mapping)
+    return [(_arrays.word(name, "same"), _arrays.number(within, f"same[{name!r}]"))
+            for name, within in same.items()]
+
+
+def _labels(label: ArrayLike) -> Ids:
+    array = _arrays.ids(label, "label")
+    if array.ndim != 1:
+        raise ValueError(f"label: the shape is {array.shape}, not (n,)")
+    return array
+
+
 def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
          rule: str = "first", keep: str = "first", keep_by: str = "", order: str = "given",
          order_by: str = "", same: _Same | None = None, label: ArrayLike | None = None,
@@ -71,23 +87,23 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
     ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
     """
     none: Ids = np.empty(0, np.uint32)
-    settings = _core.WeldSettings(
-        _arrays.number(tolerance, "tolerance"), _arrays.word(rule, "rule"),
+    how = settings(
+        _core.WeldSettings, _arrays.number(tolerance, "tolerance"), _arrays.word(rule, "rule"),
         _arrays.word(keep, "keep"), keep_by, _arrays.word(order, "order"), order_by,
-        list((same or {}).items()), list(across),
+        _conditions(same), _arrays.several(across, "across"),
         keep_seams, only_borders, keep_manifold, keep_degenerate,
-        none if label is None else _arrays.ids(label, "label"))
+        none if label is None else _labels(label))
     points = cloud_of(mesh_or_points)
     if points is not None:
-        made = _core.weld_cloud(points, None, settings, progress=progress)
+        made = _core.weld_cloud(points, None, how, progress=progress)
         made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     else:
         mesh = as_mesh(mesh_or_points)
         data = None if mesh._attributes is None else mesh._attributes._data
         if len(mesh._faces):
-            made = _core.weld_mesh(mesh._held, data, settings, progress=progress)
+            made = _core.weld_mesh(mesh._held, data, how, progress=progress)
         else:
-            made = _core.weld_cloud(mesh._vertices, data, settings, progress=progress)
+            made = _core.weld_cloud(mesh._vertices, data, how, progress=progress)
             made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
     welded = Mesh._of(made.pop("points"), made.pop("faces"), None, made.pop("data"))
     return WeldResult(mesh=welded, **made)
@@ -131,12 +147,13 @@ class WeldStreamResult(Result):
 def _settings(files: Union[Path, Iterable[Path]], tolerance: float, relative: bool, rule: str,
               keep: str, keep_by: str, order: str, order_by: str, same: _Same | None, memory: int,
               folder: Path, points_per_tile: int) -> _core.StreamSettings:
-    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    paths = [files] if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
     if not paths:
         raise ValueError("files: there are none")
-    return _core.StreamSettings(
-        [path_of(path) for path in paths], _arrays.number(tolerance, "tolerance"), relative,
-        _arrays.word(rule, "rule"), list((same or {}).items()), _arrays.word(keep, "keep"),
+    return settings(
+        _core.StreamSettings, [path_of(path) for path in paths],
+        _arrays.number(tolerance, "tolerance"), relative,
+        _arrays.word(rule, "rule"), _conditions(same), _arrays.word(keep, "keep"),
         _arrays.word(keep_by, "keep_by"), _arrays.word(order, "order"),
         _arrays.word(order_by, "order_by"), _arrays.number(memory, "memory", 0), path_of(folder),
         _arrays.number(points_per_tile, "points_per_tile", 0))
@@ -172,10 +189,10 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     >>> done.points, done.kept
     (3, 2)
     """
-    settings = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
-                         memory, folder, points_per_tile)
+    how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
+                    memory, folder, points_per_tile)
     return in_team(team, lambda all: WeldStreamResult(**_core.weld_stream(
-        settings, path_of(out), path_of(removed), _arrays.word(label, "label"), all,
+        how, path_of(out), path_of(removed), _arrays.word(label, "label"), all,
         progress=progress)))
 
 
@@ -215,11 +232,11 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
                  keep_by: str = "", order: str = "given", order_by: str = "",
                  same: _Same | None = None, memory: int = 0, folder: Path = "",
                  points_per_tile: int = 0, progress: Progress = None) -> None:
-        files = files if isinstance(files, (str, os.PathLike)) else list(files)
-        settings = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
-                             memory, folder, points_per_tile)
+        files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
+        how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
+                        memory, folder, points_per_tile)
         super().__init__(
-            _core.weld_of(settings, progress=progress), files, tolerance, relative=relative,
+            _core.weld_of(how, progress=progress), files, tolerance, relative=relative,
             rule=rule, keep=keep, keep_by=keep_by, order=order, order_by=order_by, same=same,
             memory=memory, folder=folder, points_per_tile=points_per_tile)
 

@@ -29,7 +29,8 @@ struct curve_segment {
 ///
 /// Whether there is a segment is exact. Its ends are rounded, and finite.
 ///
-/// \pre  faces of `pairs` and their corners are in range, every coordinate is finite
+/// \throws std::invalid_argument naming the pair with a face or a corner that is out of range or not
+///         finite
 /// \cost O(pairs)
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API std::vector<curve_segment> intersection_curves(
@@ -71,7 +72,7 @@ struct curve_network {
 /// A segment that several pairs have is listed once. Paths are in the order of the numbers of their
 /// first points, and points in the order of their names.
 ///
-/// \pre  faces of `pairs` and their corners are in range and not degenerate, coordinates finite
+/// \throws std::invalid_argument as `intersection_curves`, and for a face without area
 /// \cost O(P log P) for P pairs
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API curve_network intersection_paths(mesh_view mesh,

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Reads and writes point files a block at a time, for clouds that are larger than memory; and the
-/// faces and other rows that a PLY has behind its points.
+/// faces and other rows that a PLY or STL has behind its points.
 
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
@@ -40,8 +40,10 @@ class TREEFORM_API point_reader {
     /// points of a compressed PCD. The `first` points, no more than there are, are passed over:
     /// unread in binary PLY without lists, binary PCD, LAS, and whole chunks of LAZ.
     ///
-    /// With `with_rows`, a PLY may have faces and other elements behind its points; the header says
-    /// how many rows they have. They can be read next.
+    /// With `with_rows`, a PLY may have faces and other elements behind its points, and a binary STL is
+    /// read as the corners of its facets, with the facets behind them. The header says how many rows
+    /// there are. They can be read next. The facets of an STL have the column "stl_attribute" also
+    /// where all of it is zero.
     ///
     /// \throws io_error for a format without points, for a file with faces or other elements that
     ///         have rows, and as `read`; with `with_rows` for what is ahead of the points, for strips
@@ -85,9 +87,9 @@ class TREEFORM_API point_writer {
     /// float64. Of other elements, the header says how many rows will be written, and `most_corners`
     /// how many a face has at most.
     ///
-    /// \throws io_error as `write`; also for a format other than ply, pcd, las, laz, xyz
+    /// \throws io_error as `write`; also for a format other than ply, obj, pcd, las, laz, xyz
     ///         and csv, for LAS without `mesh_file::las` or to a pipe, and for rows of other elements
-    ///         in a format other than ply
+    ///         in a format other than ply and obj
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,
                  const write_options& options = {}, std::size_t most_corners = 0);
     ~point_writer();
