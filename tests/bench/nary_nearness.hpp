@@ -15,17 +15,6 @@
 
 namespace treeform::bench {
 
-/// Squared distance of a point, anything with [], from a box.
-template <class T, std::size_t D, class Point>
-[[nodiscard]] double squared_distance(const aabb<T, D>& box, const Point& point) {
-    double sum = 0;
-    for (std::size_t k = 0; k < D; ++k) {
-        const double gap = std::max({box.min[k] - point[k], point[k] - box.max[k], 0.0});
-        sum += gap * gap;
-    }
-    return sum;
-}
-
 /// Squared distance of two boxes.
 template <class T, std::size_t D>
 [[nodiscard]] double squared_distance(const aabb<T, D>& a, const aabb<T, D>& b) {
