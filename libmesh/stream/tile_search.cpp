@@ -170,7 +170,7 @@ void tile_search::scatter() {
         all_.meet();
     } catch (...) {  // half of the faces are of no use
         forget_tiles();
-        if (all_.leads()) folder_.clear();
+        if (all_.leads() && !others_read_) folder_.clear();
         throw;
     }
     if (options_.step_done) options_.step_done();
@@ -194,6 +194,7 @@ bool tile_search::give_tiles(bool from_front) {
     io::face_rows rows =
         open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size(), from_front});
     share_head(rows);
+    others_read_ = !all_.is_alone();
     vertices_ = options_.vertices.value_or(rows.head.indexed ? vertex_identity::by_index
                                                              : vertex_identity::by_coordinates);
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
@@ -205,20 +206,22 @@ bool tile_search::give_tiles(bool from_front) {
     bounds_known_ = rows.bounds.has_value();
     survey_.stored_faces = rows.stored_faces;
     cells_.emplace(std::move(rows.sample), tile_count(rows.stored_faces));
-    bool failed = false;
+    std::optional<std::string> failure;
     try {
         if (rows.head.stored_as == precision::float32)
             give_all<float>(rows);
         else
             give_all<double>(rows);
-    } catch (const io_error&) {
-        if (!rows.jumped) throw;
-        failed = true;
+    } catch (const io_error& error) {
+        if (all_.is_alone()) throw;
+        failure = error.what();
     }
     survey_.header = std::move(rows.head);
-    const bool done = share_counts(failed);
+    const auto failed = share_counts(failure);
+    others_read_ = false;
     shared_points::remove(folder_, all_.rank());
-    return done;
+    if (failed && from_front) throw io_error(*failed);
+    return !failed;
 }
 
 /// What all have found ahead of the faces. When all are here, all points are where they are looked
@@ -238,20 +241,24 @@ void tile_search::share_head(io::face_rows& rows) const {
     }
 }
 
-/// Sums up what all have given to the tiles, and what is to be told of all faces. Returns false where
-/// one has failed.
-bool tile_search::share_counts(bool failed) {
+/// Sums up what all have given to the tiles, and what is to be told of all faces. Returns why the
+/// first one that has failed did.
+std::optional<std::string> tile_search::share_counts(const std::optional<std::string>& failure) {
     state_writer mine;
-    mine.number(failed ? 1 : 0);
+    mine.number(failure ? 1 : 0);
+    mine.text(failure.value_or(""));
     store_search(survey_, mine);
     for (std::size_t t = 0; t < cells_->size(); ++t)
-        store_count(failed ? record_count{} : faces_[t].front(), mine);
+        store_count(failure ? record_count{} : faces_[t].front(), mine);
     faces_.assign(cells_->size(), {});
     std::uint64_t triangles = 0;
     std::uint64_t searched = 0;
     usable_mesh part;
+    std::optional<std::string> first;
     for (state_reader& one : all_.exchange(mine)) {
-        failed = one.number() != 0 || failed;
+        const bool failed = one.number() != 0;
+        const std::string why = one.text();
+        if (failed && !first) first = why;
         stream_search_result given = load_search(one);
         firsts_.push_back(triangles);
         triangles += given.triangles;
@@ -269,7 +276,7 @@ bool tile_search::share_counts(bool failed) {
     if (triangles > std::numeric_limits<std::uint32_t>::max())
         throw std::length_error(
             "treeform::self_intersections_of_file: more than 2^32 - 1 triangles");
-    return !failed;
+    return first;
 }
 
 /// Faces that no cut parts, for they are at one place or reach across all, must fit.

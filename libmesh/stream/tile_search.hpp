@@ -89,13 +89,13 @@ class tile_search {
     void store(std::size_t tile, const tile_found& found) const;
 
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
-    /// Returns false where faces are not as was taken for granted, which makes no difference with
-    /// `from_front`.
+    /// Returns false where faces could not be read; with `from_front`, all of a team throw then.
     [[nodiscard]] bool give_tiles(bool from_front);
     template <class Real>
     void give_all(io::face_rows& rows);
     void share_head(io::face_rows& rows) const;
-    [[nodiscard]] bool share_counts(bool failed);
+    [[nodiscard]] std::optional<std::string> share_counts(
+        const std::optional<std::string>& failure);
     void forget_tiles();
     void check_memory() const;
     void look_at(const std::vector<io::placed_triangle>& block,
@@ -113,6 +113,7 @@ class tile_search {
     std::uint64_t memory_;  ///< what is left for faces
     stream_search_result survey_{};
     bool bounds_known_ = false;
+    bool others_read_ = false;  ///< what is in the folder
     vertex_identity vertices_{};
     std::optional<space_cells> cells_{};
     std::vector<std::vector<record_count>> faces_{};  ///< of each tile, that each of a team gave it
