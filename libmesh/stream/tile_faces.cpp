@@ -157,8 +157,9 @@ void tile_faces::look_at_rows(cloud_survey& survey) {
 void tile_faces::share_look(cloud_survey& survey) {
     state_writer mine;
     if (reads_rows()) {
-        for (const std::uint64_t n : {survey.faces, survey.triangles, std::uint64_t{most_corners_},
-                                      std::uint64_t{is_blank_}, survey.warnings.size()})
+        for (const std::uint64_t n :
+             {survey.faces, survey.triangles, std::uint64_t{most_corners_},
+              std::uint64_t{is_blank_}, std::uint64_t{survey.warnings.size()}})
             mine.number(n);
         for (const io_warning& w : survey.warnings) {
             mine.text(w.code);
