@@ -86,7 +86,8 @@ struct point_writer::state {
 
     void check(const point_block& block) const {
         const element& properties = block.properties;
-        if (block.points.size() > count - written) refuse_block("more points than were announced");
+        if (ended || block.points.size() > count - written)
+            refuse_block("more points than were announced");
         if (properties.rows != block.points.size())
             refuse_block("another number of rows than there are points");
         if (!same_columns(properties, find_element(head.attributes, "vertex")))
@@ -100,7 +101,7 @@ struct point_writer::state {
     void check(const row_block& block) {
         while (!behind.empty() && behind.front().rows == 0) behind.erase(behind.begin());
         const element& given = block.rows;
-        if (written != count || behind.empty() || given.name != behind.front().name)
+        if ((written != count && !ended) || behind.empty() || given.name != behind.front().name)
             refuse_block("rows of " + given.name + " are not what comes next");
         if (given.rows > behind.front().rows)
             refuse_block("more rows of " + given.name + " than the header says");
@@ -119,6 +120,7 @@ struct point_writer::state {
 
     std::uint64_t count;
     std::uint64_t written = 0;
+    bool ended = false;             ///< all other points are in other parts
     std::vector<element> behind{};  ///< rows that are to come
     std::uint64_t head_size = 0;
     write_options options;
@@ -170,6 +172,8 @@ write_result point_writer::commit() {
 bool point_writer::has_parts() const { return !state_->rows.finish || state_->rows.finish_part; }
 
 std::uint64_t point_writer::points_together() const { return state_->rows.together; }
+
+void point_writer::end_part() { state_->ended = true; }
 
 std::string point_writer::tell_part() {
     return state_->rows.tell_part ? state_->rows.tell_part() : std::string();

@@ -1,10 +1,13 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
+#include <libmesh/stream/joined_parts.hpp>
+#include <libmesh/stream/new_numbers.hpp>
 #include <libmesh/stream/tile_faces.hpp>
 #include <libmesh/weld/carried_rows.hpp>
 #include <libmesh/weld/moves.hpp>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 #include <system_error>
@@ -44,6 +47,44 @@ class grown_face {
     std::unordered_set<std::uint32_t> many_{};
 };
 
+/// A file of records, of which each of a team has some.
+template <class Record>
+class records_of_all {
+  public:
+    records_of_all(const work_folder& folder, const team& all, const std::string& name)
+        : all_(all),
+          whole_(folder.file(name)),
+          path_(all.leads() ? whole_ : folder.file(name + "." + std::to_string(all.rank()))),
+          writer_(path_, piece) {}
+
+    void put(const Record& record) { writer_.put(record); }
+    /// All come here. Returns how many there are.
+    std::uint64_t finish() {
+        const std::uint64_t mine = writer_.finish_unsynced().records;
+        state_writer told;
+        told.number(mine);
+        std::uint64_t all = 0;
+        std::uint64_t before = 0;
+        std::vector<state_reader> counts = all_.exchange(told);
+        for (std::size_t r = 0; r < counts.size(); ++r) {
+            if (r == all_.rank()) before = all;
+            all += counts[r].number();
+        }
+        if (!all_.leads()) {
+            copy_bytes(path_, 0, whole_, before * sizeof(Record), mine * sizeof(Record));
+            std::filesystem::remove(path_);
+        }
+        all_.meet();
+        return all;
+    }
+
+  private:
+    const team& all_;
+    std::filesystem::path whole_;
+    std::filesystem::path path_;
+    record_writer<Record> writer_;
+};
+
 bool are_zeros(const element& e) {
     return std::ranges::all_of(e.columns, [](const column& c) {
         return std::ranges::all_of(c.values, [](std::byte b) { return b == std::byte{0}; });
@@ -67,6 +108,7 @@ bool has_rows_behind(const mesh_file& header) {
 }
 
 tile_faces::~tile_faces() {
+    if (!steps_.all().leads()) return;
     std::error_code ignored;
     for (const char* name : {renumbering_name, places_before_name, places_after_name})
         std::filesystem::remove(folder_.file(name), ignored);
@@ -86,6 +128,14 @@ std::vector<io_warning> tile_faces::each_block(const Take& take) {
 }
 
 void tile_faces::look(cloud_survey& survey) {
+    if (reads_rows()) look_at_rows(survey);
+    if (!steps_.all().is_alone()) share_look(survey);
+    if (survey.disk_bytes > 0)
+        survey.disk_bytes += 8 * survey.points + 48 * survey.triangles +
+                             (survey.tolerance > 0.0 ? 48 * survey.points : 0);
+}
+
+void tile_faces::look_at_rows(cloud_survey& survey) {
     survey.faces = survey.triangles = 0;
     is_blank_ = is_soup_;
     const std::vector<io_warning> warnings = each_block([&](const row_block& block) {
@@ -98,44 +148,77 @@ void tile_faces::look(cloud_survey& survey) {
     for (const io_warning& w : warnings)
         if (std::ranges::find(survey.warnings, w.text, &io_warning::text) == survey.warnings.end())
             survey.warnings.push_back(w);
-    if (survey.disk_bytes > 0)
-        survey.disk_bytes += 8 * survey.points + 48 * survey.triangles +
-                             (survey.tolerance > 0.0 ? 48 * survey.points : 0);
     if (survey.triangles > std::numeric_limits<std::uint32_t>::max())
         throw io_error(task_.inputs.paths.front().string() +
                        ": more triangles than 32-bit numbers can name");
 }
 
+/// What the last one has seen, for all.
+void tile_faces::share_look(cloud_survey& survey) {
+    state_writer mine;
+    if (reads_rows()) {
+        for (const std::uint64_t n :
+             {survey.faces, survey.triangles, std::uint64_t{most_corners_},
+              std::uint64_t{is_blank_}, std::uint64_t{survey.warnings.size()}})
+            mine.number(n);
+        for (const io_warning& w : survey.warnings) {
+            mine.text(w.code);
+            mine.text(w.text);
+        }
+    }
+    state_reader last = std::move(steps_.all().exchange(mine).back());
+    survey.faces = last.number();
+    survey.triangles = last.number();
+    most_corners_ = static_cast<std::size_t>(last.number());
+    is_blank_ = last.number() != 0;
+    survey.warnings.clear();
+    for (std::uint64_t left = last.number(); left > 0 && last.whole(); --left) {
+        std::string code = last.text();
+        survey.warnings.push_back({std::move(code), last.text()});
+    }
+}
+
+/// Each of a team does it for its points.
 void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_moves) {
-    welded.kept.number();
+    const team& all = steps_.all();
+    const share& mine = welded.points;
+    new_numbers renumbered(pace_, folder_, all, steps_, welded);
     joined_points& source = steps_.source();
-    source.rewind();
+    source.rewind(mine);
     if (rows != nullptr) rows->rewind();
-    tile_steps::leaders leaders(steps_, welded);
-    record_writer<std::uint64_t> renumbering(folder_.file(renumbering_name), piece);
-    std::optional<record_writer<point3>> before;
-    std::optional<record_writer<point3>> after;
-    if (has_moves) before.emplace(folder_.file(places_before_name), piece);
-    if (has_moves) after.emplace(folder_.file(places_after_name), piece);
-    std::uint64_t point = 0;
+    records_of_all<std::uint64_t> renumbering(folder_, all, renumbering_name);
+    std::optional<records_of_all<point3>> before;
+    std::optional<records_of_all<point3>> after;
+    if (has_moves) before.emplace(folder_, all, places_before_name);
+    if (has_moves) after.emplace(folder_, all, places_after_name);
+    std::uint64_t point = mine.first;
     for (point_block block; source.read(block, points_a_block); pace_.check()) {
-        if (before) before->put(block.points);
-        if (is_soup_) look_at_corners(block);
+        if (before)
+            for (const point3& p : block.points) before->put(p);
+        if (is_soup_ && all.is_alone()) look_at_corners(block);
         for (std::size_t i = 0; i < block.points.size(); ++i, ++point) {
-            renumbering.put(welded.kept.number_of(leaders.of(point)));
+            renumbering.put(renumbered.of(point));
             if (!after || !welded.kept.keeps(point)) continue;
             if (rows != nullptr && !welded.followed->keeps(point)) rows->replace(block, i);
             after->put(block.points[i]);
         }
     }
-    const std::uint64_t memory = task_.options.memory / 8;
-    numbers_.emplace(folder_.file(renumbering_name), renumbering.finish_unsynced().records,
-                     2 * memory);
-    if (before)
-        before_.emplace(folder_.file(places_before_name), before->finish_unsynced().records,
-                        memory);
-    if (after)
-        after_.emplace(folder_.file(places_after_name), after->finish_unsynced().records, memory);
+    renumbering.finish();
+    if (before) before->finish();
+    if (after) kept_places_ = after->finish();
+}
+
+void tile_faces::open_numbers() {
+    if (!numbers_)
+        numbers_.emplace(folder_.file(renumbering_name), steps_.survey().points,
+                         task_.options.memory / 4);
+}
+
+void tile_faces::look_at_soup() {
+    joined_points& source = steps_.source();
+    source.rewind();
+    for (point_block block; source.read(block, points_a_block); pace_.check())
+        look_at_corners(block);
 }
 
 /// Of a soup, as of what `weld` looks at: equal corners are one.
@@ -164,13 +247,29 @@ void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts&
     counts_ = counts;
     const std::uint64_t uses = 3 * steps_.survey().triangles;
     const std::uint64_t memory = task_.options.memory / 8;
-    if (is_soup_)
+    if (reads_rows() && is_soup_)
         edges_of_soup_.emplace(folder_, "edges_before", uses, memory);
-    else
+    else if (reads_rows())
         edges_before_.emplace(folder_, "edges_before", uses, memory);
     number_points(welded, rows, counts.max_displacement > 0.0);
     steps_.step_done();
-    edges_after_.emplace(folder_, "edges_after", uses, memory);
+    if (reads_rows()) {
+        if (is_soup_ && !steps_.all().is_alone()) look_at_soup();
+        edges_after_.emplace(folder_, "edges_after", uses, memory);
+        carry_all();
+    }
+    share_counts();
+    counts = counts_;
+    steps_.step_done();
+}
+
+void tile_faces::carry_all() {
+    open_numbers();
+    if (counts_.max_displacement > 0.0) {
+        const std::uint64_t memory = task_.options.memory / 8;
+        before_.emplace(folder_.file(places_before_name), steps_.survey().points, memory);
+        after_.emplace(folder_.file(places_after_name), kept_places_, memory);
+    }
     counts_now_ = true;
     row_block carried;
     each_block([&](const row_block& block) {
@@ -189,8 +288,20 @@ void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts&
     if (is_soup_) counts_.collapsed -= counts_.degenerate;  // those collapse, too
     counts_.nonmanifold_after = edges_after_->count_nonmanifold(pace_);
     edges_after_.reset();
-    counts = counts_;
-    steps_.step_done();
+}
+
+/// What the last one has counted, for all.
+void tile_faces::share_counts() {
+    const std::array counted{
+        &counts_.faces,      &counts_.triangles,          &counts_.collapsed,
+        &counts_.degenerate, &counts_.nonmanifold_before, &counts_.nonmanifold_after,
+        &counts_.flipped};
+    state_writer mine;
+    for (const std::uint64_t* n : counted) mine.number(*n);
+    mine.number(most_kept_corners_);
+    state_reader last = std::move(steps_.all().exchange(mine).back());
+    for (std::uint64_t* n : counted) *n = last.number();
+    most_kept_corners_ = static_cast<std::size_t>(last.number());
 }
 
 /// As `weld` and `rejoin_polygons` do in memory: of the fans of polygons, triangles that collapse are
@@ -283,6 +394,7 @@ void tile_faces::drop_blank(element& faces) const {
 }
 
 void tile_faces::give(point_writer& to, bool all) {
+    open_numbers();
     row_block carried;
     each_block([&](row_block& block) {
         if (block.rows.name == "face") drop_blank(block.rows);

@@ -33,10 +33,12 @@ class tile_faces {
     tile_faces& operator=(const tile_faces&) = delete;
 
     /// Reads all rows once. Counts faces in `survey`, which gets what is to be said of the end of the
-    /// file.
+    /// file. All of a team come here, and to `weld`; the last one, which writes the end of the file,
+    /// reads the rows.
     /// \throws io_error for what is not as it should be; cancelled
     void look(cloud_survey& survey);
-    /// Reads the points and the rows once. `rows` as for `give_back`.
+    /// Reads the points and the rows once; of a soup the last of a team reads all points once more.
+    /// `rows` as for `give_back`.
     /// \throws stream_error, cancelled
     void weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts);
     /// How many rows `give` will write. With `all`, faces stay as they are.
@@ -44,14 +46,21 @@ class tile_faces {
     [[nodiscard]] std::size_t most_corners(bool all) const {
         return all ? most_corners_ : most_kept_corners_;
     }
-    /// Reads the rows once more. \pre `weld` was called
+    /// Reads the rows once more. One of a team comes here. \pre `weld` was called
     void give(point_writer& to, bool all);
 
   private:
     /// Returns what is to be said of the file.
     template <class Take>
     std::vector<io_warning> each_block(const Take& take);
+    [[nodiscard]] bool reads_rows() const { return steps_.all().rank() + 1 == steps_.all().size(); }
+    void look_at_rows(cloud_survey& survey);
+    void share_look(cloud_survey& survey);
     void number_points(tiles_welded& welded, kept_rows* rows, bool has_moves);
+    void open_numbers();
+    void carry_all();
+    void share_counts();
+    void look_at_soup();
     void look_at_corners(const point_block& block);
     void drop_blank(element& faces) const;
     void carry(const row_block& from, row_block& to);
@@ -70,6 +79,7 @@ class tile_faces {
     std::size_t most_corners_ = 0;
     std::size_t most_kept_corners_ = 0;
     weld_stream_counts counts_{};
+    std::uint64_t kept_places_ = 0;                       ///< records of `after_`
     bool counts_now_ = false;                             ///< in the pass that counts
     bool is_blank_ = false;                               ///< a soup that has nothing but corners
     bool is_soup_;                                        ///< faces have corners of their own

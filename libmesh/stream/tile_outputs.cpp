@@ -68,7 +68,10 @@ class points_out {
         if (all_ != nullptr && together > 1)
             leading_.emplace(folder, *all_, "leading." + name, header, mine, together);
     }
-    void write(tile_faces& faces, bool all) { faces.give(writer_, all); }
+    void write(tile_faces& faces, bool all) {
+        if (all_ != nullptr) writer_.end_part();
+        faces.give(writer_, all);
+    }
     write_result commit() {
         if (all_ == nullptr) return writer_.commit();
         if (leading_) leading_->give([&](const point_block& block) { writer_.write(block); });
@@ -200,7 +203,7 @@ class giving_back {
         const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
             if (!to) return true;
             if (to->path == "-" || is_special(to->path)) return false;
-            mesh_file head = head_;
+            mesh_file head = removed_head();  // parts of points, whatever is behind them
             if (!head.las) head.las.emplace();
             const point_writer writer(part("none"), head, 0, points_out::options_of(*to));
             return writer.has_parts() && !(has_lists && writer.points_together() > 1);
@@ -343,7 +346,8 @@ class giving_back {
                                     static_cast<double>(mine.size()));
         });
         steps_.step_done();
-        if (result_ && faces_ != nullptr) result_->write(*faces_, drops_nothing());
+        const bool is_end = !is_divided_ || all_.rank() + 1 == all_.size();
+        if (result_ && faces_ != nullptr && is_end) result_->write(*faces_, drops_nothing());
         if (removed_) written_.removed = removed_->commit();
         if (result_) written_.welded = result_->commit();
         if (map_) map_->commit();

@@ -110,9 +110,6 @@ struct stream_weld::state {
         if (all.leads()) all.meet();
         if (!detail::stream::has_rows_behind(source.header())) return;
         check_soup(source.header(), task.options);
-        if (!all.is_alone())
-            throw std::invalid_argument(
-                "treeform::weld_stream: a mesh is welded by one process, not by a team");
         faces.emplace(pace, folder, task, steps);
     }
 

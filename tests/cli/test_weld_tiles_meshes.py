@@ -277,6 +277,108 @@ class TilesOfMeshes(WeldTest):
             self.assertGreater(step, 7)
             os.remove(self.path("out.ply"))
 
+    def written(self, *names):
+        found = {name: self.read_bytes(name) for name in names}
+        for name in names:
+            os.remove(self.path(name))
+        return found
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_ranks_of_mpi_give_what_one_gives(self):
+        points, faces = soup(*grid(7, self.rng), self.rng, 0.005)
+        for encoding in ORDERS:
+            self.write(encoding + ".ply", mesh(self.rng, encoding, points, faces))
+        small, big, text = (encoding + ".ply" for encoding in
+                            ("binary_little_endian", "binary_big_endian", "ascii"))
+        self.write("few.ply", mesh(self.rng, "ascii", points[:4], [(0, 1, 2), (1, 2, 3)]))
+        self.write("in.stl", stl(*soup(points[:99], [f[:3] for f in faces if max(f) < 99] +
+                                       [(7, 7, 8), (8, 9, 8)], self.rng)))
+        across, gone = ["--across", "normal,color"], ["--removed", "gone.ply", "--map", "map.csv"]
+        inputs = self.listing()
+        for sizes, name, options, out in (
+                ((2, 3, 7), small, ["-t", "0.02", *across, *gone], "out.ply"),
+                ((3,), text, ["-t", "0.15", "--rule", "chain", "--same", "kind", *gone], "out.ply"),
+                ((2,), big, ["-t", "0.02", "--keep", "mean", *across, *gone], "out.ply"),
+                ((3,), small, ["-t", "0.02", "--keep", "max:range", *gone], "out.ply"),
+                ((3,), small, ["-t", "0.02", "--order", "range", "--label", "group", "--map",
+                               "map.csv"], "out.ply"),
+                ((4,), small, ["-t", "0.15", "--order", "x", "--keep-degenerate", *gone], "out.obj"),
+                ((7,), "few.ply", ["-t", "9", *gone], "out.ply"),
+                ((2, 4), "in.stl", ["--removed", "gone.csv"], "out.ply"),
+                ((3,), "in.stl", ["-t", "0.1", "--rule", "chain", *gone], "out.obj")):
+            command = [name, *options, "-o", out, "--tile-points", 30]
+            names = [out, *(o for o in options if o.endswith((".ply", ".csv")))]
+            report = self.entry(*command, status=0)
+            expected = self.written(*names)
+            for size in sizes:
+                with self.subTest(options=options, size=size):
+                    entry = json.loads(self.mpi(size, *command, "-r", "-").text)["files"][0]
+                    self.assertTrue(self.written(*names) == expected)
+                    self.assertGreater(entry["tiles"]["count"], 0)
+                    entry["tiles"] = report["tiles"] = 0
+                    self.assertEqual(str(entry), str(report))  # NaN differs from itself
+                    self.assertEqual(self.listing(), inputs)
+        command = [small, "-t", "0.02", "-o", "-", "--output-format", "ply", "--removed", "gone.ply",
+                   "--tile-points", 60]
+        alone = self.run_tool(*command, status=0).out
+        expected = self.written("gone.ply")
+        self.assertTrue(self.mpi(3, *command).out == alone)
+        self.assertEqual(self.written("gone.ply"), expected)
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_what_ranks_cannot_do_is_said_once_and_nothing_is_written(self):
+        points, faces = grid(5, self.rng)
+        self.write("in.ply", mesh(self.rng, "ascii", points, faces))
+        self.write("in.stl", stl(*soup(points, [f[:3] for f in faces], self.rng)))
+        rows = [(*p, 0.0, 7, 0, 0.0) for p in points]
+        for name, face in (("far.ply", (0, 1, 36)), ("two.ply", (0, 1))):
+            self.write(name, ply_mesh("binary_little_endian", [
+                ("vertex", VERTEX, rows), ("face", FACE[:1], [(f,) for f in faces + [face]])]))
+        self.write("cut.ply", self.read_bytes("far.ply")[:-9])
+        self.write("cube.obj", obj_bytes(cube()))
+        inputs = self.listing()
+        for size, name, options, status, words in (
+                (3, "far.ply", ["-o", "out.ply"], 3, "vertex index 36 is out of range"),
+                (2, "two.ply", ["-o", "out.ply"], 3, "face with 2 corners"),
+                (3, "cut.ply", ["-o", "out.ply", "--removed", "gone.ply"], 3, "cut.ply"),
+                (2, "in.ply", ["-o", "out.off"], 2, "format off of a mesh needs the whole mesh"),
+                (3, "in.ply", ["--keep-manifold", "-o", "out.ply", "--tile-points", 9], 2,
+                 "--keep-manifold needs the whole mesh"),
+                (2, "in.stl", ["-t", "0.1", "-o", "out.ply"], 2, "needs the whole mesh"),
+                (2, "cube.obj", ["-o", "out.ply", "--tile-points", 9], 3, "welded by one, in memory")):
+            run = self.mpi(size, name, *options, status=status)
+            self.assertEqual(run.err.count(words), 1, msg=run.err)
+            self.assertEqual(self.listing(), inputs)
+        for name in ("far.ply", "two.ply", "cut.ply"):
+            said = self.run_tool(name, "-o", "out.ply", "--tile-points", 9, status=3).err
+            last = said.splitlines()[-1]
+            self.assertIn(last, self.mpi(3, name, "-o", "out.ply", status=3).err)
+        self.write("in.ply", self.read_bytes("in.ply") + b"1 2 3\n")
+        said = [w["code"] for w in self.entry("in.ply", "-o", "out.ply", status=0)["warnings"]]
+        run = self.mpi(3, "in.ply", "-o", "out.ply", "-f", "-r", "-")
+        self.assertEqual([w["code"] for w in json.loads(run.text)["files"][0]["warnings"]], said)
+        self.assertIn("trailing-bytes", said)
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
+        points, faces = soup(*grid(9, self.rng), self.rng, 0.002)
+        self.write("in.ply", mesh(self.rng, "binary_little_endian", points, faces))
+        for size, which in ((2, ["--across", "normal,color"]), (3, ["--keep", "mean"])):
+            command = ["in.ply", "-t", "0.02", *which, "--tile-points", 150, "-o", "out.ply",
+                       "--removed", "gone.ply", "--work", "tiles"]
+            self.run_tool(*command, status=0)
+            expected = self.written("out.ply", "gone.ply")
+            for step in range(1, 100):
+                run = self.mpi(size, *command, status=None, last=["--stop-at", step])
+                if run.status == 0:
+                    break
+                self.assertEqual(run.status, 128 + signal.SIGKILL)
+                self.assertEqual(self.listing(), ["in.ply", "tiles"])
+                self.mpi(self.rng.choice((1, 2, 4)), *command)
+                self.assertEqual(self.written("out.ply", "gone.ply"), expected)
+            self.assertGreater(step, 5)
+            self.written("out.ply", "gone.ply")
+
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_meshes_larger_than_the_memory_stay_within_it(self):
         n = 600

@@ -121,7 +121,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         const job::timer timing = work.time("read");
         cloud = cloud_at(inputs);
     }
-    if (!cloud && asked && tiles.per_tile == 0)
+    if (!cloud && tiles.has_others())
         throw failure(
             bad_input, "read",
             work.name +
@@ -131,10 +131,6 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         return weld_mesh(
             work, request, tiles, size,
             "meshes other than plain PLY and binary STL are welded in memory, not in tiles");
-    if (cloud->has_rows && tiles.team.size > 1)
-        throw failure(
-            bad_usage, "usage",
-            work.name + ": a mesh is welded by one process; --plan, --tile and --finish share it");
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +
         tf::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
@@ -143,7 +139,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
     if (only.empty())
         return work_in(work, folder_for(work, request, tiles), tiles,
                        [&] { return weld_in_tiles(work, request, tiles, inputs, cloud->header); });
-    if (cloud->has_rows && !tiles.is_shared())
+    if (cloud->has_rows && !tiles.has_others())
         return weld_mesh(work, request, tiles, size, only + " needs the whole mesh in memory");
     throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
                   work.name + ": " + only + " needs the whole " +
@@ -163,7 +159,7 @@ exit_status weld_somewhere(job& work, const weld_request& request, const tile_op
     inputs.paths.assign(inputs.names.begin(), inputs.names.end());
     const auto piped = std::ranges::find(inputs.paths, fs::path("-"));
     if (piped == inputs.paths.end()) return weld_files(work, request, tiles, inputs);
-    if (tiles.is_asked() && tiles.per_tile == 0)
+    if (tiles.has_others())
         throw failure(bad_usage, "usage", "several processes need a file, not standard input");
     if (o.memory == 0 && tiles.per_tile == 0) return weld_in_memory(work, request);
     std::optional<spooled_input> spooled;

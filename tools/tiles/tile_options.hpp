@@ -30,12 +30,13 @@ struct tile_options {
     std::filesystem::path report{};  ///< as asked for, also where another process writes it
     std::uint64_t stop_at = 0;       ///< for tests: the process kills itself after so many steps
 
-    /// Whether there are other processes.
+    /// Whether other processes share the folder, and do not know of each other.
     [[nodiscard]] bool is_shared() const { return plan || tile || finish; }
+    [[nodiscard]] bool has_others() const { return is_shared() || team.size > 1; }
     /// Whether this one only does a part, and has nothing to give back.
     [[nodiscard]] bool is_part() const { return plan || tile; }
     /// Whether tiles are asked for, whatever the memory.
-    [[nodiscard]] bool is_asked() const { return per_tile > 0 || is_shared() || team.size > 1; }
+    [[nodiscard]] bool is_asked() const { return per_tile > 0 || has_others(); }
     /// Where tiles go: as asked, or beside the first of `outputs` that is a file, or in the folder
     /// for temporary files; then its name ends with that of the tool.
     [[nodiscard]] std::filesystem::path folder_for(

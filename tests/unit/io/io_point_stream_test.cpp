@@ -382,6 +382,35 @@ TEST_CASE("point streams: rows behind the points are those of the file") {
     CHECK(bytes_of(here.folder / "copy.ply") == bytes_of(here.folder / "big.ply"));
 }
 
+TEST_CASE("point streams: of a file in parts, the last part has the rows behind the points") {
+    const scratch here;
+    const fs::path text = here.put("text.ply", mesh_text);
+    tf::write(here.folder / "whole.ply", tf::read(text));
+    const std::string whole = bytes_of(here.folder / "whole.ply");
+    std::string joined;
+    for (const std::uint64_t first : {0U, 3U}) {
+        tf::point_reader reader(text, {}, first, true);
+        const fs::path path = here.folder / "part.ply";
+        tf::point_writer writer(path, reader.header(), 5, {}, 4);
+        tf::point_block points;
+        REQUIRE(reader.read(points, first == 0 ? 3 : 2));
+        writer.write(points);
+        tf::row_block rows;
+        if (first > 0) {
+            REQUIRE(reader.read(rows, 100));
+            CHECK_THROWS_AS(writer.write(rows), std::invalid_argument);  // points are missing
+            writer.end_part();
+            CHECK_THROWS_AS(writer.write(points), std::invalid_argument);
+            do writer.write(rows);
+            while (reader.read(rows, 100));
+        }
+        tf::write_result result;
+        const auto head = static_cast<std::size_t>(writer.commit_part(result).head);
+        joined += bytes_of(path).substr(first == 0 ? 0 : head);
+    }
+    CHECK(joined == whole);
+}
+
 TEST_CASE("point streams: rows behind the points can be read alone, and are checked") {
     const scratch here;
     const fs::path text = here.put("text.ply", mesh_text);

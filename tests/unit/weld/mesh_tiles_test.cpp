@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 #include <support/own_folder.hpp>
 #include <support/random.hpp>
+#include <support/thread_team.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -113,10 +114,50 @@ TEST_CASE("mesh tiles: what is not written in tiles, and who does not") {
     CHECK_THROWS_AS(static_cast<void>(tf::outline({.paths = {in, in}})), tf::io_error);
     CHECK_THROWS_AS(tf::weld_stream(in, here.path / "out.xyz", {}), tf::io_error);
     CHECK_FALSE(fs::exists(here.path / "out.xyz"));
-    tf::weld_stream_options team;
-    team.team.size = 2;
-    team.team.exchange = [](const std::string& mine) { return std::vector{mine, mine}; };
-    CHECK_THROWS_AS(tf::weld_stream(in, here.path / "out.ply", team), std::invalid_argument);
+}
+
+TEST_CASE("mesh tiles: any number of processes write what one writes, and know what it knows") {
+    const test::own_folder here("mesh_tiles_team");
+    const fs::path in = here.path / "in.ply";
+    tf::write(in, soup(20));
+    for (const tf::weld_keep keep : {tf::weld_keep::first, tf::weld_keep::mean})
+        for (const double tolerance : {0.0, 0.05, 1.5}) {
+            tf::weld_stream_options options;
+            options.tolerance = tolerance;
+            options.keep = keep;
+            options.points_per_tile = 200;
+            const tf::weld_stream_result one = tf::weld_stream(in, here.path / "one.ply", options);
+            const std::string expected = bytes_of(here.path / "one.ply");
+            for (const std::size_t size : {2U, 4U, 7U}) {
+                std::vector<tf::weld_stream_result> made(size);
+                CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
+                    tf::weld_stream_options mine = options;
+                    mine.team = team;
+                    made[team.rank] = tf::weld_stream(in, here.path / "team.ply", mine);
+                }));
+                CHECK(bytes_of(here.path / "team.ply") == expected);
+                for (const tf::weld_stream_result& r : made) {
+                    const auto known = [](const tf::weld_stream_result& of) {
+                        const tf::weld_stream_counts& c = of.counts;
+                        return std::vector<std::uint64_t>{of.survey.faces,
+                                                          of.survey.triangles,
+                                                          c.kept,
+                                                          c.groups,
+                                                          c.faces,
+                                                          c.triangles,
+                                                          c.collapsed,
+                                                          c.degenerate,
+                                                          c.flipped,
+                                                          c.nonmanifold_before,
+                                                          c.nonmanifold_after,
+                                                          of.written.still_within.value()};
+                    };
+                    CHECK(known(r) == known(one));
+                    CHECK(r.counts.max_displacement == one.counts.max_displacement);
+                }
+                CHECK_FALSE(fs::exists(here.path / "in.ply.tiles"));
+            }
+        }
 }
 
 TEST_CASE("edge files: edges of more than two faces, with little memory") {

@@ -111,6 +111,8 @@ class TREEFORM_API point_writer {
     [[nodiscard]] bool has_parts() const;
     /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else 1.
     [[nodiscard]] std::uint64_t points_together() const;
+    /// No more points come: the others are in other parts. What is behind the points may follow.
+    void end_part();
     struct part {
         std::uint64_t head = 0;    ///< bytes ahead of its points
         std::uint64_t points = 0;  ///< bytes of its points; what is behind them is that of the file
