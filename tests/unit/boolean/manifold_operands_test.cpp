@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
-#include <support/solid_checks.hpp>
+#include <support/same_boolean.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -23,6 +23,7 @@
 namespace {
 
 using test::ball;
+using test::check_same_boolean;
 using test::inside_out;
 using test::moved;
 using test::together;
@@ -36,18 +37,6 @@ kind kind_of(const tf::mesh& mesh) {
 /// The general way, in which all faces are cut: volumes take it.
 tf::boolean_result evaluate(const operands& pair, const std::string& text, tf::fill_rule rule) {
     return tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule, .volumes = true});
-}
-
-void check_equal(const tf::boolean_result& result, const tf::boolean_result& general) {
-    CHECK(result.certificate);
-    CHECK(result.mesh == general.mesh);
-    CHECK(result.face_source == general.face_source);
-    CHECK(result.vertex_source == general.vertex_source);
-    CHECK(result.certificate.max_displacement == general.certificate.max_displacement);
-    CHECK(result.statistics.pairs == general.statistics.pairs);
-    CHECK(result.statistics.cut_faces == general.statistics.cut_faces);
-    CHECK(result.statistics.exact_faces == general.statistics.exact_faces);
-    CHECK(test::is_clean_solid(result.mesh));
 }
 
 constexpr std::array rules{tf::fill_rule::nonzero, tf::fill_rule::odd, tf::fill_rule::positive};
@@ -67,7 +56,7 @@ void check_both_ways(const operands& pair) {
             if (general.statistics.rounding_steps == 0 && rule != tf::fill_rule::odd &&
                 text != "a^b")
                 CHECK(result.statistics.cells == 0);
-            check_equal(result, general);
+            check_same_boolean(result, general);
         }
 }
 
@@ -79,7 +68,7 @@ void check_alone(const tf::mesh& mesh) {
         const tf::boolean_result result = tf::boolean({mesh}, {"a", 1}, {.inside = rule});
         if (general.statistics.rounding_steps == 0 && rule != tf::fill_rule::odd)
             CHECK(result.statistics.cells == 0);
-        check_equal(result, general);
+        check_same_boolean(result, general);
         CHECK(
             tf::resolve_self_intersections(mesh, tf::resolve_mode::outer, {.inside = rule}).mesh ==
             general.mesh);
@@ -182,7 +171,7 @@ TEST_CASE("manifold operands: heaps of solids that wind as they like give the ge
         }
         if (!made->is_manifold) continue;  // the general result was split
         ++compared;
-        check_equal(made->result, general);
+        check_same_boolean(made->result, general);
     }
     CHECK(compared > 110);
     CHECK(refused < 10);
@@ -198,8 +187,8 @@ TEST_CASE(
         REQUIRE(kind_of(pair[source.below(2)]) != kind::unknown);
         for (const tf::fill_rule rule : rules)
             for (const std::string text : formulas)
-                check_equal(tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule}),
-                            evaluate(pair, text, rule));
+                check_same_boolean(tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule}),
+                                   evaluate(pair, text, rule));
     }
 }
 
