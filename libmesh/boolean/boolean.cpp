@@ -8,6 +8,7 @@
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/require_share.hpp>
 #include <libmesh/boolean/active_boolean.hpp>
 #include <libmesh/boolean/clip_sheet.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
@@ -255,9 +256,7 @@ template <class Run>
 boolean_result with_checks(const char* function, std::span<const mesh_view> operands,
                            const boolean_options& options, const Run& run) {
     detail::boolean::check_operands(function, operands);
-    if (!(options.max_displacement >= 0.0))
-        throw std::invalid_argument("treeform::" + std::string(function) +
-                                    ": the largest displacement is negative or not a number");
+    detail::base::require_limit(function, options.max_displacement, "the largest displacement");
     try {
         return run();
     } catch (const std::invalid_argument&) {  // where an operand is to blame, its face is named

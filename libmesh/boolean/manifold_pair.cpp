@@ -198,22 +198,17 @@ std::optional<pair_result> boolean_of_manifold_pair(const prepared_pair& operand
         !can_be_counted_through(operands))
         return std::nullopt;
     pair_result made;
-    const auto goes_on = [&](double done) {
-        if (!options.progress || options.progress(done)) return true;
-        made.result.certificate.status = status::cancelled;
-        return false;
-    };
-    if (!goes_on(0.1)) return made;
+    if (!made.goes_on(options.progress, 0.1)) return made;
     near_faces near = find_near_faces(operands, own, once);
-    if (!goes_on(0.4)) return made;
+    if (!made.goes_on(options.progress, 0.4)) return made;
     arrange_faces_result arranged = arrange::arrange_pairs(near.local, near.pairs, {}, {});
-    if (!goes_on(0.5)) return made;
+    if (!made.goes_on(options.progress, 0.5)) return made;
     const pair_windings windings(operands);
     const partial_expression at_nowhere(expression, options.inside);
     auto chosen = choose_near(near, arranged.cut, windings, at_nowhere);
     if (!chosen) return std::nullopt;
     near.local = {};
-    if (!goes_on(0.6)) return made;
+    if (!made.goes_on(options.progress, 0.6)) return made;
     buffer<fate> fates(near.place.size());
     std::size_t first = 0;
     for (std::size_t k = 0; k < 2; ++k) {

@@ -17,6 +17,13 @@ namespace treeform::detail::boolean {
 struct pair_result {
     boolean_result result{};
     bool is_manifold = false;  ///< the faces at every vertex are certainly one closed fan
+
+    /// Whether to go on. Where `progress` asks to stop, the result says so.
+    [[nodiscard]] bool goes_on(const progress_callback& progress, double done) {
+        if (!progress || progress(done)) return true;
+        result.certificate.status = status::cancelled;
+        return false;
+    }
 };
 
 /// What becomes of a face of an operand.

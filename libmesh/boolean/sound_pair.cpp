@@ -131,14 +131,9 @@ std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& pair, bool
     if (options.precision == precision::float32 || !can_be_counted_through(pair))
         return std::nullopt;
     pair_result made;
-    const auto goes_on = [&](double done) {
-        if (!options.progress || options.progress(done)) return true;
-        made.result.certificate.status = status::cancelled;
-        return false;
-    };
-    if (!goes_on(0.1)) return made;
+    if (!made.goes_on(options.progress, 0.1)) return made;
     near_faces near = find_near_faces(pair, once);
-    if (!goes_on(0.4)) return made;
+    if (!made.goes_on(options.progress, 0.4)) return made;
     arrange_faces_result arranged = arrange::arrange_pairs(near.local, near.pairs, {}, {});
     mesh_arrangement& cut = arranged.cut;
     auto inside = find_insides(pair, near, cut);
@@ -146,7 +141,7 @@ std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& pair, bool
     std::optional<operand_volumes> volumes;
     if (options.volumes) volumes = find_volumes(pair, near, cut, *inside);
     near.local = {};  // as large as the operands, perhaps
-    if (!goes_on(0.6)) return made;
+    if (!made.goes_on(options.progress, 0.6)) return made;
 
     const choice choice(expression);
     round::solid_faces chosen = choose(near, cut, *inside, choice);

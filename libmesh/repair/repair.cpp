@@ -466,6 +466,7 @@ repair_result repair(mesh_view mesh, const repair_options& options) {
     if (options.gap) require_share("repair", *options.gap, "the gap");
     require_share("repair", options.strays, "the share of strays");
     require_share("repair", options.max_loss, "the largest loss");
+    detail::base::require_limit("repair", options.max_displacement, "the largest displacement");
     detail::base::check_faces("repair", mesh.points.size(), mesh.faces);
     detail::base::check_finite_faces("repair", mesh);
     repairer by_rule(mesh, options, inside_by::rule);
@@ -485,16 +486,6 @@ repair_result repair(mesh_view mesh, const repair_options& options) {
         if (best.certificate && best.statistics.area_lost <= noise_of(best)) break;
     }
     return best;
-}
-
-const mesh& repair_result::value() const& {
-    if (!certificate) throw not_certified_error(certificate);
-    return mesh;
-}
-
-treeform::mesh repair_result::value() && {
-    if (!certificate) throw not_certified_error(std::move(certificate));
-    return std::move(mesh);
 }
 
 }  // namespace treeform

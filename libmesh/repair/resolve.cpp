@@ -1,5 +1,6 @@
 #include <libmesh/base/certify.hpp>
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/require_share.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/repair/loss.hpp>
 #include <libmesh/repair/remove_faces.hpp>
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -93,25 +93,16 @@ resolve_result by_mode(mesh_view mesh, resolve_mode mode, const resolve_options&
 
 resolve_result resolve_self_intersections(mesh_view mesh, resolve_mode mode,
                                           const resolve_options& options) {
-    if (!(options.max_loss >= 0.0))
-        throw std::invalid_argument(
-            "treeform::resolve_self_intersections: the largest loss is negative or not a number");
+    using detail::base::require_limit;
+    require_limit("resolve_self_intersections", options.max_loss, "the largest loss");
+    require_limit("resolve_self_intersections", options.max_displacement,
+                  "the largest displacement");
     resolve_result result = by_mode(mesh, mode, options);
     detail::base::describe(result.certificate, result.mesh, options.precision);
     const bool is_there = result.certificate.status != status::cancelled &&
                           result.certificate.status != status::open_input;
     if (is_there) check_loss(mesh, mode, options, count_losses(mesh, result), result);
     return result;
-}
-
-const mesh& resolve_result::value() const& {
-    if (!certificate) throw not_certified_error(certificate);
-    return mesh;
-}
-
-treeform::mesh resolve_result::value() && {
-    if (!certificate) throw not_certified_error(std::move(certificate));
-    return std::move(mesh);
 }
 
 }  // namespace treeform

@@ -164,6 +164,18 @@ void test_progress(void) {
     calls = 0;
     OK(treeform_locate_in_curves(square, 4, square_edges, 4, queries, 2, where, NULL));
     CHECK(calls == 1);
+    {
+        treeform_features* features = NULL;
+        calls = 0;
+        treeform_set_progress(count, &calls);
+        OK(treeform_find_features(mesh, TREEFORM_PLANE, NULL, &features));
+        CHECK(calls == 1 && features->count == 6);
+        treeform_free(features);
+        treeform_set_progress(stop, &calls);
+        ENDS(TREEFORM_CANCELLED, "",
+             treeform_find_features(mesh, TREEFORM_PLANE, NULL, &features));
+        CHECK(features == NULL);
+    }
     treeform_set_progress(NULL, NULL);
     OK(treeform_locate_in_curves(square, 4, square_edges, 4, queries, 2, where, NULL));
     CHECK(calls == 1);

@@ -55,6 +55,24 @@ static void test_weld_files(void) {
     OK(treeform_memory_to_stream(made, 1000, &bytes));
     CHECK(bytes > 0 && treeform_default_memory() > (uint64_t)1 << 20);
     treeform_free(made);
+    {
+        treeform_mesh* const box = cube(0, 0, 0, 1);
+        const char* const mesh = path_in_work("box.ply");
+        treeform_weld_stream_options plain;
+        treeform_weld_stream_options_init(&plain, sizeof plain);
+        plain.tolerance = 1.0;
+        plain.folder = options.folder;
+        OK(treeform_write_mesh(mesh, box, NULL, NULL));
+        OK(treeform_weld_stream(&mesh, 1, output, &plain, &result));
+        CHECK(result->points == 8 && result->kept == 4 && result->faces == 0 &&
+              result->collapsed == 12 && result->degenerate == 0 && result->flipped == 0);
+        treeform_free(result);
+        plain.keep_degenerate = 1;
+        OK(treeform_weld_stream(&mesh, 1, output, &plain, &result));
+        CHECK(result->faces == 12 && result->triangles == 12);
+        treeform_free(result);
+        treeform_free(box);
+    }
     options.progress = stop;
     options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "", treeform_weld_stream(inputs, 1, output, &options, &result));

@@ -110,3 +110,33 @@ def test_a_file_in_tiles_is_that_of_the_whole(tmp_path):
     assert len(list(tmp_path.iterdir())) == 4
     with pytest.raises(tf.FileError, match="no_such"):
         tf.weld_stream(tmp_path / "no_such.ply", tmp_path / "x.ply", 1.0)
+
+
+def test_a_mesh_in_tiles_is_that_of_the_whole(tmp_path):
+    ball = sphere(4)
+    extra = tf.Attributes()
+    extra.set_vertex("s", np.float32(ball.vertices[:, 0] > 0))
+    extra.set_vertex("t", np.zeros(len(ball.vertices), np.float32))
+    tf.write(tmp_path / "ball.ply", tf.Mesh(ball.vertices, ball.faces, extra))
+    for options in (dict(keep_seams=True), dict(keep_seams=True, across=["s", "t"]),
+                    dict(keep_degenerate=True)):
+        done = tf.weld_stream(tmp_path / "ball.ply", tmp_path / "thin.ply", 0.2,
+                              points_per_tile=500, **options)
+        whole = tf.weld(tf.read(tmp_path / "ball.ply"), 0.2, **options)
+        assert done.tiles > 1 and done.faces == len(whole.faces) > 0
+        made = tf.read(tmp_path / "thin.ply")
+        assert np.array_equal(made.faces, whole.faces)
+        assert np.array_equal(made.vertices, whole.vertices)
+        assert done.statistics["triangles"] == done.faces
+        for what in ("collapsed", "degenerate", "nonmanifold_before", "nonmanifold_after", "flipped"):
+            assert done.statistics[what] == whole.statistics[what], what
+        assert done.statistics["collapsed"] > 0
+
+
+def test_points_are_withheld_in_las(tmp_path):
+    points = np.random.default_rng(5).integers(0, 300, (2000, 3)) * 0.01
+    tf.write(tmp_path / "a.las", (points, []))
+    done = tf.weld_stream(tmp_path / "a.las", tmp_path / "b.las", 0.1, withhold=True, as_las=True)
+    made = tf.read(tmp_path / "b.las")
+    assert len(made.vertices) == 2000 > done.kept
+    assert np.sum(made.attributes.vertex["withheld"] == 0) == done.kept

@@ -218,8 +218,16 @@ treeform_code treeform_find_features(const treeform_mesh* mesh, treeform_feature
                                      treeform_features** features) {
     return glue::guard([&] {
         glue::start(features);
-        give_features(tf::find_features(glue::view(mesh), kind_of(kind), features_of(options)),
-                      features);
+        tf::feature_options o = features_of(options);
+        bool stopped = false;
+        if (glue::thread_progress())
+            o.progress = [&](double done) {
+                stopped = !glue::thread_progress()(done);
+                return !stopped;
+            };
+        auto found = tf::find_features(glue::view(mesh), kind_of(kind), o);
+        if (stopped) throw glue::cancelled{};
+        give_features(std::move(found), features);
     });
 }
 

@@ -59,6 +59,9 @@ tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
     how.keep_by = glue::text(o.keep_by);
     how.order = glue::choice<tf::weld_order>(o.order, 3, "order");
     how.order_by = glue::text(o.order_by);
+    how.keep_seams = o.keep_seams != 0;
+    how.across = glue::texts(o.across, o.across_count, "across");
+    how.keep_degenerate = o.keep_degenerate != 0;
     how.as_las = o.as_las != 0;
     how.memory = o.memory;
     how.folder = glue::text(o.folder);
@@ -95,6 +98,13 @@ void give_streamed(tf::weld_stream_result from, treeform_weld_stream_result** ou
     r.tiles = kept.survey.tiles;
     r.finished_tiles = kept.survey.finished_tiles;
     r.format = kept.written.welded ? kept.written.welded->format.c_str() : "";
+    r.faces = kept.counts.faces;
+    r.triangles = kept.counts.triangles;
+    r.collapsed = kept.counts.collapsed;
+    r.degenerate = kept.counts.degenerate;
+    r.nonmanifold_before = kept.counts.nonmanifold_before;
+    r.nonmanifold_after = kept.counts.nonmanifold_after;
+    r.flipped = kept.counts.flipped;
     r.still_within = kept.written.still_within.value_or(0);
     r.still_within_known = kept.written.still_within.has_value();
     glue::give(std::move(made), out);

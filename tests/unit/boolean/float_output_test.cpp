@@ -6,6 +6,7 @@
 #include <support/float_output.hpp>
 #include <support/machine_parts.hpp>
 #include <support/random.hpp>
+#include <support/solids.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -66,7 +67,13 @@ TEST_CASE("float output: mending goes no further than the largest displacement a
 
 TEST_CASE("float output: a largest displacement that is negative or no number is refused") {
     const tf::mesh gantry = small_gantry(1);
+    const tf::mesh clean = test::box(1, 1, 1);
     for (const double most : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        CHECK_THROWS_AS(static_cast<void>(tf::repair(clean, {.max_displacement = most})),
+                        std::invalid_argument);
+        CHECK_THROWS_AS(static_cast<void>(tf::resolve_self_intersections(
+                            clean, tf::resolve_mode::remove, {.max_displacement = most})),
+                        std::invalid_argument);
         CHECK_THROWS_AS(static_cast<void>(tf::resolve_self_intersections(
                             gantry, tf::resolve_mode::split, {.max_displacement = most})),
                         std::invalid_argument);

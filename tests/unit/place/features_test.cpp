@@ -250,6 +250,12 @@ TEST_CASE("features: what cannot be meant is refused, and nothing is found in no
                     std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(tf::find_features(box, feature_kind::plane, {.arc = -1})),
                     std::invalid_argument);
+    std::vector<double> told;
+    const auto go_on = [&](double done) { return told.push_back(done), true; };
+    CHECK(tf::find_features(box, feature_kind::plane, {.progress = go_on}).size() == 6);
+    CHECK(told == std::vector{0.0});
+    CHECK(tf::find_features(box, feature_kind::plane, {.progress = [](double) { return false; }})
+              .empty());
     tf::mesh broken = box;
     broken.points[2].y = std::numeric_limits<double>::infinity();
     CHECK_THROWS_AS(static_cast<void>(tf::find_features(broken, feature_kind::plane)),

@@ -84,11 +84,13 @@ py::dict as_dict(tf::mesh_feature&& feature) {
 py::list find_features(const held_mesh& mesh, const std::string& kind,
                        std::optional<double> tolerance, double plane_angle, double facet_angle,
                        double arc) {
-    const tf::feature_options options{
+    tf::feature_options options{
         .tolerance = tolerance, .plane_angle = plane_angle, .facet_angle = facet_angle, .arc = arc};
     const auto which = choice<tf::feature_kind>("kind", feature_words, kind);
-    auto found =
-        of_view(mesh, [&](tf::mesh_view m) { return tf::find_features(m, which, options); });
+    std::vector<tf::mesh_feature> found = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::find_features(mesh.view(), which, options);
+    });
     py::list made;
     for (tf::mesh_feature& one : found) made.append(as_dict(std::move(one)));
     return made;

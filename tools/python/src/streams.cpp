@@ -41,6 +41,15 @@ py::dict as_dict(const tf::weld_stream_result& result) {
     made["non_finite"] = result.survey.non_finite;
     made["tiles"] = result.survey.tiles;
     made["continued"] = result.survey.continued;
+    made["faces"] = result.counts.faces;
+    py::dict counted;
+    counted["triangles"] = result.counts.triangles;
+    counted["collapsed"] = result.counts.collapsed;
+    counted["degenerate"] = result.counts.degenerate;
+    counted["nonmanifold_before"] = result.counts.nonmanifold_before;
+    counted["nonmanifold_after"] = result.counts.nonmanifold_after;
+    counted["flipped"] = result.counts.flipped;
+    made["statistics"] = counted;
     py::list warnings;
     for (const tf::io_warning& one : result.survey.warnings) warnings.append(one.text);
     made["warnings"] = warnings;
@@ -56,8 +65,9 @@ struct stream_settings {
 stream_settings settings_of(std::vector<std::filesystem::path> inputs, double tolerance,
                             bool relative, const std::string& rule, const conditions& same,
                             const std::string& keep, const std::string& keep_by,
-                            const std::string& order, const std::string& order_by,
-                            std::uint64_t memory, const std::string& folder,
+                            const std::string& order, const std::string& order_by, bool keep_seams,
+                            const std::vector<std::string>& across, bool keep_degenerate,
+                            bool as_las, std::uint64_t memory, const std::string& folder,
                             std::uint64_t points_per_tile) {
     stream_settings made;
     made.inputs.paths = std::move(inputs);
@@ -68,6 +78,10 @@ stream_settings settings_of(std::vector<std::filesystem::path> inputs, double to
                     .keep_by = keep_by,
                     .order = choice<tf::weld_order>("order", weld_order_words, order),
                     .order_by = order_by,
+                    .keep_seams = keep_seams,
+                    .across = across,
+                    .keep_degenerate = keep_degenerate,
+                    .as_las = as_las,
                     .memory = memory,
                     .folder = folder,
                     .points_per_tile = points_per_tile};
@@ -76,23 +90,25 @@ stream_settings settings_of(std::vector<std::filesystem::path> inputs, double to
 }
 
 tf::weld_stream_outputs outputs_of(const std::filesystem::path& output, const std::string& removed,
-                                   const std::string& label) {
+                                   const std::string& label, bool withhold) {
     tf::weld_stream_outputs outputs;
     outputs.welded = {output, {}};
     if (!removed.empty()) outputs.removed = {removed, {}};
     outputs.label = label;
+    outputs.withhold = withhold;
     return outputs;
 }
 
 py::dict weld_stream(const stream_settings& settings, const std::filesystem::path& output,
-                     const std::string& removed, const std::string& label, const py::object& team) {
+                     const std::string& removed, const std::string& label, bool withhold,
+                     const py::object& team) {
     tf::weld_stream_options options = settings.options;
     options.team = team_of(team);
     return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(whole_share(step, share));
         };
-        return tf::weld_stream(settings.inputs, outputs_of(output, removed, label), options);
+        return tf::weld_stream(settings.inputs, outputs_of(output, removed, label, withhold), options);
     }));
 }
 
@@ -157,9 +173,9 @@ void add_weld_in_steps(py::module_& module) {
              })
         .def("finish",
              [](weld_in_steps& all, const std::filesystem::path& output, const std::string& removed,
-                const std::string& label) {
+                const std::string& label, bool withhold) {
                  return as_dict(all.step([&](shared_weld& one) {
-                     return one.finish(outputs_of(output, removed, label));
+                     return one.finish(outputs_of(output, removed, label, withhold));
                  }));
              })
         .def("remove_folder",

@@ -140,13 +140,18 @@ class WeldStreamResult(Result):
     tiles: int
     #: Whether the run went on from what an earlier one had left.
     continued: bool
+    #: Of a mesh, faces that are left.
+    faces: int
+    #: Of a mesh, what became of its faces, as in `WeldResult.statistics`.
+    statistics: dict[str, int]
     #: What a person should know.
     warnings: list[str]
 
 
 def _settings(files: Union[Path, Iterable[Path]], tolerance: float, relative: bool, rule: str,
-              keep: str, keep_by: str, order: str, order_by: str, same: _Same | None, memory: int,
-              folder: Path, points_per_tile: int) -> _core.StreamSettings:
+              keep: str, keep_by: str, order: str, order_by: str, same: _Same | None,
+              keep_seams: bool, across: Iterable[str], keep_degenerate: bool, as_las: bool,
+              memory: int, folder: Path, points_per_tile: int) -> _core.StreamSettings:
     paths = [files] if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
     if not paths:
         raise ValueError("files: there are none")
@@ -155,29 +160,35 @@ def _settings(files: Union[Path, Iterable[Path]], tolerance: float, relative: bo
         _arrays.number(tolerance, "tolerance"), relative,
         _arrays.word(rule, "rule"), _conditions(same), _arrays.word(keep, "keep"),
         _arrays.word(keep_by, "keep_by"), _arrays.word(order, "order"),
-        _arrays.word(order_by, "order_by"), _arrays.number(memory, "memory", 0), path_of(folder),
+        _arrays.word(order_by, "order_by"), keep_seams, _arrays.several(across, "across"),
+        keep_degenerate, as_las, _arrays.number(memory, "memory", 0), path_of(folder),
         _arrays.number(points_per_tile, "points_per_tile", 0))
 
 
 def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float = 0.0, *,
                 relative: bool = False, rule: str = "first", keep: str = "first",
                 keep_by: str = "", order: str = "given", order_by: str = "",
-                same: _Same | None = None, removed: Path = "", label: str = "", memory: int = 0,
-                folder: Path = "", points_per_tile: int = 0, team: Team | None = None,
+                same: _Same | None = None, keep_seams: bool = False, across: Iterable[str] = (),
+                keep_degenerate: bool = False, as_las: bool = False, removed: Path = "",
+                label: str = "", withhold: bool = False, memory: int = 0, folder: Path = "",
+                points_per_tile: int = 0, team: Team | None = None,
                 progress: Progress = None) -> WeldStreamResult:
-    """Welds clouds that may be larger than memory, from files to a file, with the same bytes as
-    `weld` of the whole.
+    """Welds clouds, or a mesh, that may be larger than memory, from files to a file, with the same
+    bytes as `weld` of the whole.
 
-    files: one or several, as one cloud: PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV.
+    files: one or several, as one cloud: PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV; or one
+    mesh: PLY, binary STL.
     relative: `tolerance` is a share of the diagonal of the cloud's box.
     removed: a file for the dropped points. label: write all points, with the group of each in a
-    property of this name.
+    property of this name. withhold: write all points, with LAS's flag "withheld" of those dropped.
+    as_las: for `out` in LAS: coordinates are rounded to the steps of that file before anything is
+    decided.
     memory: bytes that the process may take; 0: three quarters of the machine's. folder: for tiles;
     empty: beside the first input. Where a run was killed, the same call goes on.
     team: processes that do it together, each its share, in a folder that all see: anything with
     `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where one
     fails, all raise; one that is interrupted leaves the others waiting.
-    rule, keep, keep_by, order, order_by, same: as for `weld`.
+    rule, keep, keep_by, order, order_by, same, keep_seams, across, keep_degenerate: as for `weld`.
 
     Raises FileError, ValueError.
 
@@ -190,9 +201,9 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     (3, 2)
     """
     how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
-                    memory, folder, points_per_tile)
+                    keep_seams, across, keep_degenerate, as_las, memory, folder, points_per_tile)
     return in_team(team, lambda all: WeldStreamResult(**_core.weld_stream(
-        how, path_of(out), path_of(removed), _arrays.word(label, "label"), all,
+        how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
         progress=progress)))
 
 
@@ -230,14 +241,18 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
     def __init__(self, files: Union[Path, Iterable[Path]], tolerance: float = 0.0, *,
                  relative: bool = False, rule: str = "first", keep: str = "first",
                  keep_by: str = "", order: str = "given", order_by: str = "",
-                 same: _Same | None = None, memory: int = 0, folder: Path = "",
-                 points_per_tile: int = 0, progress: Progress = None) -> None:
+                 same: _Same | None = None, keep_seams: bool = False, across: Iterable[str] = (),
+                 keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
+                 folder: Path = "", points_per_tile: int = 0, progress: Progress = None) -> None:
         files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
+        across = _arrays.several(across, "across")
         how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
-                        memory, folder, points_per_tile)
+                        keep_seams, across, keep_degenerate, as_las, memory, folder,
+                        points_per_tile)
         super().__init__(
             _core.weld_of(how, progress=progress), files, tolerance, relative=relative,
             rule=rule, keep=keep, keep_by=keep_by, order=order, order_by=order_by, same=same,
+            keep_seams=keep_seams, across=across, keep_degenerate=keep_degenerate, as_las=as_las,
             memory=memory, folder=folder, points_per_tile=points_per_tile)
 
     def scatter(self, *, progress: Progress = None) -> int:
@@ -253,12 +268,13 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
         """Welds a tile, from 0, unless that is done."""
         self._work.weld_tile(_arrays.number(tile, "tile", 0), progress=progress)
 
-    def finish(self, out: Path, *, removed: Path = "", label: str = "",
+    def finish(self, out: Path, *, removed: Path = "", label: str = "", withhold: bool = False,
                progress: Progress = None) -> WeldStreamResult:
         """Welds what lies along the borders of tiles, when all are welded, and writes the outputs,
         each whole or not at all. Once."""
         return WeldStreamResult(**self._work.finish(
-            path_of(out), path_of(removed), _arrays.word(label, "label"), progress=progress))
+            path_of(out), path_of(removed), _arrays.word(label, "label"), withhold,
+            progress=progress))
 
     def remove_folder(self) -> None:
         """Removes the folder of the tiles."""

@@ -138,6 +138,7 @@ struct feature_options {
     double plane_angle = 1.0;   ///< in degrees: what faces of a plane may lean
     double facet_angle = 46.0;  ///< in degrees: the most between faces of a cylinder side by side
     double arc = 60.0;          ///< in degrees: the least part of a circle that makes an axis
+    progress_callback progress{};  ///< of `find_features`, which finds nothing if asked to stop
 };
 
 /// The flat or cylindrical regions of `mesh`, largest area first. A region grows over edges, from

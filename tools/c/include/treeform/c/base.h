@@ -95,13 +95,14 @@ TREEFORM_C_API void treeform_free(void* what);
 /// `TREEFORM_CANCELLED`. It is called from one thread at a time, not always the caller's.
 typedef int (*treeform_progress)(double done, void* data);
 
-/// From here on, also those calls of this thread report progress that have no options and answer many
-/// questions: of points, rays, boxes, positions, and all pairs of points. Null: none does, as at
-/// first. A call that is cancelled has filled its arrays in part.
+/// From here on, also those calls of this thread report progress that have no progress among their
+/// options and take long: `treeform_find_features`, and those that answer many questions: of points,
+/// rays, boxes, positions, and all pairs of points. Null: none does, as at first. A call that is
+/// cancelled has filled its arrays in part.
 ///
 /// All other calls without progress run to their end: they read or write a file once, take one or two
-/// meshes through once (a million faces or points in less than half a second on two cores), or build a tree (the
-/// same). `treeform_find_features` is the slowest of them, with some seconds for a million faces.
+/// meshes through once (a million faces or points in less than half a second on two cores), or build
+/// a tree (the same).
 TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
 
 /// Takes what one process of a team has told: `bytes` [count].

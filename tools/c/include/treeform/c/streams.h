@@ -36,6 +36,10 @@ typedef struct treeform_weld_stream_options {
     treeform_progress progress;           ///< its share starts anew with each step
     void* progress_data;
     const treeform_team* team;  ///< null: this process alone
+    int32_t keep_seams;         ///< of a mesh, as in `treeform_weld_options`, as are the next three
+    const char* const* across;  ///< [across_count]
+    size_t across_count;
+    int32_t keep_degenerate;
 } treeform_weld_stream_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_options* options,
@@ -55,10 +59,17 @@ typedef struct treeform_weld_stream_result {
     const char* format;       ///< that was written
     uint64_t still_within;    ///< as `treeform_count_still_within`
     int32_t still_within_known;
+    uint64_t faces;  ///< of a mesh, that are left; and cut into triangles
+    uint64_t triangles;
+    uint64_t collapsed;  ///< as in `treeform_weld_counts`, as are the next four
+    uint64_t degenerate;
+    uint64_t nonmanifold_before;
+    uint64_t nonmanifold_after;
+    uint64_t flipped;
 } treeform_weld_stream_result;
 
-/// Welds the cloud in the files `inputs` [count] (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV)
-/// and writes `output`, whole or not at all: the same bytes as `treeform_weld_file` would lead to.
+/// Welds the cloud in the files `inputs` [count] (PLY, PCD, LAS, LAZ, PTS, XYZ, CSV), or the mesh in
+/// one file (PLY, binary STL), and writes `output`, whole or not at all: the same bytes as `treeform_weld_file` would lead to.
 /// The folder stays when the process is killed, and the same call goes on from there.
 TREEFORM_C_API treeform_code treeform_weld_stream(const char* const* inputs, size_t count,
                                                   const char* output,
