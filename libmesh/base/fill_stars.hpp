@@ -27,7 +27,8 @@ struct faces_by_point {
 };
 
 /// Lists every i < `faces` at the points that `for_corners(i, visit)` hands to `visit`. Cut into at
-/// most four slices of faces, since each has a count of its own at every point.
+/// most four slices of faces, since each has a count of its own at every point, and into fewer where
+/// there are few faces for all these counts.
 ///
 /// \pre  `Index` holds the number of entries
 /// \same on any number of threads
@@ -35,7 +36,8 @@ template <class Index, class ForCorners>
 [[nodiscard]] faces_by_point<Index> fill_stars(std::size_t points, std::size_t faces,
                                                const ForCorners& for_corners) {
     constexpr std::size_t least_slice = std::size_t{1} << 14, most_slices = 4;
-    const std::size_t slice = std::max(least_slice, chunk_count(faces, most_slices));
+    const std::size_t slice =
+        std::max({least_slice, chunk_count(faces, most_slices), points / most_slices});
     // Counts of each slice, then where it puts its next face at each point.
     std::vector<buffer<Index>> next(std::max<std::size_t>(chunk_count(faces, slice), 1));
     for_chunks(next.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {

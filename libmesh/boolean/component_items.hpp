@@ -107,10 +107,9 @@ class component_items {
     /// False where a face's corners tell it apart from a box.
     [[nodiscard]] bool does_face_reach(const item& i, const aabb<double, 3>& box) const {
         const mesh_view mesh = components_.mesh();
-        std::array<aabb<double, 3>, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k)
-            corners[k].include(mesh.points[mesh.faces[face_of(i)][k]]);
-        return !rough_corners(corners).is_apart_from(box);
+        const face& f = mesh.faces[face_of(i)];
+        return !rough_corners({mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]})
+                    .is_apart_from(box);
     }
 
   private:

@@ -22,7 +22,7 @@ bool reaches(const std::vector<node>& nodes, std::size_t at, const box3& box) {
 
 /// Whether corners may reach into a settled leaf below node `at`, which is `box`.
 bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
-                       rough_corners& corners) {
+                       const rough_corners& corners) {
     for (;;) {
         const node& n = nodes[at];
         if (n.axis == node::active) return false;
@@ -44,7 +44,7 @@ bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
 bool halved_space::reaches_active(const box3& part) const { return reaches(nodes, 0, part); }
 
 bool halved_space::is_within_active(std::span<const box3> corners) const {
-    rough_corners rough(corners);
+    const rough_corners rough(corners);
     return !may_reach_settled(nodes, 0, box, rough);
 }
 
