@@ -42,7 +42,7 @@ class rough_corners {
     /// differences from the middle are off by 2^-52 M, three roundings of products and of their sum
     /// by 2^-50.4 M, the ends of an edge, which is rounded, by 2^-51 M from each other, and the reach
     /// by 2^-51 M; together less than 2^-48 M. Products that underflow are off by less than 2^-1000,
-    /// and those of numbers below 2^500 do not overflow.
+    /// and those of three numbers below 2^330 do not overflow.
     [[nodiscard]] bool is_apart_from(const aabb<double, 3>& box) const {
         point3 middle, reach;
         double largest = 0.0;
@@ -51,7 +51,7 @@ class rough_corners {
             reach[k] = 0.5 * box.max[k] - 0.5 * box.min[k];
             largest = std::max({largest, std::abs(middle[k]) + reach[k], -all_.min[k], all_.max[k]});
         }
-        if (!(largest < 0x1p500)) return false;
+        if (!(largest < 0x1p330)) return false;
         const double off = off_ + 0x1p-48 * largest;
         for (std::size_t k = 0; k < 3; ++k) reach[k] += off;
         std::array<point3, 3> p;
