@@ -49,7 +49,8 @@ class rough_corners {
         for (std::size_t k = 0; k < 3; ++k) {
             middle[k] = 0.5 * box.min[k] + 0.5 * box.max[k];
             reach[k] = 0.5 * box.max[k] - 0.5 * box.min[k];
-            largest = std::max({largest, std::abs(middle[k]) + reach[k], -all_.min[k], all_.max[k]});
+            largest =
+                std::max({largest, std::abs(middle[k]) + reach[k], -all_.min[k], all_.max[k]});
         }
         if (!(largest < 0x1p330)) return false;
         const double off = off_ + 0x1p-48 * largest;

@@ -93,13 +93,12 @@ class region_finder {
         std::stable_sort(seeds.begin(), seeds.end(),
                          [&](auto i, auto j) { return area_[i] > area_[j]; });
         std::vector<mesh_feature> found;
-        std::size_t tried = 0;
-        for (const std::uint32_t seed : seeds) {
-            if (taken_[seed]) continue;
-            if (options_.progress && tried++ % 1024 == 0 &&
-                !options_.progress(static_cast<double>(&seed - seeds.data()) /
-                                   static_cast<double>(seeds.size())))
+        for (std::size_t i = 0; i < seeds.size(); ++i) {
+            if (i % 1024 == 0 && options_.progress &&
+                !options_.progress(static_cast<double>(i) / static_cast<double>(seeds.size())))
                 return {};
+            const std::uint32_t seed = seeds[i];
+            if (taken_[seed]) continue;
             auto one = around(seed);
             if (!one) continue;
             for (const std::uint32_t f : one->faces) taken_[f] = true;

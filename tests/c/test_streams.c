@@ -60,11 +60,11 @@ static void test_weld_files(void) {
         const char* const mesh = path_in_work("box.ply");
         treeform_weld_stream_options plain;
         treeform_weld_stream_options_init(&plain, sizeof plain);
-        plain.tolerance = 1.0;
+        plain.tolerance = 2.0;
         plain.folder = options.folder;
         OK(treeform_write_mesh(mesh, box, NULL, NULL));
         OK(treeform_weld_stream(&mesh, 1, output, &plain, &result));
-        CHECK(result->points == 8 && result->kept == 4 && result->faces == 0 &&
+        CHECK(result->points == 8 && result->kept == 1 && result->faces == 0 &&
               result->collapsed == 12 && result->degenerate == 0 && result->flipped == 0);
         treeform_free(result);
         plain.keep_degenerate = 1;

@@ -108,7 +108,8 @@ py::dict weld_stream(const stream_settings& settings, const std::filesystem::pat
         options.progress = [&](std::string_view step, double share) {
             return !report || report(whole_share(step, share));
         };
-        return tf::weld_stream(settings.inputs, outputs_of(output, removed, label, withhold), options);
+        return tf::weld_stream(settings.inputs, outputs_of(output, removed, label, withhold),
+                               options);
     }));
 }
 
