@@ -111,6 +111,33 @@ def test_where_one_fails_all_do(tmp_path, cloud):
     assert not (tmp_path / "thin.ply").exists()
 
 
+class Impatient(Weld):
+    """The second is interrupted: as by Ctrl-C, or because its progress has said so."""
+
+    def __call__(self, team):
+        def progress(share):
+            if share > 0.3 and self.error is not None:
+                raise self.error
+            return share < 0.3
+
+        try:
+            return tf.weld_stream(self.path, self.out, 0.1, team=team, points_per_tile=2000,
+                                  progress=progress if team.rank == 1 else None)
+        except KeyboardInterrupt as error:
+            raise RuntimeError("stopped by hand") from error
+
+
+@pytest.mark.parametrize("error", [None, KeyboardInterrupt()])
+def test_where_one_is_interrupted_nobody_waits(tmp_path, cloud, error):
+    work = Impatient(cloud, tmp_path / "thin.ply")
+    work.error = error
+    first, second, third = in_team(3, work)
+    assert first == third == ("Error", "process 1: interrupted")
+    assert second == (("Cancelled", "progress has returned False") if error is None
+                      else ("RuntimeError", "stopped by hand"))
+    assert not (tmp_path / "thin.ply").exists()
+
+
 def test_many_processes_weld_a_cloud(tmp_path, cloud):
     tf.weld_stream(cloud, tmp_path / "whole.ply", 0.1, removed=tmp_path / "removed.ply")
     options = {"folder": tmp_path / "tiles", "points_per_tile": 2000}

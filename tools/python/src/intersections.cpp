@@ -112,6 +112,7 @@ py::dict self_intersections_of_file(const std::filesystem::path& path,
                                     const search_settings& settings, const py::object& team) {
     tf::stream_search_options options = settings.options();
     options.team = team_of(team);
+    const at_work here(team);
     return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(step == "scatter" ? share / 2 : 0.5 + share / 2);

@@ -35,6 +35,27 @@ inline treeform::process_team team_of(const py::object& team) {
     return made;
 }
 
+/// Tells a team that this process is at work, and when no more, however that ends: a call that was
+/// interrupted may have been left by then.
+class at_work {
+  public:
+    explicit at_work(const py::object& team) : team_(team) {
+        if (!team_.is_none()) team_.attr("begin")();
+    }
+    at_work(const at_work&) = delete;
+    at_work& operator=(const at_work&) = delete;
+    ~at_work() {
+        try {
+            if (!team_.is_none()) team_.attr("end")();
+        } catch (py::error_already_set& error) {
+            error.discard_as_unraisable("treeform");
+        }
+    }
+
+  private:
+    const py::object& team_;
+};
+
 /// What reports the progress of the step that is done now.
 class step_progress {
   public:

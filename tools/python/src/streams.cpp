@@ -104,6 +104,7 @@ py::dict weld_stream(const stream_settings& settings, const std::filesystem::pat
                      const py::object& team) {
     tf::weld_stream_options options = settings.options;
     options.team = team_of(team);
+    const at_work here(team);
     return as_dict(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(whole_share(step, share));

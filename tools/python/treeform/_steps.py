@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from functools import partial
 from typing import TYPE_CHECKING, Any, Callable, Generic, Protocol, TypeVar
 
@@ -33,8 +34,12 @@ class _Members:
     def __init__(self, team: Team) -> None:
         self.rank, self.size, self._all = team.rank, team.size, team.allgather
         self._failed = False
+        self._ended = threading.Event()
+        self._ended.set()
 
     def exchange(self, told: bytes) -> list[bytes]:
+        if self._failed:
+            raise Error("interrupted")
         heard = self._all((told, None))
         for rank, (_, fault) in enumerate(heard):
             if fault is not None:
@@ -42,9 +47,18 @@ class _Members:
                 raise Error(f"process {rank}: {fault}")
         return [bytes_of for bytes_of, _ in heard]
 
-    def fail(self, fault: BaseException) -> None:
+    def begin(self) -> None:
+        """This one is at work, and may tell something."""
+        self._ended.clear()
+
+    def end(self) -> None:
+        self._ended.set()
+
+    def fail(self, fault: str) -> None:
+        self._ended.wait()
         if not self._failed:
-            self._all((b"", str(fault) or type(fault).__name__))
+            self._failed = True
+            self._all((b"", fault))
 
 
 def in_team(team: Team | None, work: Callable[[_Members | None], _Made]) -> _Made:
@@ -56,10 +70,11 @@ def in_team(team: Team | None, work: Callable[[_Members | None], _Made]) -> _Mad
     members = _Members(team)
     try:
         made = work(members)
-    except Cancelled:
-        raise  # it may still be at work
+    except (Cancelled, KeyboardInterrupt):
+        members.fail("interrupted")
+        raise
     except Exception as fault:
-        members.fail(fault)
+        members.fail(str(fault) or type(fault).__name__)
         raise
     members.exchange(b"")
     return made

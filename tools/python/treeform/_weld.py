@@ -187,7 +187,7 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     empty: beside the first input. Where a run was killed, the same call goes on.
     team: processes that do it together, each its share, in a folder that all see: anything with
     `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where one
-    fails, all raise; one that is interrupted leaves the others waiting.
+    fails or is interrupted, all raise once each has come to where they tell each other something.
     rule, keep, keep_by, order, order_by, same, keep_seams, across, keep_degenerate: as for `weld`.
 
     Raises FileError, ValueError.
