@@ -3,7 +3,9 @@
 /// The faces of a file from the front to the back, a run at a time, with the places of their
 /// corners; for meshes larger than memory.
 
+#include <libmesh/io/file_part.hpp>
 #include <libmesh/io/source.hpp>
+#include <libmesh/io/text_index.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -22,21 +24,6 @@ struct placed_triangle {
     std::uint32_t stored = 0;  ///< the face in the file
     face corners{};            ///< numbers of its points in the file
     std::array<point3, 3> at{};
-};
-
-/// Which part of a file is read: of `size` parts that have about as many points, and as many faces.
-struct file_part {
-    std::uint64_t rank = 0;
-    std::uint64_t size = 1;
-    bool from_front = false;  ///< whether faces that are ahead must be read, too
-
-    [[nodiscard]] std::uint64_t first(std::uint64_t count) const {
-        return count / size * rank + count % size * rank / size;
-    }
-    [[nodiscard]] std::uint64_t last(std::uint64_t count) const {
-        return file_part{rank + 1, size}.first(count);
-    }
-    [[nodiscard]] bool is_last() const { return rank + 1 == size; }
 };
 
 /// Where the points of a PLY are while its faces are read.
@@ -71,13 +58,14 @@ struct face_rows {
 inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 
 /// What is read by runs. `in` must outlive what comes back. The points of a PLY are put into what
-/// `make_store` gives for so many of them.
+/// `make_store` gives for so many of them. Of what is `known` of text, rows of other parts are passed
+/// over unread; then an error of any part may come from rows of others.
 ///
 /// \throws io_error, also for a PLY that `has_face_runs` is not true of
 [[nodiscard]] face_rows open_stl_faces(const source& in, const file_part& part = {});
 [[nodiscard]] face_rows open_ply_faces(
     const source& in, const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,
-    const file_part& part = {});
+    const file_part& part = {}, const text_index* known = nullptr);
 
 /// Whether vertices come ahead of faces, and these are no triangle strips. \throws io_error
 [[nodiscard]] bool has_face_runs(const source& ply);

@@ -27,8 +27,15 @@ bool have_runs(const source& in, std::vector<element>& elements) {
 template <class Values>
 class ply_faces {
   public:
-    ply_faces(const source& in, Values values, std::vector<element> elements, const file_part& part)
-        : in_(in), values_(std::move(values)), elements_(std::move(elements)), part_(part) {}
+    ply_faces(const source& in, Values values, std::vector<element> elements, const file_part& part,
+              const text_index* known)
+        : in_(in),
+          values_(std::move(values)),
+          elements_(std::move(elements)),
+          part_(part),
+          known_(known) {
+        if (known != nullptr) values_.expect(*known);
+    }
 
     /// Reads up to the first face.
     void read_vertices(face_rows& rows, const store_maker& make_store) {
@@ -37,8 +44,8 @@ class ply_faces {
             const element& e = elements_[next_];
             check_room(values_, e);
             if (&e == faces_) return find_first_face(rows);
-            if (e.name != "vertex") {
-                skip_rows(e, e.rows);
+            if (e.name != "vertex") {  // somebody looks at them
+                part_.rank == 0 ? read_rows(e) : skip_rows(e, e.rows);
                 continue;
             }
             points_ = make_store(e.rows);
@@ -66,7 +73,7 @@ class ply_faces {
         if (triangles.size() > before || !part_.is_last()) return triangles.size() > before;
         while (++next_ < elements_.size()) {
             check_room(values_, elements_[next_]);
-            skip_rows(elements_[next_], elements_[next_].rows);
+            read_rows(elements_[next_]);
         }
         look_behind(values_, warnings);
         return false;
@@ -88,6 +95,7 @@ class ply_faces {
                 }
             }
             values_.end_row();
+            ++row_;
             if (++stored_ % rows_a_run == 0) forget_data();
         }
         forget_data();
@@ -122,8 +130,24 @@ class ply_faces {
                 static_cast<void>(values_.take_bytes(count * size));
                 return values_.end_row();
             }
+        } else if (known_ != nullptr) {
+            return pass_lines(e.columns.empty() ? 0 : count);
         }
         each_run(e, count, [](const auto&) {});
+    }
+    void read_rows(const element& e) {
+        if constexpr (has_bytes) return skip_rows(e, e.rows);
+        each_run(e, e.rows, [](const auto&) {});
+    }
+
+    /// By way of the last mark ahead of where they end.
+    void pass_lines(std::size_t count) {
+        const std::uint64_t next = row_ + count;
+        if (const text_index::mark at = known_->before(next); at.record > row_) {
+            values_.go_to(in_.begin() + std::min<std::uint64_t>(at.byte, in_.size()));
+            row_ = at.record;
+        }
+        for (; row_ < next; ++row_) values_.pass_row();
     }
 
     /// Goes to the first face of the part, if all faces ahead of it may be alike, by the bytes that
@@ -154,6 +178,10 @@ class ply_faces {
             static_cast<void>(values_.take_bytes(first * size));
             values_.end_row();
             stored_ = first;
+        } else if (known_ != nullptr) {
+            rows.jumped = true;
+            stored_ = part_.first(faces_->rows);
+            pass_lines(stored_);
         }
     }
 
@@ -169,6 +197,7 @@ class ply_faces {
             append_vertices(values_, run, points, rows);
             take(points);
             left -= rows;
+            row_ += rows;
         }
     }
 
@@ -206,6 +235,7 @@ class ply_faces {
     Values values_;
     std::vector<element> elements_;
     file_part part_;
+    const text_index* known_;
     element* faces_ = nullptr;
     std::optional<std::size_t> length_{};  ///< of all faces, where they must be alike
     std::unique_ptr<point_store> points_{};
@@ -215,6 +245,7 @@ class ply_faces {
     std::size_t next_of_sample_ = 0;
     std::size_t read_ = 0;    ///< vertices
     std::size_t stored_ = 0;  ///< faces that were read
+    std::uint64_t row_ = 0;   ///< of all elements, the next one; of text
 };
 
 }  // namespace
@@ -224,15 +255,16 @@ bool has_face_runs(const source& ply) {
     return have_runs(ply, header.elements);
 }
 
-face_rows open_ply_faces(const source& in, const store_maker& make_store, const file_part& part) {
+face_rows open_ply_faces(const source& in, const store_maker& make_store, const file_part& part,
+                         const text_index* known) {
     ply_header header = read_ply_header(in);
     face_rows rows;
     rows.head.stored_as = precision::float32;
     with_reader(in, header, [&](const char* format, auto values) {
         rows.head.format = format;
         using reader = ply_faces<decltype(values)>;
-        const auto faces =
-            std::make_shared<reader>(in, std::move(values), std::move(header.elements), part);
+        const auto faces = std::make_shared<reader>(in, std::move(values),
+                                                    std::move(header.elements), part, known);
         faces->read_vertices(rows, make_store);
         rows.append = [faces](auto& triangles, std::size_t most, auto& warnings) {
             return faces->append(triangles, most, warnings);

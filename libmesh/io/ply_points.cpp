@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -114,12 +115,12 @@ std::vector<element> elements_behind(const source& in, const std::vector<element
         if (&e == &vertices || e.rows == 0 || e.columns.empty()) continue;
         const auto same_name = std::ranges::count(elements, e.name, &element::name);
         if (&e < &vertices || e.name == "tristrips" || same_name > 1)
-            in.fail("element '" + e.name + "' is not read in blocks");
+            fail_in_blocks(in, "element '" + e.name + "' is not read in blocks");
         if (e.name == "face") {
             if (with_role(e, column_role::corners) == nullptr)
                 in.fail("element 'face' has no list of vertex_indices");
             if (find_column(e, face_texture_name) != nullptr)
-                in.fail("texture coordinates of corners are not read in blocks");
+                fail_in_blocks(in, "texture coordinates of corners are not read in blocks");
         }
         behind.push_back(e);
     }
@@ -130,13 +131,15 @@ std::vector<element> elements_behind(const source& in, const std::vector<element
 
 }  // namespace
 
-point_rows open_ply_points(const source& in, std::uint64_t first, bool with_rows) {
+point_rows open_ply_points(const source& in, std::uint64_t first, bool with_rows,
+                           const text_index* known) {
     ply_header header = read_ply_header(in);
     point_rows rows;
     element& vertices = vertices_of(in, header.elements);
     for (const element& e : header.elements)
         if (!with_rows && &e != &vertices && e.rows > 0)
-            in.fail("element '" + e.name + "' has rows; only files of points are read in blocks");
+            fail_in_blocks(
+                in, "element '" + e.name + "' has rows; only files of points are read in blocks");
     std::vector<element> behind = elements_behind(in, header.elements, vertices);
     const std::uint64_t count = vertices.rows;
     rows.count = count;
@@ -147,8 +150,16 @@ point_rows open_ply_points(const source& in, std::uint64_t first, bool with_rows
         header.body += first * row;
         vertices.rows -= first;
     }
+    if (!binary && known != nullptr) {
+        const text_index::mark at = known->before(first);
+        rows.left_out = at.record;
+        header.body =
+            std::max(header.body, in.begin() + std::min<std::uint64_t>(at.byte, in.size()));
+        vertices.rows -= at.record;
+    }
     with_reader(in, header, [&](const char* format, auto values) {
         rows.head.format = format;
+        if (known != nullptr) values.expect(*known);
         using reader = ply_points<decltype(values)>;
         const auto body =
             std::make_shared<reader>(in, std::move(values), vertices, std::move(behind));
@@ -165,6 +176,12 @@ point_rows open_ply_points(const source& in, std::uint64_t first, bool with_rows
     take_remarks(header, rows.head);
     rows.head.attributes.elements = std::move(header.elements);
     return rows;
+}
+
+std::optional<text_index> scan_ply(const source& in, const file_part& part, std::size_t most) {
+    const ply_header header = read_ply_header(in);
+    if (header.encoding != ply_encoding::ascii) return std::nullopt;
+    return scan_rows(in, header.body, part, most);
 }
 
 }  // namespace treeform::detail::io

@@ -4,6 +4,7 @@
 /// point files and of streams have in common.
 
 #include <libmesh/io/source.hpp>
+#include <libmesh/io/text_index.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,16 +37,33 @@ struct point_rows {
 };
 
 /// What there is to read by runs. `in` must outlive what comes back. The `first` points, which are
-/// there, are passed over where that takes no reading.
+/// there, are passed over where that takes no reading; of text, those ahead of the last mark of what
+/// is `known` of it. XYZ is read once if nothing is.
 ///
-/// \throws io_error, also for a file with faces or other elements that have rows; `with_rows` as for
-///         `point_reader`
+/// \throws io_error, whole_file_error also for a file with faces or other elements that have rows;
+///         `with_rows` as for `point_reader`
 [[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0,
-                                         bool with_rows = false);
+                                         bool with_rows = false, const text_index* known = nullptr);
 /// The corners of a binary STL, facets behind them.
 [[nodiscard]] point_rows open_stl_points(const source& in, std::uint64_t first = 0);
-[[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0);
+[[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0,
+                                         const text_index* known = nullptr);
 [[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
-[[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format);
+[[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format,
+                                         std::uint64_t first = 0,
+                                         const text_index* known = nullptr);
+
+/// Looks at the lines that begin in a part of a text of points; none where it is no text. Marks are at
+/// most `most`. \throws io_error, of XYZ for any line
+[[nodiscard]] std::optional<text_index> scan_ply(const source& in, const file_part& part,
+                                                 std::size_t most);
+[[nodiscard]] std::optional<text_index> scan_pcd(const source& in, const file_part& part,
+                                                 std::size_t most);
+[[nodiscard]] text_index scan_xyz(const source& in, std::string_view format, const file_part& part,
+                                  std::size_t most);
+
+[[noreturn]] inline void fail_in_blocks(const source& in, std::string_view reason) {
+    throw whole_file_error(std::string(in.name()) + ": " + std::string(reason));
+}
 
 }  // namespace treeform::detail::io

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -34,12 +35,16 @@ void look_behind(bool more, warnings& said) {
 }
 
 /// A row a line.
-[[nodiscard]] auto text_runs(const source& in, const pcd_header& header) {
-    text_values values(in, header.body);
-    if (!text_values::can_hold(values.bytes_left(), header.vertices.rows, header.vertices))
+[[nodiscard]] auto text_runs(const source& in, const pcd_header& header, const text_index::mark& at,
+                             const text_index* known) {
+    if (!text_values::can_hold(bytes_of_body(in, header), header.vertices.rows, header.vertices))
         fail_short(in, header);
-    return [values, left = header.vertices.rows](std::vector<point3>& points, element& vertices,
-                                                 std::size_t most, warnings& said) mutable {
+    const std::uint64_t byte = std::min<std::uint64_t>(at.byte, in.size());
+    text_values values(in, std::max(header.body, in.begin() + byte));
+    if (known != nullptr) values.expect(*known);
+    return [values, left = header.vertices.rows - at.record](std::vector<point3>& points,
+                                                             element& vertices, std::size_t most,
+                                                             warnings& said) mutable {
         const std::size_t rows = std::min(most, left);
         append_vertices(values, vertices, points, rows);
         left -= rows;
@@ -125,14 +130,18 @@ void look_behind(bool more, warnings& said) {
     };
 }
 
-[[nodiscard]] point_rows open(const source& in, scratch_place place, std::uint64_t first = 0) {
+[[nodiscard]] point_rows open(const source& in, scratch_place place, std::uint64_t first = 0,
+                              const text_index* known = nullptr) {
     pcd_header header = read_pcd_header(in);
     point_rows rows;
     rows.count = header.vertices.rows;
     switch (header.encoding) {
-        case pcd_encoding::ascii:
-            rows.append = text_runs(in, header);
+        case pcd_encoding::ascii: {
+            const auto at = known == nullptr ? text_index::mark{} : known->before(first);
+            rows.append = text_runs(in, header, at, known);
+            rows.left_out = at.record;
             break;
+        }
         case pcd_encoding::binary:
             rows.append = row_runs(in, header, first);
             rows.left_out = first;
@@ -168,8 +177,14 @@ mesh_file read_pcd(const source& in) {
     return file;
 }
 
-point_rows open_pcd_points(const source& in, std::uint64_t first) {
-    return open(in, scratch_place::file, first);
+point_rows open_pcd_points(const source& in, std::uint64_t first, const text_index* known) {
+    return open(in, scratch_place::file, first, known);
+}
+
+std::optional<text_index> scan_pcd(const source& in, const file_part& part, std::size_t most) {
+    const pcd_header header = read_pcd_header(in);
+    if (header.encoding != pcd_encoding::ascii) return std::nullopt;
+    return scan_rows(in, header.body, part, most);
 }
 
 }  // namespace treeform::detail::io

@@ -2,6 +2,7 @@
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/text.hpp>
+#include <libmesh/io/text_index.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
@@ -42,20 +43,29 @@ class xyz_reader {
     /// False when the further columns differ between the lines read so far.
     [[nodiscard]] bool even() const { return keep_more_; }
 
-    /// Goes through all lines for their number and for whether they are even, and back.
-    [[nodiscard]] std::uint64_t survey() {
-        const char* const start = text_.at;
-        std::uint64_t count = 0;
-        for (point3 p; !done(); ++count) {
+    /// Goes through the lines that begin in a part.
+    [[nodiscard]] text_index scan(const file_part& part, std::size_t most_marks) {
+        text_scan lines(text_, part, most_marks);
+        for (point3 p; !done() && lines.is_in_part();) {
+            lines.add();
             line(p);
             more_.clear();
             text_.file.release_before(text_.at);
         }
-        check_count(count);
+        text_index found = std::move(lines).found();
+        found.even = keep_more_;
+        found.hexadecimal = text_.hexadecimal;
+        return found;
+    }
+
+    /// What was found in all lines. The next one is that of the mark.
+    void start(const text_index& all, const text_index::mark& at) {
+        text_.at = text_.end;
+        check_count(all.records);
+        text_.hexadecimal = all.hexadecimal;
+        if (!all.even) drop_columns();
         text_.file.rewind();
-        text_.at = start;
-        if (!keep_more_) drop_columns();
-        return count;
+        text_.at = text_.file.begin() + std::min<std::uint64_t>(at.byte, text_.file.size());
     }
 
     /// \pre all lines were read, `count` of them
@@ -191,6 +201,7 @@ class xyz_reader {
     }
 
     void drop_columns() {
+        keep_more_ = false;
         warnings_.push_back({"columns", uneven});
         declared_.columns.clear();
     }
@@ -287,10 +298,21 @@ mesh_file read_xyz(const source& in, std::string_view format) {
     return file;
 }
 
-point_rows open_xyz_points(const source& in, std::string_view format) {
+text_index scan_xyz(const source& in, std::string_view format, const file_part& part,
+                    std::size_t most) {
+    return xyz_reader(in, format).scan(part, most);
+}
+
+point_rows open_xyz_points(const source& in, std::string_view format, std::uint64_t first,
+                           const text_index* known) {
     auto reader = std::make_shared<xyz_reader>(in, format);
+    const text_index found = known == nullptr ? reader->scan({}, most_marks) : text_index();
+    const text_index& all = known == nullptr ? found : *known;
     point_rows rows;
-    rows.count = reader->survey();
+    const text_index::mark at = all.before(first);
+    reader->start(all, at);
+    rows.count = all.records;
+    rows.left_out = at.record;
     rows.head.format = format == "pts" ? "xyz" : format;
     rows.head.warnings = reader->warnings();
     rows.head.attributes.elements = reader->elements();

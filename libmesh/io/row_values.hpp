@@ -6,6 +6,7 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/is_value_of.hpp>
 #include <libmesh/io/text.hpp>
+#include <libmesh/io/text_index.hpp>
 #include <treeform/mesh/attributes.hpp>
 
 #include <cmath>
@@ -33,6 +34,17 @@ class text_values {
     /// one of the file needs no separator.
     [[nodiscard]] static bool can_hold(std::size_t bytes, std::size_t rows, const element& e) {
         return e.columns.empty() || rows <= (bytes + 1) / (2 * e.columns.size());
+    }
+
+    /// What is known of all of the text: of rows that others read, it counts as read here.
+    void expect(const text_index& all) { text_.hexadecimal = all.hexadecimal; }
+    /// Goes on from a row that begins there.
+    void go_to(const char* row) { text_.at = row; }
+    /// Passes over a row without a look at its values.
+    void pass_row() {
+        text_.skip_spaces();
+        text_.skip_line();
+        text_.file.release_before(text_.at);
     }
 
     void begin_row() { text_.skip_spaces(); }
@@ -121,6 +133,7 @@ class byte_values {
         return row == 0 || rows <= bytes / row;
     }
 
+    void expect(const text_index&) {}
     void begin_row() {}
 
     [[nodiscard]] std::size_t length(const column& c) {

@@ -1,5 +1,6 @@
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/stream/joined_points.hpp>
+#include <libmesh/stream/shared_text.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/write.hpp>
 
@@ -42,8 +43,8 @@ void clear_rows(mesh_file& file) {
 
 }  // namespace
 
-joined_points::joined_points(const cloud_inputs& inputs, bool as_las)
-    : inputs_(inputs), as_las_(as_las) {
+joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team& all)
+    : inputs_(inputs), as_las_(as_las), texts_(look_at_texts(inputs.paths, inputs.format, all)) {
     std::vector<mesh_file> firsts;
     for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
         open(i);
@@ -70,7 +71,8 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las)
 void joined_points::open(std::size_t file, std::uint64_t first) {
     reader_.reset();
     const bool is_alone = inputs_.paths.size() == 1;
-    reader_.emplace(inputs_.paths[file], inputs_.format, first, is_alone);
+    const auto& text = texts_[file];
+    reader_.emplace(inputs_.paths[file], inputs_.format, first, is_alone, text ? &*text : nullptr);
     file_ = file;
     if (inputs_.paths.size() > 1) fits_ = same_columns(head_, reader_->header());
 }

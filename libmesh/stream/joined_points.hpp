@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Clouds in any number of files, read as one from the first point to the last.
+/// Clouds in any number of files, read as one from the first point to the last, or from any on.
 
+#include <libmesh/io/point_blocks.hpp>
 #include <libmesh/stream/team.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
@@ -18,11 +19,12 @@ namespace treeform::detail::stream {
 /// All blocks together are what `join` makes of the files. One file is open at a time.
 class joined_points {
   public:
-    /// Reads what precedes the points of each file. With `as_las`, coordinates become those that a
-    /// LAS file with the first one's scale and offset holds, or with those that are set.
+    /// Reads what precedes the points of each file, and text once, of which each of `all` reads its
+    /// share of the bytes; all come here. With `as_las`, coordinates become those that a LAS file with
+    /// the first one's scale and offset holds, or with those that are set.
     ///
     /// \throws io_error, std::invalid_argument as `join`
-    joined_points(const cloud_inputs& inputs, bool as_las);
+    joined_points(const cloud_inputs& inputs, bool as_las, const team& all);
 
     /// Of all files together, without points.
     [[nodiscard]] const mesh_file& header() const { return head_; }
@@ -65,9 +67,11 @@ class joined_points {
     std::optional<std::uint64_t> count_{0};
     std::vector<std::string> formats_{};
     std::vector<std::uint64_t> counts_{};  ///< of files, where they are known
+    std::vector<std::optional<io::text_index>>
+        texts_{};  ///< of files that are text, if it is known
     std::vector<io_warning> of_join_{};
     std::vector<io_warning> warnings_{};
-    std::optional<point_reader> reader_{};
+    std::optional<io::point_blocks> reader_{};
     std::size_t file_ = 0;
     std::uint64_t left_ = 0;  ///< of the share
     bool ended_ = false;

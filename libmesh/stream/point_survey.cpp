@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -106,10 +107,12 @@ void add_survey(cloud_survey& sum, const cloud_survey& one) {
     sum.warnings.insert(sum.warnings.end(), one.warnings.begin(), one.warnings.end());
 }
 
-/// What all have seen, in the place of what one has.
-void unite(const team& all, point_survey& survey, sampler& chosen, sampler& places,
-           std::size_t most) {
+/// What all have seen, in the place of what one has. Where some could not read, all throw what is wrong
+/// first in the cloud.
+void unite(const team& all, const std::string& failure, point_survey& survey, sampler& chosen,
+           sampler& places, std::size_t most) {
     state_writer mine;
+    mine.text(failure);
     store(survey, mine);
     chosen.store(mine);
     places.store(mine);
@@ -117,6 +120,7 @@ void unite(const team& all, point_survey& survey, sampler& chosen, sampler& plac
     chosen = sampler(most + 1);
     places = sampler(most + 1);
     for (state_reader& one : all.exchange(mine)) {
+        if (const std::string first = one.text(); !first.empty()) throw io_error(first);
         add_survey(survey.cloud, load_survey(one).cloud);
         chosen.take(one);
         places.take(one);
@@ -147,8 +151,18 @@ point_survey survey(joined_points& points, const team& all, const share& mine,
     point_block block;
     for (std::size_t i = 0; i < points.files(); ++i)
         s.sources.push_back({.format = points.format(i)});
+    std::string failure;
+    const auto read = [&] {
+        try {
+            return points.read(block, points_a_block);
+        } catch (const io_error& error) {
+            if (all.is_alone()) throw;
+            failure = error.what();
+            return false;
+        }
+    };
     points.rewind(mine);
-    while (points.read(block, points_a_block)) {
+    while (read()) {
         base::add_to_box(s.box, bounding_box(block.points));
         cloud_survey::source& from = s.sources[points.file()];
         from.points += block.points.size();
@@ -167,7 +181,7 @@ point_survey survey(joined_points& points, const team& all, const share& mine,
     }
     s.warnings = points.warnings();
     s.las_moved = points.moved();
-    if (!all.is_alone()) unite(all, result, chosen, places, most);
+    if (!all.is_alone()) unite(all, failure, result, chosen, places, most);
     for (const cloud_survey::source& one : s.sources) s.single = s.single && one.single;
     result.sample = chosen.part();
     if (tolerance) result.places = places.part();

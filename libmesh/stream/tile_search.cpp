@@ -2,6 +2,7 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
 #include <libmesh/stream/point_places.hpp>
+#include <libmesh/stream/shared_text.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -26,10 +27,10 @@ constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 io::face_rows open_faces(
     const io::source& in, const std::filesystem::path& path, const std::string& format,
     const std::function<std::unique_ptr<io::point_store>(std::size_t)>& make_store,
-    const io::file_part& part) {
+    const io::file_part& part, const io::text_index* known) {
     const auto found = io::detect(in, io::plain_extension(format), io::extension_of(path));
     if (found.kind == io::file_kind::stl_binary) return io::open_stl_faces(in, part);
-    if (found.kind == io::file_kind::ply) return io::open_ply_faces(in, make_store, part);
+    if (found.kind == io::file_kind::ply) return io::open_ply_faces(in, make_store, part, known);
     in.fail("only binary STL and PLY are searched in tiles");
 }
 
@@ -191,8 +192,12 @@ bool tile_search::give_tiles(bool from_front) {
         if (all_.is_alone()) return place_for(points, in, folder_, memory_ / 4);
         return std::make_unique<shared_points>(folder_, all_, points, memory_ / 4);
     };
+    std::optional<io::text_index> text;
+    if (!all_.is_alone() && !from_front)
+        text = look_at_texts({input_}, options_.format, all_).front();
     io::face_rows rows =
-        open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size(), from_front});
+        open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size(), from_front},
+                   text ? &*text : nullptr);
     share_head(rows);
     others_read_ = !all_.is_alone();
     vertices_ = options_.vertices.value_or(rows.head.indexed ? vertex_identity::by_index

@@ -92,9 +92,9 @@ work_folder::use use_of(const weld_stream_options& o, const detail::stream::team
 stream_error::stream_error(reason why, fs::path path, const std::string& text, std::uint64_t needed)
     : std::runtime_error(text), why_(why), path_(std::move(path)), needed_(needed) {}
 
-cloud_outline outline(const cloud_inputs& inputs) {
+cloud_outline outline(const cloud_inputs& inputs, const process_team& team) {
     const cloud_inputs all = named(inputs);
-    const detail::stream::joined_points points(all, false);
+    const detail::stream::joined_points points(all, false, detail::stream::team(team));
     return {points.header(), points.count(), detail::stream::has_rows_behind(points.header())};
 }
 
@@ -102,7 +102,7 @@ struct stream_weld::state {
     state(cloud_inputs inputs, weld_stream_options options)
         : task(task_of(std::move(inputs), std::move(options))),
           all(task.options.team),
-          source(task.inputs, task.options.as_las),
+          source(task.inputs, task.options.as_las, all),
           keys(source.header(), task.options),
           pace(task.options.progress),
           folder(task.options.folder, "weld", use_of(task.options, all)),

@@ -30,6 +30,22 @@ class Run:
         self.text = done.stdout.decode(errors="replace")
 
 
+def for_rank(rank, size, head, *parts):
+    """Bytes of a file as one of some ranks has to know them: the head, the first of each part's rows,
+    and of each part, and of all bytes, its share with a quarter of that on either side. All others are
+    other bytes; lines stay lines."""
+    rows = [row for part in parts for row in part]
+    whole = sum(map(len, rows))
+    near = lambda at, count: (rank - 0.25) * count <= size * at <= (rank + 1.25) * count
+    copy, at = [head], 0
+    for part in parts:
+        for i, row in enumerate(part):
+            known = i == 0 or near(i, len(part)) or near(at, whole) or near(at + len(row), whole)
+            copy.append(row if known else b"?" * (len(row) - 1) + row[-1:])
+            at += len(row)
+    return b"".join(copy)
+
+
 class ToolTest(unittest.TestCase):
     tool = TOOL
 
@@ -49,13 +65,15 @@ class ToolTest(unittest.TestCase):
 
     def mpi(self, size, *arguments, status=0, last=()):
         """As so many ranks, the last of which has further options."""
-        run = lambda count, *more: ["-n", str(count), self.tool, *map(str, arguments),
-                                    *map(str, more)]
-        command = run(size) if not last else run(size - 1) + [":"] + run(1, *last)
-        done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command],
+        return self.mpi_each([arguments] * (size - 1) + [(*arguments, *last)], status)
+
+    def mpi_each(self, commands, status=0):
+        """As ranks that have options of their own."""
+        command = sum(([":", "-n", "1", self.tool, *map(str, one)] for one in commands), [])
+        done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command[1:]],
                               cwd=self.folder, capture_output=True, timeout=300)
         if status is not None:
-            self.assertEqual(done.returncode, status, msg=f"{arguments}\n{done.stderr.decode()}")
+            self.assertEqual(done.returncode, status, msg=f"{commands[0]}\n{done.stderr.decode()}")
         return Run(done)
 
     def run_tool(self, *arguments, status=None, stdin=b"", timeout=120):

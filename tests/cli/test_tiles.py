@@ -2,6 +2,7 @@
 
 from support import *
 
+import hashlib
 import random
 import signal
 
@@ -29,6 +30,21 @@ def ply_bytes(mesh, number="float"):
     return ((head % (len(points), number, number, number, len(faces))).encode() +
             b"".join(struct.pack(code, *p) for p in points) +
             b"".join(struct.pack("<B3i", 3, *f) for f in faces))
+
+
+def ply_lines(mesh):
+    """As text, with rows ahead of the points, between, and behind; and a polygon here and there."""
+    points, faces = mesh
+    rows = [" ".join(map(repr, p)) for p in points]
+    polygons = ["%d %s" % (3 + i % 2, " ".join(map(str, (*f, f[0])[:3 + i % 2])))
+                for i, f in enumerate(faces)]
+    edges = [f"{i} {i + 1}" for i in range(9)]
+    head = ["ply", "format ascii 1.0", "element camera 2", "property float view",
+            f"element vertex {len(rows)}", *(f"property double {axis}" for axis in "xyz"),
+            f"element edge {len(edges)}", "property int vertex1", "property int vertex2",
+            f"element face {len(polygons)}", "property list uchar int vertex_indices",
+            "element note 2", "property list uchar int text", "end_header"]
+    return head + ["1", "", "0.5", *rows, *edges, *polygons[:9], " \t ", *polygons[9:], "0", "2 1 1"]
 
 
 def answers(report):
@@ -72,6 +88,11 @@ class Tiles(ToolTest):
             with open(self.path(number + ".ply"), "wb") as file:
                 file.write(ply_bytes(mesh, number))
         return ("in.stl", "float.ply", "double.ply")
+
+    def put_lines(self, lines):
+        with open(self.path("text.ply"), "w") as file:
+            file.write("\n".join(lines) + "\n")
+        return "text.ply"
 
     def test_tiles_of_any_size_tell_what_memory_tells(self):
         for name in self.put_all(heap(60)):
@@ -176,7 +197,7 @@ class Tiles(ToolTest):
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_ranks_of_mpi_tell_what_one_tells(self):
         names = ("report.json", "pairs.csv", "curves.obj")
-        for name in self.put_all(heap(40)):
+        for name in (*self.put_all(heap(40)), self.put_lines(ply_lines(heap(40)))):
             for more in ([], ["--touching", "--box", "1,1,1,4,5,6.5"]):
                 expected = self.look(name, "--tile-faces", 100, *more)
                 for size in (2, 4):
@@ -189,7 +210,51 @@ class Tiles(ToolTest):
                         if name.endswith(".ply"):
                             self.assertEqual(found[2], expected[2])
         self.mpi(3, "in.stl", "-r", "report.json", "-f", status=1)  # some tiles for each
-        self.assertEqual(self.listing(), sorted({"in.stl", "float.ply", "double.ply", *names}))
+        self.assertEqual(self.listing(),
+                         sorted({"in.stl", "float.ply", "double.ply", "text.ply", *names}))
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_of_text_that_is_shared_out_the_first_fault_is_said(self):
+        whole = ply_lines(heap(40))
+        first = whole.index("end_header") + 4
+        joined = whole[:]
+        joined[first + 40:first + 42] = [" ".join(joined[first + 40:first + 42])]
+        for faults in ([first + 7], [first - 1], [len(whole) - 300, first + 30], [len(whole) - 200],
+                       [len(whole) - 90, len(whole) - 60], [len(whole) - 1], []):
+            lines = [line + "x" if n in faults else line for n, line in enumerate(whole)]
+            name = self.put_lines(lines if faults else joined)
+            said = self.run_tool(name, "--tile-faces", 50, status=3).err.splitlines()[-1]
+            self.assertIn(f"text.ply:{min(faults, default=first + 40) + 1}: ", said)
+            run = self.mpi(4, name, "--tile-faces", 50, status=3)
+            self.assertEqual((run.err.count(said), run.err.count("error:")), (1, 1), run.err)
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_no_rank_knows_much_more_of_a_file_than_its_share(self):
+        points, faces = together(grid(40, 10.0), *[cube((3 * i + 0.3, 2 * i + 0.3, 9.6)) for i in range(9)])
+        elements = (f"element vertex {len(points)}\nproperty float x\nproperty float y\n"
+                    f"property float z\nelement face {len(faces)}\n"
+                    "property list uchar int vertex_indices\nend_header\n")
+        text = [["%8.4f %8.4f %8.4f\n" % p for p in points], ["3 %4d %4d %4d\n" % f for f in faces]]
+        soup = stl_bytes((points, faces))
+        for name, head, parts in (
+                ("text.ply", f"ply\nformat ascii 1.0\n{elements}".encode(),
+                 [[line.encode() for line in part] for part in text]),
+                ("in.ply", f"ply\nformat binary_little_endian 1.0\n{elements}".encode(),
+                 [[struct.pack("<3f", *p) for p in points], [struct.pack("<B3i", 3, *f) for f in faces]]),
+                ("in.stl", soup[:84], [[soup[i:i + 50] for i in range(84, len(soup), 50)]])):
+            whole = head + b"".join(row for part in parts for row in part)
+            for copy, data in [(name, whole)] + [(f"{rank}.{name}", for_rank(rank, 4, head, *parts))
+                                                 for rank in range(4)]:
+                with open(self.path(copy), "wb") as file:
+                    file.write(data)
+            expected = self.look(name)
+            with self.subTest(name=name):
+                run = self.mpi_each([[f"{rank}.{name}", "-r", "-", "--tile-faces", 300, "--pairs",
+                                      "pairs.csv", "-f", "--work", "tiles"] for rank in range(4)],
+                                    status=1)
+                self.assertEqual(self.read_bytes("pairs.csv"), expected[1])
+                self.assertEqual(json.loads(run.text)["files"][0]["sha256"],
+                                 hashlib.sha256(whole).hexdigest())
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):

@@ -2,12 +2,28 @@
 
 from weld_support import *
 
+import hashlib
 import random
 import shutil
 import signal
 import time
 
 NAN = float("nan")
+
+
+def texts(points):
+    """The same points, of four values each, as files that people have."""
+    rows = [" ".join(map(repr, p)) for p in points]
+    more = [row + " 0.5 7" for row in rows]  # as PTS has them: intensity and colors
+    head = "".join(f"property double {name}\n" for name in ("x", "y", "z", "shade"))
+    return {"in.xyz": "\n".join(["# by hand", *rows[:40], "", "  // 1 2 3 4", *rows[40:]]),
+            "in.csv": "\r\n".join(["shade;x;y;z", *(";".join(row.split()) for row in rows), ""]),
+            "in.pts": "\n".join([str(len(rows)), *more, ""]),
+            "in.ply": "\n".join(["ply", "format ascii 1.0", f"element vertex {len(rows)}",
+                                 head + "end_header", *rows, ""]),
+            "in.pcd": "\n".join(["VERSION .7", "FIELDS x y z shade", "SIZE 8 8 8 8", "TYPE F F F F",
+                                 "COUNT 1 1 1 1", f"WIDTH {len(rows)}", "HEIGHT 1",
+                                 f"POINTS {len(rows)}", "DATA ascii", *rows, ""])}
 
 
 def ply(points, rng, number="double"):
@@ -238,6 +254,78 @@ class Shared(WeldTest):
                     self.assertEqual(self.listing(), sorted({"in.ply", given}))
 
     @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_text_is_shared_out_and_gives_what_one_gives(self):
+        points = [(*p, self.rng.randrange(4) / 4) for p in cloud(self.rng, 2500) if p[0] == p[0]]
+        for name, text in texts(points).items():
+            self.write(name, text)
+            gives = [name, "-t", "0.02", "-o", "out.csv", "--removed", "gone.ply", "--map", "map.csv"]
+            names = ("out.csv", "gone.ply", "map.csv")
+            report = self.entry(*gives, status=0)
+            self.assertEqual(report["sha256"], hashlib.sha256(text.encode()).hexdigest())
+            expected = self.written(names)
+            for size in (2, 4, 7):
+                with self.subTest(name=name, size=size):
+                    run = self.mpi(size, *gives, "--tile-points", 300, "-r", "-")
+                    self.assertEqual(self.written(names), expected)
+                    entry = json.loads(run.text)["files"][0]
+                    for key in ("sha256", "format", "points", "box", "precision_in", "output"):
+                        self.assertEqual(entry[key], report[key])
+        self.mpi(3, "in.xyz", "in.csv", "in.pts", "--join", "-o", "out.ply", "-r", "report.json")
+        several = json.loads(self.read_bytes("report.json"))["files"][0]["sources"]
+        self.run_tool("in.xyz", "in.csv", "in.pts", "--join", "-o", "one.ply", "-r", "one.json",
+                      status=0)
+        one = json.loads(self.read_bytes("one.json"))["files"][0]["sources"]
+        self.assertEqual([s["sha256"] for s in several], [s["sha256"] for s in one])
+        self.assertEqual(self.read_bytes("out.ply"), self.read_bytes("one.ply"))
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_of_text_that_is_shared_out_the_first_fault_is_said(self):
+        points = [(*p, 0.5) for p in cloud(self.rng, 1500) if p[0] == p[0]]
+        for name, text in texts(points).items():
+            lines = text.splitlines()
+            for faults in ((len(lines) // 2,), (len(lines) - 300, len(lines) - 40)):
+                cut = [line[:3] if n in faults else line for n, line in enumerate(lines)]
+                self.write(name, "\n".join(cut) + "\n")
+                one = self.run_tool(name, "-t", "0.01", "-o", "out.ply", "--tile-points", 300, status=3)
+                said = one.err.splitlines()[-1]
+                self.assertIn(f"{name}:{faults[0] + 1}: ", said)
+                run = self.mpi(4, name, "-t", "0.01", "-o", "out.ply", status=3)
+                self.assertEqual((run.err.count(said), run.err.count("error:")), (1, 1), run.err)
+            os.remove(self.path(name))
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_no_rank_knows_much_more_of_a_file_than_its_share(self):
+        size = 4
+        points = [(100.0 + 0.5 * (i % 97), 100.0 + 0.25 * (i // 97), 100.0, 0.5) for i in range(9000)]
+        rows = ["%.4f %.4f %.4f %.4f\n" % p for p in points]
+        head = lambda text: (text + "end_header\n").encode()
+        axes = "".join(f"property double {name}\n" for name in ("x", "y", "z", "t"))
+        for name, first, lines in (
+                ("in.xyz", b"# by hand\n", rows),
+                ("in.csv", b"x,y,z,t\n", [row.replace(" ", ",") for row in rows]),
+                ("in.pts", b"9000\n", rows),
+                ("in.ply", head(f"ply\nformat ascii 1.0\nelement vertex 9000\n{axes}"), rows),
+                ("in.pcd", b"VERSION .7\nFIELDS x y z t\nSIZE 8 8 8 8\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+                 b"WIDTH 9000\nHEIGHT 1\nPOINTS 9000\nDATA ascii\n", rows),
+                ("b.ply", head(f"ply\nformat binary_little_endian 1.0\nelement vertex 9000\n{axes}"),
+                 [struct.pack("<4d", *p) for p in points])):
+            lines = [line if isinstance(line, bytes) else line.encode() for line in lines]
+            whole = first + b"".join(lines)
+            self.write(name, whole)
+            gives = ["-t", "0.3", "-o", "out.ply", "--removed", "gone.ply"]
+            self.run_tool(name, *gives, status=0)
+            expected = self.written()
+            names = [f"{rank}.{name}" for rank in range(size)]
+            for rank, copy in enumerate(names):
+                self.write(copy, for_rank(rank, size, first, lines))
+            with self.subTest(name=name):
+                run = self.mpi_each([[copy, *gives, "-r", "-", "--tile-points", 900, "--work", "tiles"]
+                                     for copy in names])
+                self.assertEqual(self.written(), expected)
+                self.assertEqual(json.loads(run.text)["files"][0]["sha256"],
+                                 hashlib.sha256(whole).hexdigest())
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
         gives = ["-t", "0.02", "-o", "out.ply", "--removed", "gone.ply"]
         for size, more in ((2, []), (4, ["--order", "max:shade", "--map", "map.csv"]),
@@ -255,6 +343,15 @@ class Shared(WeldTest):
                 self.assertIn("finished before", run.err)
                 self.assertEqual(self.written(), expected)
         self.assertEqual(self.listing(), ["in.ply"])
+        points = [(*p, 0.5) for p in cloud(self.rng, 1500) if p[0] == p[0]]
+        self.write("in.csv", texts(points)["in.csv"])
+        work = ["in.csv", *gives, "--tile-points", 400, "--work", "tiles"]
+        self.run_tool("in.csv", *gives, status=0)
+        expected = self.written()
+        for step in (1, 2, 4):
+            self.mpi(4, *work, status=128 + signal.SIGKILL, last=["--stop-at", step])
+            self.mpi(self.rng.choice((1, 3)), *work)
+            self.assertEqual(self.written(), expected)
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_what_fails_is_said_once_and_nothing_is_written(self):
@@ -295,12 +392,9 @@ class Shared(WeldTest):
     def test_what_one_of_them_cannot_do_the_first_one_says(self):
         for rank in (0, 1, 2):
             options = [["--work", "tiles" if r != rank else "other/tiles"] for r in range(3)]
-            command = sum((["-n", "1", WELD, "in.ply", "-t", "0.1", "-o", "out.ply", *more, ":"]
-                           for more in options), [])
-            done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", *command[:-1]],
-                                  cwd=self.folder, capture_output=True, timeout=300)
-            self.assertEqual(done.returncode, 4)
-            self.assertEqual(done.stderr.count(b"other/tiles: cannot be made"), 1, done.stderr)
+            run = self.mpi_each([["in.ply", "-t", "0.1", "-o", "out.ply", *more] for more in options],
+                                status=4)
+            self.assertEqual(run.err.count("other/tiles: cannot be made"), 1, run.err)
             self.assertNotIn("out.ply", self.listing())
 
     @unittest.skipIf(NO_MPI, NO_MPI)

@@ -379,6 +379,19 @@ class TilesOfMeshes(WeldTest):
             self.assertGreater(step, 5)
             self.written("out.ply", "gone.ply")
 
+    def test_a_broken_file_is_said_to_be_broken_and_nothing_else(self):
+        head = b"ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float x\n"
+        self.write("head.ply", head + b"property \0\0\n" + bytes(3 << 20))
+        self.write("cut.ply", head + b"property float y\nproperty float z\nend_header\n" + bytes(50))
+        self.write("in.csv", "x,y,z\n" + "1,2,3\n" * 300000 + "1,2\n" + "1,2,3\n" * 300)
+        for name, words in (("head.ply", "head.ply:5: "), ("cut.ply", "cut.ply: byte "),
+                            ("in.csv", "in.csv:300002: ")):
+            whole = self.run_tool(name, "-o", "out.ply", status=3).err
+            self.assertIn(words, whole)
+            for more in (["--tile-points", 3], ["--memory", "64M"]):
+                self.assertEqual(self.run_tool(name, "-o", "out.ply", *more, status=3).err, whole)
+        self.assertEqual(self.listing(), ["cut.ply", "head.ply", "in.csv"])
+
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_meshes_larger_than_the_memory_stay_within_it(self):
         n = 600

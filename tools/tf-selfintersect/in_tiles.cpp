@@ -1,7 +1,7 @@
 #include "tools/tf-selfintersect/in_tiles.hpp"
 
 #include "tools/common/console.hpp"
-#include "tools/common/sha256.hpp"
+#include "tools/tiles/shared_digests.hpp"
 
 #include <algorithm>
 #include <string>
@@ -23,8 +23,7 @@ std::string what_needs_memory(const job& work, const search_settings& settings, 
     return {};
 }
 
-void enter_source(job& work, const tf::mesh_file& header) {
-    const std::string sum = work.options.detailed() ? sha256_of_file(work.path) : std::string();
+void enter_source(job& work, const tf::mesh_file& header, const std::string& sum) {
     work.entry["format"] = header.format;
     work.entry["sha256"] = sum.empty() ? json(nullptr) : json(sum);
     work.entry["precision_in"] = name_of(header.stored_as);
@@ -133,12 +132,13 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
         return search.finish();
     });
     work.call_ended(r.found.cancelled);
+    const std::string sum = digests_for_report({work.path}, tiles).front();
     if (tiles.team.rank > 0) return {};
     work.seconds["tree"] += r.found.tree_seconds;
     work.seconds["pairs"] += r.found.pair_seconds;
     work.seconds["read"] =
         std::max(before, work.seconds["read"] - r.found.tree_seconds - r.found.pair_seconds);
-    enter_source(work, r.header);
+    enter_source(work, r.header, sum);
     if (r.triangles == 0)
         throw failure(bad_input, "no-triangles",
                       work.name + ": no triangles (" + counted(r.points, "point", "points") + ")");

@@ -2,9 +2,9 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
-#include "tools/common/sha256.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/words.hpp"
+#include "tools/tiles/shared_digests.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tf.hpp>
@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tools {
 namespace {
@@ -81,17 +82,17 @@ void say_of_earlier_work(job& work, const tf::cloud_survey& survey, const fs::pa
                       counted(survey.tiles, "tile", "tiles") + " finished before");
 }
 
-void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_inputs& inputs) {
+void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_inputs& inputs,
+                   const tile_options& tiles) {
     const job::timer timing = work.time("read");
+    const std::vector<std::string> sums = digests_for_report(inputs.paths, tiles);
     const auto precision = [](bool single) { return single ? "float" : "double"; };
     std::uint64_t first_point = 0;
     for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
         const tf::cloud_survey::source& from = survey.sources[i];
         json source{{"input", inputs.names[i]}};
-        const std::string sum =
-            work.options.detailed() ? sha256_of_file(inputs.paths[i]) : std::string();
         source["format"] = from.format;
-        source["sha256"] = sum.empty() ? json(nullptr) : json(sum);
+        source["sha256"] = sums[i].empty() ? json(nullptr) : json(sums[i]);
         source["precision_in"] = precision(from.single);
         source["points"] = from.points;
         source["faces"] = survey.faces;
@@ -266,7 +267,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
     const tf::cloud_survey& survey = weld->survey();
     say_of_damaged(work, survey, tiles);
     say_of_earlier_work(work, survey, options.folder);
-    enter_sources(work, survey, inputs);
+    enter_sources(work, survey, inputs, tiles);
     if (survey.points == 0) throw failure(bad_input, "no-points", work.name + ": no points");
     if (!request.outputs.label.empty() && survey.points > std::numeric_limits<std::uint32_t>::max())
         throw failure(bad_input, "label", work.name + ": too many points for --label");

@@ -59,11 +59,12 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     return {};
 }
 
-/// None for what is no cloud that can be read by blocks.
-std::optional<tf::cloud_outline> cloud_at(const tf::cloud_inputs& inputs) {
+/// None for what is no cloud that can be read by blocks. \throws tf::io_error where it cannot be read
+std::optional<tf::cloud_outline> cloud_at(const tf::cloud_inputs& inputs,
+                                          const tf::process_team& team) {
     try {
-        return tf::outline(inputs);
-    } catch (const tf::io_error&) {
+        return tf::outline(inputs, team);
+    } catch (const tf::whole_file_error&) {
         return std::nullopt;  // reading all of it will say why
     } catch (const std::invalid_argument&) {
         return std::nullopt;
@@ -113,14 +114,19 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
     const std::uint64_t allowed =
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
     const std::uint64_t size = size_of(inputs);
-    if (tiles.team.rank > 0) tiles.team.exchange({});  // until the first one has looked
-    if (size == 0 || (!asked && size < allowed / 64))
+    const auto follow_first = [&] {  // goes on when it has found nothing wrong
+        if (tiles.team.rank > 0) tiles.team.exchange({});
+    };
+    if (size == 0 || (!asked && size < allowed / 64)) {
+        follow_first();
         return weld_in_memory(work, request, remark_on_folder(tiles));
+    }
     std::optional<tf::cloud_outline> cloud;
     {
         const job::timer timing = work.time("read");
-        cloud = cloud_at(inputs);
+        cloud = cloud_at(inputs, tiles.team);
     }
+    follow_first();
     if (!cloud && tiles.has_others())
         throw failure(
             bad_input, "read",

@@ -8,9 +8,13 @@
 #include "tools/page/pack.hpp"
 #include "tools/page/page.hpp"
 #include "tools/page/scene.hpp"
+#include "tools/tiles/shared_digests.hpp"
+#include "tools/tiles/tile_options.hpp"
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/own_folder.hpp>
+#include <support/thread_team.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -68,6 +72,34 @@ TEST_CASE("sha256: the examples of the standard") {
     CHECK(sum("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     CHECK(sum(std::string(1'000'000, 'a')) ==
           "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST_CASE("sha256: of files, read by any number of processes") {
+    const test::own_folder folder{"tools_test"};
+    std::vector<std::filesystem::path> paths;
+    std::vector<std::string> expected;
+    for (const std::size_t size : {0U, 1U, 63U, 700'000U, 0U, 64U, 1000U, 0U}) {
+        paths.push_back(folder.path / std::to_string(paths.size()));
+        std::string text(size, 'a');
+        for (std::size_t i = 0; i < size; ++i) text[i] = static_cast<char>(i * i / 7);
+        std::ofstream(paths.back(), std::ios::binary) << text;
+        expected.push_back(tools::sha256_of(std::as_bytes(std::span(text))));
+        CHECK(tools::sha256_of_file(paths.back()) == expected.back());
+    }
+    paths.push_back(folder.path / "none");
+    expected.emplace_back();
+    for (const std::size_t size : {1U, 2U, 3U, 7U}) {
+        CAPTURE(size);
+        std::vector<std::vector<std::string>> found(size);
+        CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
+            tools::tile_options tiles{.team = team};
+            found[team.rank] = tools::digests_for_report(paths, tiles);
+            CHECK(found[team.rank] == std::vector<std::string>(paths.size()));
+            tiles.report = "report.json";
+            found[team.rank] = tools::digests_for_report(paths, tiles);
+        }));
+        for (const auto& of_one : found) CHECK(of_one == expected);
+    }
 }
 
 TEST_CASE("values: numbers are read whole and without a locale") {

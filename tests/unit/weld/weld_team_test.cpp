@@ -256,6 +256,95 @@ TEST_CASE("weld_team: killed at any step, another number of processes goes on to
     CHECK(continued > 3);
 }
 
+TEST_CASE("weld_team: text is read from where the share of each begins") {
+    test::random random(21);
+    const team_folder folder;
+    const auto points = families(700, random);
+    for (std::size_t round = 0; round < 12; ++round) {
+        CAPTURE(round);
+        const std::string format = std::array{"xyz", "csv", "ply", "pcd"}[round % 4];
+        job work = folder.work(round % 3 == 0 ? format : "ply");
+        work.inputs.paths.clear();
+        for (std::size_t i = 0; i < 1 + round % 3; ++i) {
+            tf::mesh_file file;
+            const auto& of_file = points[(round + i) % points.size()];
+            file.mesh.points.assign(of_file.begin() + std::ptrdiff_t(random.below(690)),
+                                    of_file.end());
+            const std::size_t rows = file.mesh.points.size();
+            tf::element& vertices = tf::obtain_element(file.attributes, "vertex", rows);
+            std::vector<float> shade(rows);
+            for (float& x : shade) x = 0.25F * static_cast<float>(random.below(4));
+            tf::set_column(vertices, tf::make_column<float>("shade", shade));
+            work.inputs.paths.push_back(folder.path / (std::to_string(i) + "." + format));
+            tf::write(work.inputs.paths.back(), file, {.ascii = true});
+        }
+        const std::string out = work.outputs().welded->path.extension().string().substr(1);
+        work.options.tolerance = 0.02;
+        work.options.points_per_tile = 80;
+        choices[round % choices.size()](work.options);
+        for (tf::weld_condition& c : work.options.same)
+            if (format == "xyz") c.property = "column_4";
+        if (format == "xyz")
+            for (std::string* name : {&work.options.order_by, &work.options.keep_by})
+                if (*name == "shade") *name = "column_4";
+        const auto one = weld_alone(work);
+        const auto expected = folder.take(out);
+        for (const std::size_t size : {2U, 5U}) {
+            CAPTURE(size);
+            static_cast<void>(weld_as_team(work, size, random.below(size), 2));  // killed
+            const auto several = weld_as_team(work, size);
+            REQUIRE(several);
+            check_counts(*several, one);
+            CHECK(folder.take(out) == expected);
+        }
+    }
+}
+
+TEST_CASE("weld_team: of faults in text, all say the first") {
+    const team_folder folder;
+    const auto said = [&](const std::string& name, const std::string& text, std::size_t size) {
+        job work = folder.work("ply");
+        work.inputs.paths = {folder.path / name};
+        std::ofstream(work.inputs.paths[0], std::ios::binary) << text;
+        try {
+            static_cast<void>(size == 1 ? weld_alone(work) : *weld_as_team(work, size));
+        } catch (const tf::io_error& error) {
+            return std::string(error.what());
+        }
+        return std::string("nothing");
+    };
+    const auto lines = [](const std::vector<std::size_t>& faults, const std::string& fault) {
+        std::string text;
+        for (std::size_t i = 0; i < 400; ++i)
+            text += std::ranges::count(faults, i) > 0
+                        ? fault
+                        : std::to_string(i) + " 2 " + std::to_string(i * i % 17) + " 4\n";
+        return text;
+    };
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 400\nproperty double x\nproperty double y\n"
+        "property double z\nproperty double t\nend_header\n";
+    for (const std::vector<std::size_t>& faults :
+         std::vector<std::vector<std::size_t>>{{17}, {390}, {120, 130, 310}, {399}, {210, 290}})
+        for (const std::string fault : {"1 2\n", "1 x 3 4\n", "1 2 3 4x\n"})
+            for (const bool as_ply : {false, true}) {
+                const std::string name = as_ply ? "in.ply" : "in.xyz";
+                const std::string text = (as_ply ? ply : "") + lines(faults, fault);
+                const std::string one = said(name, text, 1);
+                CAPTURE(one);
+                const std::size_t line = faults[0] + 1 + (as_ply ? 8 : 0);
+                CHECK(one.find(name + ":" + std::to_string(line) + ": ") != std::string::npos);
+                for (const std::size_t size : {2U, 3U, 7U}) CHECK(said(name, text, size) == one);
+            }
+    // What is a fault in an even text is none where it is uneven: then it is not looked at.
+    const std::string uneven = lines({30}, "1 2 3\n") + lines({300}, "1 2 3 4x\n");
+    CHECK(said("in.xyz", uneven, 1) == "nothing");
+    CHECK(said("in.xyz", uneven, 4) == "nothing");
+    const std::string short_of = "900\n" + lines({}, "");
+    CHECK(said("in.pts", short_of, 1).find("in.pts:402: ") != std::string::npos);
+    CHECK(said("in.pts", short_of, 3) == said("in.pts", short_of, 1));
+}
+
 TEST_CASE("weld_team: maps and labels are those of one") {
     enum class asked { label, map, map_file };
     test::random random(13);

@@ -4,6 +4,7 @@
 /// faces and other rows that a PLY or STL has behind its points.
 
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tree/detail/export.hpp>
 
@@ -17,6 +18,13 @@
 #include <vector>
 
 namespace treeform {
+
+/// Of a file that is read whole, by `read`, and not in blocks: it has no points, or other things that
+/// blocks have not.
+class TREEFORM_API whole_file_error : public io_error {
+  public:
+    using io_error::io_error;
+};
 
 /// Consecutive points with their properties, as `mesh_file` has them for a whole file.
 struct point_block {
@@ -45,9 +53,9 @@ class TREEFORM_API point_reader {
     /// there are. They can be read next. The facets of an STL have the column "stl_attribute" also
     /// where all of it is zero.
     ///
-    /// \throws io_error for a format without points, for a file with faces or other elements that
-    ///         have rows, and as `read`; with `with_rows` for what is ahead of the points, for strips
-    ///         of triangles, and for faces with texture coordinates of corners
+    /// \throws whole_file_error for a format without points, for a file with faces or other elements
+    ///         that have rows; with `with_rows` for what is ahead of the points, for strips of
+    ///         triangles, and for faces with texture coordinates of corners; io_error as `read`
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {},
                           std::uint64_t first = 0, bool with_rows = false);
     ~point_reader();
@@ -147,10 +155,12 @@ struct cloud_outline {
         false;  ///< of a mesh: faces or other rows behind the points, which the header counts
 };
 
-/// One file alone may be a mesh, as `point_reader` reads it with rows.
+/// One file alone may be a mesh, as `point_reader` reads it with rows. Text is read once, of a team by
+/// each its share; all of it come here.
 ///
-/// \throws io_error for what is no file of points, as `point_reader`; std::invalid_argument for
-///         columns that `join` cannot unite
-[[nodiscard]] TREEFORM_API cloud_outline outline(const cloud_inputs& inputs);
+/// \throws whole_file_error for what is no file of points, as `point_reader`, io_error for what cannot
+///         be read; std::invalid_argument for columns that `join` cannot unite
+[[nodiscard]] TREEFORM_API cloud_outline outline(const cloud_inputs& inputs,
+                                                 const process_team& team = {});
 
 }  // namespace treeform

@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// Which part of a file one of many reads.
+
+#include <cstdint>
+
+namespace treeform::detail::io {
+
+/// Of `size` parts that have about as many of whatever is counted.
+struct file_part {
+    std::uint64_t rank = 0;
+    std::uint64_t size = 1;
+    bool from_front = false;  ///< whether faces that are ahead must be read, too
+
+    [[nodiscard]] std::uint64_t first(std::uint64_t count) const {
+        return count / size * rank + count % size * rank / size;
+    }
+    [[nodiscard]] std::uint64_t last(std::uint64_t count) const {
+        return file_part{rank + 1, size}.first(count);
+    }
+    [[nodiscard]] bool is_last() const { return rank + 1 == size; }
+};
+
+}  // namespace treeform::detail::io

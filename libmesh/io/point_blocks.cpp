@@ -1,0 +1,87 @@
+#include <libmesh/io/detect.hpp>
+#include <libmesh/io/extension.hpp>
+#include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+
+#include <algorithm>
+#include <system_error>
+
+namespace treeform::detail::io {
+namespace {
+
+[[nodiscard]] file_kind kind_of(const source& in, const std::filesystem::path& path,
+                                std::string_view format) {
+    return detect(in, plain_extension(format), extension_of(path)).kind;
+}
+
+[[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
+                                   std::string_view format, std::uint64_t first, bool with_rows,
+                                   const text_index* known) {
+    switch (kind_of(in, path, format)) {
+        case file_kind::ply:
+            return open_ply_points(in, first, with_rows, known);
+        case file_kind::stl_binary:
+            if (with_rows) return open_stl_points(in, first);
+            fail_in_blocks(in, "corners of faces are no points that are read alone");
+        case file_kind::pcd:
+            return open_pcd_points(in, first, known);
+        case file_kind::las:
+            return open_las_points(in, first);
+        case file_kind::xyz:
+            return open_xyz_points(in, "xyz", first, known);
+        case file_kind::pts:
+            return open_xyz_points(in, "pts", first, known);
+        case file_kind::csv:
+            return open_xyz_points(in, "csv", first, known);
+        default:
+            fail_in_blocks(in, "only PLY, PCD, LAS, LAZ, XYZ and CSV are read in blocks");
+    }
+}
+
+}  // namespace
+
+point_blocks::point_blocks(const std::filesystem::path& path, std::string_view format,
+                           std::uint64_t first, bool with_rows, const text_index* known)
+    : in_(source::open(path, scratch_place::file)),
+      rows_(open_rows(in_, path, format, first, with_rows, known)) {
+    point_block block;
+    constexpr std::uint64_t some = std::uint64_t{1} << 15;
+    for (std::uint64_t left = first - rows_.left_out;
+         left > 0 && read(block, static_cast<std::size_t>(std::min(left, some)));)
+        left -= block.points.size();
+}
+
+bool point_blocks::read(point_block& block, std::size_t most) {
+    const element* vertices = find_element(rows_.head.attributes, "vertex");
+    restart(block.properties, vertices == nullptr ? element{.name = "vertex"} : *vertices);
+    block.points.clear();
+    block.properties.rows = rows_.append(block.points, block.properties, most, rows_.head.warnings);
+    return block.properties.rows > 0;
+}
+
+std::optional<text_index> scan_points(const std::filesystem::path& path, std::string_view format,
+                                      const file_part& part, std::size_t most) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // it is read once
+    try {
+        const source in = source::open(path);
+        switch (kind_of(in, path, format)) {
+            case file_kind::ply:
+                return scan_ply(in, part, most);
+            case file_kind::pcd:
+                return scan_pcd(in, part, most);
+            case file_kind::xyz:
+                return scan_xyz(in, "xyz", part, most);
+            case file_kind::pts:
+                return scan_xyz(in, "pts", part, most);
+            case file_kind::csv:
+                return scan_xyz(in, "csv", part, most);
+            default:
+                return std::nullopt;
+        }
+    } catch (const io_error&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace treeform::detail::io

@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// The points of a file in blocks; of text also by what is known of it.
+
+#include <libmesh/io/point_rows.hpp>
+#include <libmesh/io/source.hpp>
+#include <libmesh/io/text_index.hpp>
+#include <treeform/mesh/point_stream.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace treeform::detail::io {
+
+/// What `point_reader` is made of.
+class point_blocks {
+  public:
+    /// As for `point_reader`; `known` as for `open_xyz_points`.
+    point_blocks(const std::filesystem::path& path, std::string_view format, std::uint64_t first,
+                 bool with_rows, const text_index* known = nullptr);
+    point_blocks(const point_blocks&) = delete;
+    point_blocks& operator=(const point_blocks&) = delete;
+
+    [[nodiscard]] const mesh_file& header() const { return rows_.head; }
+    [[nodiscard]] std::optional<std::uint64_t> count() const { return rows_.count; }
+    bool read(point_block& block, std::size_t most);
+    bool read(row_block& block, std::size_t most) {
+        return rows_.behind && rows_.behind(block, most, rows_.head.warnings);
+    }
+
+  private:
+    source in_;  ///< ahead of what reads from it
+    point_rows rows_;
+};
+
+/// What a part of a text has, with at most so many marks; none for what is no text of points, or
+/// cannot be read, which is then said where it is opened.
+[[nodiscard]] std::optional<text_index> scan_points(const std::filesystem::path& path,
+                                                    std::string_view format, const file_part& part,
+                                                    std::size_t most);
+
+}  // namespace treeform::detail::io

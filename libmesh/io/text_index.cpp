@@ -1,0 +1,23 @@
+#include <libmesh/io/text_index.hpp>
+
+#include <utility>
+
+namespace treeform::detail::io {
+
+text_index scan_rows(const source& in, const char* body, const file_part& part, std::size_t most) {
+    text rows(in);
+    rows.at = body;
+    text_scan scan(rows, part, most);
+    bool hexadecimal = false;
+    for (rows.skip_spaces(); !rows.done() && scan.is_in_part(); rows.skip_spaces()) {
+        scan.add();
+        for (; !rows.done() && !is_newline(*rows.at); ++rows.at)
+            hexadecimal = hexadecimal || to_lower(*rows.at) == 'x';  // as 0x1.8p1
+        in.release_before(rows.at);
+    }
+    text_index found = std::move(scan).found();
+    found.hexadecimal = hexadecimal;
+    return found;
+}
+
+}  // namespace treeform::detail::io

@@ -1,0 +1,20 @@
+#pragma once
+/// \file
+/// Texts that each of a team looks at: at the lines that begin in its share of the bytes.
+
+#include <libmesh/io/text_index.hpp>
+#include <libmesh/stream/team.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// What is known of each file when all have looked; none of what is no text of points or of a PLY, and
+/// of what has to be read from the front, be it to say what is wrong with it. All come here.
+[[nodiscard]] std::vector<std::optional<io::text_index>> look_at_texts(
+    const std::vector<std::filesystem::path>& paths, std::string_view format, const team& all);
+
+}  // namespace treeform::detail::stream
