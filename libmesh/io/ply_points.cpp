@@ -5,7 +5,9 @@
 #include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -60,8 +62,53 @@ class ply_points {
         return true;
     }
 
+    [[nodiscard]] row_place next_row() {
+        pass_points();
+        row_place place{.row = row_,
+                        .byte = static_cast<std::uint64_t>(values_.at() - in_.begin())};
+        for (std::size_t e = 0; e < at_; ++e) place.row += behind_[e].rows;
+        return place;
+    }
+
+    void go_to(const row_place& place) {
+        left_ = 0;
+        at_ = 0;
+        std::uint64_t row = place.row;
+        for (; at_ < behind_.size() && row >= behind_[at_].rows; ++at_) row -= behind_[at_].rows;
+        row_ = static_cast<std::size_t>(row);
+        values_.go_to(in_.begin() + std::min<std::uint64_t>(place.byte, in_.size()));
+    }
+
+    [[nodiscard]] std::vector<row_place> parts(std::size_t count) {
+        std::vector<alike_rows> rows;
+        if constexpr (has_bytes<Values>) {
+            if (left_ > 0 && fixed_row_size(columns_) == 0) return {};
+            pass_points();
+            Values values = values_;
+            std::optional<std::size_t> corners;
+            for (const element& e : behind_) {
+                std::size_t size = fixed_row_size(e);
+                if (e.name == "face") size = alike_row_size(values, e, corners);
+                if (size == 0 || e.rows > values.bytes_left() / size) return {};
+                static_cast<void>(values.take_bytes(e.rows * size));
+                rows.push_back({e.rows, size});
+            }
+            if (values.bytes_left() > 0) return {};
+            length_ = corners;
+            return parts_of_rows(static_cast<std::uint64_t>(values_.at() - in_.begin()), rows,
+                                 count);
+        }
+        return {};
+    }
+
   private:
     void pass_points() {
+        if constexpr (has_bytes<Values>) {
+            if (const std::size_t size = fixed_row_size(columns_); size > 0) {
+                static_cast<void>(values_.take_bytes(left_ * size));
+                left_ = 0;
+            }
+        }
         constexpr std::size_t run = std::size_t{1} << 15;
         std::vector<point3> points;
         for (element rows; left_ > 0; left_ -= std::min(left_, run)) {
@@ -86,6 +133,7 @@ class ply_points {
 
     void read_corners(const column& c, row_block& block) {
         const std::size_t count = values_.length(c);
+        if (length_.value_or(count) != count) values_.fail("a face of another length");
         if (count < 3) values_.fail("face with " + std::to_string(count) + " corners");
         for (std::size_t i = 0; i < count; ++i) {
             const std::int64_t index = values_.index(c);
@@ -104,6 +152,7 @@ class ply_points {
     std::size_t at_ = 0;           ///< the one that is read
     std::size_t row_ = 0;          ///< the next of it
     std::int64_t points_ = 0;
+    std::optional<std::size_t> length_{};  ///< of all faces, where they must be alike
 };
 
 /// The elements behind the points that have rows; what cannot be read so is refused.
@@ -158,6 +207,9 @@ point_rows open_ply_points(const source& in, std::uint64_t first, bool with_rows
         rows.behind = [body, count](row_block& block, std::size_t most, auto& warnings) {
             return body->read(block, most, count, warnings);
         };
+        rows.next_row = [body] { return body->next_row(); };
+        rows.go_to = [body](const row_place& place) { body->go_to(place); };
+        rows.row_parts = [body](std::size_t parts) { return body->parts(parts); };
     });
     rows.head.stored_as =
         binary && has_single_axes(vertices) ? precision::float32 : precision::float64;

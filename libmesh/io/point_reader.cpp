@@ -78,4 +78,16 @@ bool point_reader::read(row_block& block, std::size_t most) {
     return rows.behind && rows.behind(block, most, rows.head.warnings);
 }
 
+row_place point_reader::next_row() {
+    return state_->rows.next_row ? state_->rows.next_row() : row_place{};
+}
+
+void point_reader::go_to(const row_place& place) {
+    if (state_->rows.go_to) state_->rows.go_to(place);
+}
+
+std::vector<row_place> point_reader::row_parts(std::size_t count) {
+    return state_->rows.row_parts ? state_->rows.row_parts(count) : std::vector<row_place>();
+}
+
 }  // namespace treeform

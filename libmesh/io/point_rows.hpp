@@ -32,6 +32,10 @@ struct point_rows {
     /// read is passed over. False at the end. None where there is nothing to read but points.
     std::function<bool(row_block& block, std::size_t most, std::vector<io_warning>& warnings)>
         behind{};
+    /// As those of `point_reader`; there where `behind` is.
+    std::function<row_place()> next_row{};
+    std::function<void(const row_place&)> go_to{};
+    std::function<std::vector<row_place>(std::size_t count)> row_parts{};
 };
 
 /// What there is to read by runs. `in` must outlive what comes back. The `first` points, which are

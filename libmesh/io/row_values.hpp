@@ -36,6 +36,8 @@ class text_values {
     }
 
     void begin_row() { text_.skip_spaces(); }
+    [[nodiscard]] const char* at() const { return text_.at; }
+    void go_to(const char* at) { text_.at = at; }
 
     /// Length of a list; never more than the file can hold.
     [[nodiscard]] std::size_t length(const column&) {
@@ -122,6 +124,8 @@ class byte_values {
     }
 
     void begin_row() {}
+    [[nodiscard]] const char* at() const { return at_; }
+    void go_to(const char* at) { at_ = at; }
 
     [[nodiscard]] std::size_t length(const column& c) {
         const char* const start = at_;
