@@ -319,7 +319,7 @@ class TilesOfMeshes(WeldTest):
                 ((2, 4, 7), "alike.ply", ["-t", "0.02", *gone], "out.ply"),
                 ((3,), "alike.ply", ["-t", "0.02", "--keep", "mean", "--ascii"], "out.ply"),
                 ((4,), "alike.ply", ["-t", "0.15", "--rule", "chain", *gone], "out.obj"),
-                ((3,), "alike.ply", ["-t", "0.02", "--label", "group", *gone], "out.ply"),
+                ((3,), "alike.ply", ["-t", "0.02", "--label", "group", "--map", "map.csv"], "out.ply"),
                 ((4,), "ends.ply", ["-t", "0.02", *gone], "out.ply"),
                 ((2, 4), "in.stl", ["--removed", "gone.csv"], "out.ply"),
                 ((3,), "in.stl", ["-t", "0.1", "--rule", "chain", *gone], "out.obj")):
