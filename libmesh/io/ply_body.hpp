@@ -52,7 +52,9 @@ void look_behind(Values& values, std::vector<io_warning>& warnings) {
 
 /// Whether rows may be passed over by the bytes that they take.
 template <class Values>
-inline constexpr bool has_bytes = requires(Values v) { v.take_bytes(0); };
+inline constexpr bool has_bytes = requires(Values v) {
+    v.take_bytes(0);
+};
 
 /// Bytes of the next row of `e`, and of all if they are like it: no list but that of corners, the
 /// number of which is told. Zero where they cannot be.

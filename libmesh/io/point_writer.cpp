@@ -105,7 +105,8 @@ struct point_writer::state {
             return e.rows == 0 || (points_end && e.name != given.name);
         };
         while (!behind.empty() && is_over(behind.front())) behind.erase(behind.begin());
-        if ((written != count && !points_end) || behind.empty() || given.name != behind.front().name)
+        if ((written != count && !points_end) || behind.empty() ||
+            given.name != behind.front().name)
             refuse_block("rows of " + given.name + " are not what comes next");
         if (given.rows > behind.front().rows)
             refuse_block("more rows of " + given.name + " than the header says");

@@ -76,7 +76,7 @@ class TREEFORM_API edge_files {
     const team& all_;
     std::string name_;
     std::vector<record_writer<Edge>> writers_{};  ///< for each bucket
-    std::size_t most_;  ///< uses held at a time
+    std::size_t most_;                            ///< uses held at a time
 };
 
 extern template class edge_files<numbered_edge>;

@@ -9,6 +9,7 @@
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/predicates.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +17,16 @@
 #include <vector>
 
 namespace treeform::detail::stream {
+
+inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
+
+/// How many are read at once where so many are left.
+[[nodiscard]] inline std::size_t rows_of_next(std::uint64_t left, std::size_t most = rows_a_block) {
+    return static_cast<std::size_t>(std::min<std::uint64_t>(left, most));
+}
+
+/// Corners of the face that has most.
+[[nodiscard]] std::size_t longest_face(const row_block& block);
 
 /// Whether a file has rows behind its points.
 [[nodiscard]] bool has_rows_behind(const mesh_file& header);
@@ -85,7 +96,8 @@ class tile_faces {
     const work_folder& folder_;
     const tile_task& task_;
     tile_steps& steps_;
-    std::vector<row_place> parts_{};  ///< of a team: where that of each begins, and the last one ends
+    std::vector<row_place>
+        parts_{};  ///< of a team: where that of each begins, and the last one ends
     std::size_t most_corners_ = 0;
     std::size_t most_kept_corners_ = 0;
     weld_stream_counts counts_{};

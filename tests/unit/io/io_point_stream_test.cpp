@@ -386,7 +386,7 @@ TEST_CASE("point streams: rows behind the points are those of the file") {
     CHECK(bytes_of(here.folder / "copy.ply") == bytes_of(here.folder / "big.ply"));
 }
 
-TEST_CASE("point streams: of a file in parts, each has some points, and some rows behind all points") {
+TEST_CASE("point streams: of a file in parts, each has some points, and some of the rows behind") {
     const scratch here;
     const fs::path text = here.put("text.ply", mesh_text);
     for (const char* const name : {"whole.ply", "whole.obj"}) {

@@ -79,6 +79,7 @@ class TREEFORM_API point_reader {
     /// \throws io_error as `read`
     bool read(row_block& block, std::size_t most);
     /// The next row behind the points; passes over points that have not been read.
+    ///
     /// \throws io_error as `read`
     [[nodiscard]] row_place next_row();
     /// Goes on at a row behind the points, which a reader of the same file has told of.
@@ -87,7 +88,10 @@ class TREEFORM_API point_reader {
     /// `count + 1` places, found without reading more than a row. Empty where the rows have to be read:
     /// in text, with lists of points or of other values, and where not all faces can have as many
     /// corners as the first one. That they have is taken for granted, and refused from now on where
-    /// it is not so. \pre no row was read. \throws io_error as `read`
+    /// it is not so.
+    ///
+    /// \pre    no row was read
+    /// \throws io_error as `read`
     [[nodiscard]] std::vector<row_place> row_parts(std::size_t count);
 
   private:
@@ -132,7 +136,9 @@ class TREEFORM_API point_writer {
     /// No more points come: the others are in other parts. Rows that are behind the points of all
     /// parts may follow, those of earlier parts first. Returns the bytes of the points.
     std::uint64_t end_part();
-    /// Leaves so many bytes of the file to others. \pre a regular file; `end_part` was called
+    /// Leaves so many bytes of the file to others.
+    /// \pre    a regular file, and `end_part` was called
+    /// \throws io_error
     void leave_room(std::uint64_t bytes);
     struct part {
         std::uint64_t head = 0;    ///< bytes ahead of its points
