@@ -388,13 +388,13 @@ class TilesOfMeshes(WeldTest):
         points, faces = soup(*grid(9, self.rng), self.rng, 0.002)
         self.write("in.ply", mesh(self.rng, "binary_little_endian", points, faces))
         self.write("alike.ply", triangles("binary_little_endian", points, [f[:3] for f in faces], []))
-        for size, which in ((2, ["in.ply", "--across", "normal,color"]), (3, ["in.ply", "--keep", "mean"]),
-                            (4, ["alike.ply"])):
+        for size, which, each in ((2, ["in.ply", "--across", "normal,color"], 1),
+                                  (3, ["in.ply", "--keep", "mean"], 1), (4, ["alike.ply"], 4)):
             command = ["-t", "0.02", *which, "--tile-points", 150, "-o", "out.ply",
                        "--removed", "gone.ply", "--work", "tiles"]
             self.run_tool(*command, status=0)
             expected = self.written("out.ply", "gone.ply")
-            for step in range(1, 100):
+            for step in range(1, 100, each):
                 run = self.mpi(size, *command, status=None, last=["--stop-at", step])
                 if run.status == 0:
                     break
