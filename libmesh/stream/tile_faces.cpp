@@ -108,7 +108,7 @@ void tile_faces::each_block(bool whole, const Take& take) {
     std::uint64_t left =
         in_parts ? parts_[last].row - parts_[first].row : std::numeric_limits<std::uint64_t>::max();
     row_block block;
-    while (left > 0 && reader.read(block, rows_of_next(left))) {
+    while (left > 0 && reader.read(block, rows_of_next(left, rows_at_once_))) {
         left -= block.rows.rows;
         take(block);
         pace_.check();
@@ -213,6 +213,8 @@ void tile_faces::carry_all() {
     counts_now_ = false;
     before_.reset();
     after_.reset();
+    places_before_ = {};
+    places_after_ = {};
     counts_.nonmanifold_before = is_soup_ ? edges_of_soup_->count_nonmanifold(pace_)
                                           : edges_before_->count_nonmanifold(pace_);
     edges_of_soup_.reset();
@@ -241,23 +243,34 @@ void tile_faces::carry(const row_block& from, row_block& to) {
     rows_.clear();
     to.corners.clear();
     to.first_corner.assign(1, 0);
-    const std::span<const std::uint32_t> corners(from.corners);
-    for (std::uint32_t f = 0; f < from.rows.rows; ++f)
-        carry_face(
-            corners.subspan(from.first_corner[f], from.first_corner[f + 1] - from.first_corner[f]),
-            f, to);
+    look_up(from.corners);
+    for (std::uint32_t f = 0; f < from.rows.rows; ++f) carry_face(from, f, to);
     to.rows = gather(from.rows, rows_);
 }
 
-void tile_faces::carry_face(std::span<const std::uint32_t> corners, std::uint32_t row,
-                            row_block& to) {
-    corners_.clear();
-    for (const std::uint32_t corner : corners) corners_.push_back(number_of(corner));
+void tile_faces::look_up(std::span<const std::uint32_t> corners) {
+    constexpr std::uint64_t bytes_a_row = 300;
+    numbers_->look_up(corners, corners_);
+    bool scattered = numbers_->is_scattered();
+    if (before_) {
+        before_->look_up(corners, places_before_);
+        after_->look_up(corners_, places_after_);
+        scattered = scattered || before_->is_scattered() || after_->is_scattered();
+    }
+    const std::uint64_t most = scattered ? task_.options.memory / 8 / bytes_a_row : 0;
+    rows_at_once_ = std::max(rows_a_block, static_cast<std::size_t>(most));
+}
+
+void tile_faces::carry_face(const row_block& from, std::uint32_t row, row_block& to) {
+    const auto first = static_cast<std::size_t>(from.first_corner[row]);
+    const auto end = static_cast<std::size_t>(from.first_corner[row + 1]);
+    const std::vector<std::uint32_t>& corners = from.corners;
     std::optional<grown_face> grown;
-    std::size_t last = 0;  // corner of the triangle before
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-        const face after{corners_[0], corners_[i - 1], corners_[i]};
-        if (!is_kept({corners[0], corners[i - 1], corners[i]}, after)) continue;
+    std::size_t last = first;  // corner of the triangle before
+    for (std::size_t i = first + 2; i < end; ++i) {
+        const face after{corners_[first], corners_[i - 1], corners_[i]};
+        if (!is_kept({corners[first], corners[i - 1], corners[i]}, after, {first, i - 1, i}))
+            continue;
         const bool continues = grown && after[1] == corners_[last] &&
                                (task_.options.keep_degenerate || !grown->has(after[2]));
         if (continues) {
@@ -273,7 +286,7 @@ void tile_faces::carry_face(std::span<const std::uint32_t> corners, std::uint32_
     if (grown) to.first_corner.push_back(to.corners.size());
 }
 
-bool tile_faces::is_kept(const face& before, const face& after) {
+bool tile_faces::is_kept(const face& before, const face& after, const corners_of_block& at) {
     const bool was_whole = base::has_three_corners(before);
     const bool is_whole = base::has_three_corners(after);
     const bool kept = is_whole || task_.options.keep_degenerate;
@@ -286,17 +299,15 @@ bool tile_faces::is_kept(const face& before, const face& after) {
     }
     if (!kept) return false;
     ++counts_.triangles;
-    if (before_ && is_flipped(before, after)) ++counts_.flipped;
+    if (before_ && is_flipped(at)) ++counts_.flipped;
     return true;
 }
 
-bool tile_faces::is_flipped(const face& before, const face& after) {
-    const auto places = [](paged_file<point3>& at, const face& f) {
-        const point3 a = at.at(f[0]);
-        const point3 b = at.at(f[1]);
-        return plane_points{a, b, at.at(f[2])};
+bool tile_faces::is_flipped(const corners_of_block& at) const {
+    const auto places = [&](const std::vector<point3>& of) {
+        return plane_points{of[at[0]], of[at[1]], of[at[2]]};
     };
-    return weld::is_flipped(places(*before_, before), places(*after_, after));
+    return weld::is_flipped(places(places_before_), places(places_after_));
 }
 
 void tile_faces::renumber(row_block& block) {

@@ -11,6 +11,7 @@
 #include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -65,6 +66,8 @@ class tile_faces {
     void give(point_writer& to, bool all, bool whole);
 
   private:
+    using corners_of_block = std::array<std::size_t, 3>;
+
     [[nodiscard]] io::point_blocks open() const;
     [[nodiscard]] stream_error changed() const;
     /// Calls `take` with the rows of the share, or of the whole file.
@@ -85,10 +88,11 @@ class tile_faces {
     void look_at_corners(const point_block& block, std::uint64_t point);
     void drop_blank(element& faces) const;
     void carry(const row_block& from, row_block& to);
-    void carry_face(std::span<const std::uint32_t> corners, std::uint32_t row, row_block& to);
+    void look_up(std::span<const std::uint32_t> corners);
+    void carry_face(const row_block& from, std::uint32_t row, row_block& to);
     void renumber(row_block& block);
-    [[nodiscard]] bool is_kept(const face& before, const face& after);
-    [[nodiscard]] bool is_flipped(const face& before, const face& after);
+    [[nodiscard]] bool is_kept(const face& before, const face& after, const corners_of_block& at);
+    [[nodiscard]] bool is_flipped(const corners_of_block& at) const;
     [[nodiscard]] std::uint32_t number_of(std::uint64_t point) {
         return static_cast<std::uint32_t>(numbers_->at(point));
     }
@@ -99,6 +103,7 @@ class tile_faces {
     tile_steps& steps_;
     std::vector<row_place>
         parts_{};  ///< of a team: where that of each begins, and the last one ends
+    std::size_t rows_at_once_ = rows_a_block;
     std::size_t most_corners_ = 0;
     std::size_t most_kept_corners_ = 0;
     weld_stream_counts counts_{};
@@ -114,7 +119,9 @@ class tile_faces {
     std::optional<edge_files<placed_edge>> edges_of_soup_{};
     std::optional<edge_files<numbered_edge>> edges_after_{};
     std::vector<std::uint32_t> rows_{};     ///< that faces of a block come from
-    std::vector<std::uint32_t> corners_{};  ///< new ones of a face
+    std::vector<std::uint32_t> corners_{};  ///< new ones of a block
+    std::vector<point3> places_before_{};   ///< of these
+    std::vector<point3> places_after_{};
 };
 
 }  // namespace treeform::detail::stream

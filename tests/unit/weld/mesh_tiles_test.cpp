@@ -317,6 +317,19 @@ TEST_CASE("paged files: any record in any order, and a file that was cut") {
             same = same && file.at(at) == 3 * at;
         }
         CHECK(same);
+        // Many at a time, all over the file and then in order; by little memory in ascending order.
+        std::vector<std::uint32_t> found;
+        for (const std::uint64_t step : {1U, 7919U, 7919U, 7919U, 1U, 1U}) {
+            std::vector<std::uint32_t> of(50000);
+            for (std::size_t i = 0; i < of.size(); ++i)
+                of[i] = static_cast<std::uint32_t>(i * step % count);
+            file.look_up(of, found);
+            CHECK(file.is_scattered() == (step > 1 && memory == 1));
+            REQUIRE(found.size() == of.size());
+            same = true;
+            for (std::size_t i = 0; i < of.size(); ++i) same = same && found[i] == 3 * of[i];
+            CHECK(same);
+        }
     }
     fs::resize_file(path, 8 * 50000);
     stream::paged_file<std::uint64_t> cut(path, count, 1);
