@@ -78,4 +78,25 @@ std::size_t fixed_row_size(const element& e) {
     return size;
 }
 
+std::vector<row_place> parts_of_rows(std::uint64_t begin, std::span<const alike_rows> rows,
+                                     std::size_t count) {
+    std::uint64_t bytes = 0;
+    for (const alike_rows& some : rows) bytes += some.count * some.size;
+    std::vector<row_place> parts;
+    row_place at{.row = 0, .byte = 0};  // of `rows.front()`
+    for (std::uint64_t part = 0; part <= count; ++part) {
+        const std::uint64_t wanted =
+            bytes / count * part + bytes % count * part / count;  // without overflow
+        while (!rows.empty() && wanted >= at.byte + rows.front().count * rows.front().size) {
+            at.row += rows.front().count;
+            at.byte += rows.front().count * rows.front().size;
+            rows = rows.subspan(1);
+        }
+        const std::uint64_t more = rows.empty() ? 0 : (wanted - at.byte) / rows.front().size;
+        parts.push_back({.row = at.row + more,
+                         .byte = begin + at.byte + (more == 0 ? 0 : more * rows.front().size)});
+    }
+    return parts;
+}
+
 }  // namespace treeform::detail::io

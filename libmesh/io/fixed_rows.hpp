@@ -4,9 +4,11 @@
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/point_stream.hpp>
 
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,5 +28,17 @@ void append_fixed_rows(element& vertices, std::vector<point3>& points, std::size
 
 /// Bytes of a row; zero when a list has none of its own.
 [[nodiscard]] std::size_t fixed_row_size(const element& e);
+
+/// Rows of one size.
+struct alike_rows {
+    std::uint64_t count = 0;
+    std::uint64_t size = 0;
+};
+
+/// Where `count` parts of rows begin that have about as many bytes each, and where the last one ends;
+/// the first row is at byte `begin`.
+[[nodiscard]] std::vector<row_place> parts_of_rows(std::uint64_t begin,
+                                                   std::span<const alike_rows> rows,
+                                                   std::size_t count);
 
 }  // namespace treeform::detail::io

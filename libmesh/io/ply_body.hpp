@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,27 @@ void look_behind(Values& values, std::vector<io_warning>& warnings) {
     if (!values.only_blanks_left())
         warnings.push_back({"trailing-bytes", "there is more after the last element"});
     values.remark(warnings);
+}
+
+/// Whether rows may be passed over by the bytes that they take.
+template <class Values>
+inline constexpr bool has_bytes = requires(Values v) {
+    v.take_bytes(0);
+};
+
+/// Bytes of the next row of `e`, and of all if they are like it: no list but that of corners, the
+/// number of which is told. Zero where they cannot be.
+template <class Values>
+std::size_t alike_row_size(Values values, const element& e, std::optional<std::size_t>& corners) {
+    const std::size_t before = values.bytes_left();
+    for (const column& c : e.columns) {
+        if (c.list_length && c.role != column_role::corners) return 0;
+        const std::size_t count = c.list_length ? values.length(c) : 1;
+        if (c.list_length) corners = count;
+        if (count * size_of(c.type) > values.bytes_left()) return 0;
+        static_cast<void>(values.take_bytes(count * size_of(c.type)));
+    }
+    return before - values.bytes_left();
 }
 
 /// Calls f with the values of the body, and with the name of their format.

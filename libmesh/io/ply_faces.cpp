@@ -125,7 +125,7 @@ class ply_faces {
     }
 
     void skip_rows(const element& e, std::size_t count) {
-        if constexpr (has_bytes) {
+        if constexpr (has_bytes<Values>) {
             if (const std::size_t size = fixed_row_size(e); size > 0) {
                 static_cast<void>(values_.take_bytes(count * size));
                 return values_.end_row();
@@ -136,7 +136,7 @@ class ply_faces {
         each_run(e, count, [](const auto&) {});
     }
     void read_rows(const element& e) {
-        if constexpr (has_bytes) return skip_rows(e, e.rows);
+        if constexpr (has_bytes<Values>) return skip_rows(e, e.rows);
         each_run(e, e.rows, [](const auto&) {});
     }
 
@@ -153,24 +153,17 @@ class ply_faces {
     /// Goes to the first face of the part, if all faces ahead of it may be alike, by the bytes that
     /// they take.
     void find_first_face(face_rows& rows) {
-        if constexpr (has_bytes) {
+        if constexpr (has_bytes<Values>) {
             const std::uint64_t first = part_.first(faces_->rows);
             if (part_.size == 1 || part_.from_front) return;
-            Values one = values_;
             std::size_t behind = 0;
             for (const element& e : elements_) {
                 if (&e <= faces_ || e.rows == 0) continue;
                 if (fixed_row_size(e) == 0) return;
                 behind += e.rows * fixed_row_size(e);
             }
-            for (const column& c : faces_->columns) {
-                if (c.list_length && c.role != column_role::corners) return;
-                const std::size_t count = c.list_length ? one.length(c) : 1;
-                if (c.list_length) length_ = count;
-                static_cast<void>(one.take_bytes(count * size_of(c.type)));
-            }
-            const std::size_t size = values_.bytes_left() - one.bytes_left();
-            rows.jumped = values_.bytes_left() == faces_->rows * size + behind;
+            const std::size_t size = alike_row_size(values_, *faces_, length_);
+            rows.jumped = size > 0 && values_.bytes_left() == faces_->rows * size + behind;
             if (!rows.jumped) {
                 length_.reset();
                 return;
@@ -228,8 +221,6 @@ class ply_faces {
             values_.fail("vertex index " + std::to_string(index) + " is out of range");
         return static_cast<std::uint32_t>(index);
     }
-
-    static constexpr bool has_bytes = requires(Values v) { v.take_bytes(0); };
 
     const source& in_;
     Values values_;

@@ -5,6 +5,7 @@
 #include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,12 +20,14 @@ class ply_points {
   public:
     /// Of `vertices`, as many rows are left to read.
     ply_points(const source& in, Values values, const element& vertices,
-               std::vector<element> behind)
+               std::vector<element> behind, std::uint64_t points, const text_index* known)
         : in_(in),
           values_(std::move(values)),
           left_(vertices.rows),
           columns_(vertices),
-          behind_(std::move(behind)) {}
+          behind_(std::move(behind)),
+          all_points_(points),
+          known_(known) {}
 
     std::size_t append(std::vector<point3>& points, element& vertices, std::size_t most,
                        std::vector<io_warning>& warnings) {
@@ -61,8 +64,79 @@ class ply_points {
         return true;
     }
 
+    [[nodiscard]] row_place next_row() {
+        pass_points();
+        row_place place{.row = row_,
+                        .byte = static_cast<std::uint64_t>(values_.at() - in_.begin())};
+        for (std::size_t e = 0; e < at_; ++e) place.row += behind_[e].rows;
+        return place;
+    }
+
+    void go_to(const row_place& place) {
+        left_ = 0;
+        at_ = 0;
+        std::uint64_t row = place.row;
+        for (; at_ < behind_.size() && row >= behind_[at_].rows; ++at_) row -= behind_[at_].rows;
+        row_ = static_cast<std::size_t>(row);
+        values_.go_to(in_.begin() + std::min<std::uint64_t>(place.byte, in_.size()));
+    }
+
+    [[nodiscard]] std::vector<row_place> parts(std::size_t count) {
+        std::vector<alike_rows> rows;
+        if constexpr (has_bytes<Values>) {
+            if (left_ > 0 && fixed_row_size(columns_) == 0) return {};
+            pass_points();
+            Values values = values_;
+            std::optional<std::size_t> corners;
+            for (const element& e : behind_) {
+                std::size_t size = fixed_row_size(e);
+                if (e.name == "face") size = alike_row_size(values, e, corners);
+                if (size == 0 || e.rows > values.bytes_left() / size) return {};
+                static_cast<void>(values.take_bytes(e.rows * size));
+                rows.push_back({e.rows, size});
+            }
+            if (values.bytes_left() > 0) return {};
+            length_ = corners;
+            return parts_of_rows(static_cast<std::uint64_t>(values_.at() - in_.begin()), rows,
+                                 count);
+        } else {
+            return parts_of_text(count);
+        }
+    }
+
   private:
+    [[nodiscard]] std::vector<row_place> parts_of_text(std::size_t count) {
+        std::uint64_t rows = 0;
+        for (const element& e : behind_) rows += e.rows;
+        const bool plain = known_ != nullptr && known_->records == all_points_ + rows &&
+                           !known_->hexadecimal;  // else there is something to say at the end
+        if (!plain) return {};
+        std::vector<row_place> places;
+        for (std::size_t part = 0; part <= count; ++part) {
+            const std::uint64_t row = rows / count * part + rows % count * part / count;
+            go_to_line(all_points_ + row);
+            places.push_back({row, static_cast<std::uint64_t>(values_.at() - in_.begin())});
+        }
+        left_ = 0;
+        return places;
+    }
+    /// By way of the last mark ahead of it.
+    void go_to_line(std::uint64_t line) {
+        const text_index::mark at = known_->before(line);
+        values_.go_to(in_.begin() + std::min<std::uint64_t>(at.byte, in_.size()));
+        for (std::uint64_t left = line - at.record; left > 0; --left) values_.pass_row();
+    }
+
     void pass_points() {
+        if constexpr (has_bytes<Values>) {
+            if (const std::size_t size = fixed_row_size(columns_); size > 0) {
+                static_cast<void>(values_.take_bytes(left_ * size));
+                left_ = 0;
+            }
+        } else if (known_ != nullptr && left_ > 0) {
+            go_to_line(all_points_);
+            left_ = 0;
+        }
         constexpr std::size_t run = std::size_t{1} << 15;
         std::vector<point3> points;
         for (element rows; left_ > 0; left_ -= std::min(left_, run)) {
@@ -87,6 +161,7 @@ class ply_points {
 
     void read_corners(const column& c, row_block& block) {
         const std::size_t count = values_.length(c);
+        if (length_.value_or(count) != count) values_.fail("a face of another length");
         if (count < 3) values_.fail("face with " + std::to_string(count) + " corners");
         for (std::size_t i = 0; i < count; ++i) {
             const std::int64_t index = values_.index(c);
@@ -105,6 +180,9 @@ class ply_points {
     std::size_t at_ = 0;           ///< the one that is read
     std::size_t row_ = 0;          ///< the next of it
     std::int64_t points_ = 0;
+    std::uint64_t all_points_;  ///< of the file
+    const text_index* known_;
+    std::optional<std::size_t> length_{};  ///< of all faces, where they must be alike
 };
 
 /// The elements behind the points that have rows; what cannot be read so is refused.
@@ -161,14 +239,17 @@ point_rows open_ply_points(const source& in, std::uint64_t first, bool with_rows
         rows.head.format = format;
         if (known != nullptr) values.expect(*known);
         using reader = ply_points<decltype(values)>;
-        const auto body =
-            std::make_shared<reader>(in, std::move(values), vertices, std::move(behind));
+        const auto body = std::make_shared<reader>(in, std::move(values), vertices,
+                                                   std::move(behind), count, known);
         rows.append = [body](auto& points, element& to, std::size_t most, auto& warnings) {
             return body->append(points, to, most, warnings);
         };
         rows.behind = [body, count](row_block& block, std::size_t most, auto& warnings) {
             return body->read(block, most, count, warnings);
         };
+        rows.next_row = [body] { return body->next_row(); };
+        rows.go_to = [body](const row_place& place) { body->go_to(place); };
+        rows.row_parts = [body](std::size_t parts) { return body->parts(parts); };
     });
     rows.head.stored_as =
         binary && has_single_axes(vertices) ? precision::float32 : precision::float64;

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace treeform::detail::io {
 
@@ -29,6 +30,13 @@ class point_blocks {
     bool read(point_block& block, std::size_t most);
     bool read(row_block& block, std::size_t most) {
         return rows_.behind && rows_.behind(block, most, rows_.head.warnings);
+    }
+    [[nodiscard]] row_place next_row() { return rows_.next_row ? rows_.next_row() : row_place{}; }
+    void go_to(const row_place& place) {
+        if (rows_.go_to) rows_.go_to(place);
+    }
+    [[nodiscard]] std::vector<row_place> row_parts(std::size_t count) {
+        return rows_.row_parts ? rows_.row_parts(count) : std::vector<row_place>();
     }
 
   private:

@@ -1,6 +1,8 @@
 #include <libmesh/io/point_blocks.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
+#include <vector>
+
 namespace treeform {
 
 struct point_reader::state {
@@ -21,6 +23,12 @@ bool point_reader::read(point_block& block, std::size_t most) {
 }
 bool point_reader::read(row_block& block, std::size_t most) {
     return state_->blocks.read(block, most);
+}
+
+row_place point_reader::next_row() { return state_->blocks.next_row(); }
+void point_reader::go_to(const row_place& place) { state_->blocks.go_to(place); }
+std::vector<row_place> point_reader::row_parts(std::size_t count) {
+    return state_->blocks.row_parts(count);
 }
 
 }  // namespace treeform

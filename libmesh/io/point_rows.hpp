@@ -34,11 +34,15 @@ struct point_rows {
     /// read is passed over. False at the end. None where there is nothing to read but points.
     std::function<bool(row_block& block, std::size_t most, std::vector<io_warning>& warnings)>
         behind{};
+    /// As those of `point_reader`; there where `behind` is.
+    std::function<row_place()> next_row{};
+    std::function<void(const row_place&)> go_to{};
+    std::function<std::vector<row_place>(std::size_t count)> row_parts{};
 };
 
 /// What there is to read by runs. `in` must outlive what comes back. The `first` points, which are
 /// there, are passed over where that takes no reading; of text, those ahead of the last mark of what
-/// is `known` of it. XYZ is read once if nothing is.
+/// is `known` of it, which must outlive what comes back. XYZ is read once if nothing is.
 ///
 /// \throws io_error, whole_file_error also for a file with faces or other elements that have rows;
 ///         `with_rows` as for `point_reader`

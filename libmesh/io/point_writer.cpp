@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -86,7 +87,7 @@ struct point_writer::state {
 
     void check(const point_block& block) const {
         const element& properties = block.properties;
-        if (ended || block.points.size() > count - written)
+        if (points_end || block.points.size() > count - written)
             refuse_block("more points than were announced");
         if (properties.rows != block.points.size())
             refuse_block("another number of rows than there are points");
@@ -99,9 +100,13 @@ struct point_writer::state {
     }
 
     void check(const row_block& block) {
-        while (!behind.empty() && behind.front().rows == 0) behind.erase(behind.begin());
         const element& given = block.rows;
-        if ((written != count && !ended) || behind.empty() || given.name != behind.front().name)
+        const auto is_over = [&](const element& e) {  // other parts may have the rest of it
+            return e.rows == 0 || (points_end && e.name != given.name);
+        };
+        while (!behind.empty() && is_over(behind.front())) behind.erase(behind.begin());
+        if ((written != count && !points_end) || behind.empty() ||
+            given.name != behind.front().name)
             refuse_block("rows of " + given.name + " are not what comes next");
         if (given.rows > behind.front().rows)
             refuse_block("more rows of " + given.name + " than the header says");
@@ -120,8 +125,8 @@ struct point_writer::state {
 
     std::uint64_t count;
     std::uint64_t written = 0;
-    bool ended = false;             ///< all other points are in other parts
-    std::vector<element> behind{};  ///< rows that are to come
+    std::optional<std::uint64_t> points_end{};  ///< byte, where other points are in other parts
+    std::vector<element> behind{};              ///< rows that are to come
     std::uint64_t head_size = 0;
     write_options options;
     mesh_file head;
@@ -173,7 +178,13 @@ bool point_writer::has_parts() const { return !state_->rows.finish || state_->ro
 
 std::uint64_t point_writer::points_together() const { return state_->rows.together; }
 
-void point_writer::end_part() { state_->ended = true; }
+std::uint64_t point_writer::end_part() {
+    state& s = *state_;
+    s.points_end = s.out->size();
+    return *s.points_end - s.head_size;
+}
+
+void point_writer::leave_room(std::uint64_t bytes) { state_->out->skip(bytes); }
 
 std::string point_writer::tell_part() {
     return state_->rows.tell_part ? state_->rows.tell_part() : std::string();
@@ -185,7 +196,8 @@ point_writer::part point_writer::commit_part(write_result& result,
     if (!has_parts()) throw std::logic_error(s.file->name() + ": is not written in parts");
     const std::uint64_t behind = s.rows.finish_part ? s.rows.finish_part(told) : 0;
     s.out->flush();
-    const part made{s.head_size, s.out->size() - s.head_size - behind};
+    const std::uint64_t end = s.points_end.value_or(s.out->size() - behind);
+    const part made{s.head_size, end - s.head_size, s.out->size() - behind - end};
     s.file->commit();
     result = std::move(s.result);
     return made;

@@ -1,6 +1,7 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/io/face_rows.hpp>
+#include <libmesh/io/fixed_rows.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/reserve.hpp>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -188,8 +190,21 @@ point_rows open_stl_points(const source& in, std::uint64_t first) {
         in.release_before(facets + record_bytes * (next / 3));
         return static_cast<std::size_t>(some);
     };
-    rows.behind = [&in, facets, declared, count, next = std::uint32_t{0}](
-                      row_block& some, std::size_t most, auto&) mutable {
+    const auto at = std::make_shared<std::uint32_t>(0);  // the next facet
+    const auto place_of = [&in, facets](std::uint64_t facet) {
+        return row_place{
+            .row = facet,
+            .byte = static_cast<std::uint64_t>(facets - in.begin()) + record_bytes * facet};
+    };
+    rows.next_row = [place_of, at] { return place_of(*at); };
+    rows.go_to = [at, count](const row_place& place) {
+        *at = static_cast<std::uint32_t>(std::min<std::uint64_t>(place.row, count));
+    };
+    rows.row_parts = [place_of, count](std::size_t parts) {
+        return parts_of_rows(place_of(0).byte, std::array{alike_rows{count, record_bytes}}, parts);
+    };
+    rows.behind = [&in, facets, declared, count, at](row_block& some, std::size_t most, auto&) {
+        std::uint32_t& next = *at;
         restart(some.rows, declared);
         some.corners.clear();
         some.first_corner.assign(1, 0);

@@ -48,6 +48,7 @@ class text_values {
     }
 
     void begin_row() { text_.skip_spaces(); }
+    [[nodiscard]] const char* at() const { return text_.at; }
 
     /// Length of a list; never more than the file can hold.
     [[nodiscard]] std::size_t length(const column&) {
@@ -135,6 +136,8 @@ class byte_values {
 
     void expect(const text_index&) {}
     void begin_row() {}
+    [[nodiscard]] const char* at() const { return at_; }
+    void go_to(const char* at) { at_ = at; }
 
     [[nodiscard]] std::size_t length(const column& c) {
         const char* const start = at_;

@@ -29,6 +29,12 @@ void sink::flush() {
     }
 }
 
+void sink::skip(std::uint64_t bytes) {
+    flush();
+    if (bytes > 0 && ::lseek(fd_, static_cast<off_t>(bytes), SEEK_CUR) == static_cast<off_t>(-1))
+        throw io_error(name_ + ": " + std::generic_category().message(errno));
+}
+
 bool sink::can_replace() const {
     return memory_ != nullptr || ::lseek(fd_, 0, SEEK_CUR) != static_cast<off_t>(-1);
 }

@@ -58,6 +58,9 @@ class sink {
     /// \throws io_error
     void flush();
 
+    /// Leaves a hole of so many bytes in the file. \pre a regular file. \throws io_error
+    void skip(std::uint64_t bytes);
+
     /// Bytes that were put.
     [[nodiscard]] std::uint64_t size() const { return flushed_ + used_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 namespace treeform::detail::stream {
 namespace {
@@ -29,43 +30,66 @@ std::uint64_t count_threes(const std::vector<Edge>& uses) {
 }  // namespace
 
 template <class Edge>
-edge_files<Edge>::edge_files(const work_folder& folder, const std::string& name, std::uint64_t uses,
-                             std::uint64_t memory)
-    : most_(static_cast<std::size_t>(std::max<std::uint64_t>(memory / sizeof(Edge), 4096))) {
-    constexpr std::uint64_t most_files = 1024;
-    const std::uint64_t files = std::min(uses / (most_ / 4 * 3) + 1, most_files);
-    const std::uint64_t share = std::clamp<std::uint64_t>(memory / files, 4096, bytes_at_a_time);
-    for (std::uint64_t i = 0; i < files; ++i) {
-        paths_.push_back(folder.file(name + "." + std::to_string(i)));
-        writers_.emplace_back(paths_.back(), static_cast<std::size_t>(share));
-    }
+edge_files<Edge>::edge_files(const work_folder& folder, const team& all, std::string name,
+                             std::uint64_t uses, std::uint64_t memory)
+    : folder_(folder),
+      all_(all),
+      name_(std::move(name)),
+      most_(static_cast<std::size_t>(std::max<std::uint64_t>(memory / sizeof(Edge), 4096))) {
+    constexpr std::uint64_t most_buckets = 1024;
+    constexpr std::uint64_t buckets_of_each = 8;  // of a team, so that shares are alike
+    const std::uint64_t least = all.is_alone() ? 1 : buckets_of_each * all.size();
+    const std::uint64_t buckets =
+        std::min(std::max(uses / (most_ / 4 * 3) + 1, least), most_buckets);
+    const std::uint64_t share = std::clamp<std::uint64_t>(memory / buckets, 4096, bytes_at_a_time);
+    for (std::size_t b = 0; b < buckets; ++b)
+        writers_.emplace_back(path(b, all.rank()), static_cast<std::size_t>(share));
 }
 
 template <class Edge>
 edge_files<Edge>::~edge_files() {
     std::error_code ignored;
-    for (const auto& path : paths_) std::filesystem::remove(path, ignored);
+    for (std::size_t b = 0; b < writers_.size(); ++b)
+        std::filesystem::remove(path(b, all_.rank()), ignored);
+}
+
+template <class Edge>
+std::filesystem::path edge_files<Edge>::path(std::size_t bucket, std::size_t rank) const {
+    return folder_.file(name_ + "." + std::to_string(bucket) + "." + std::to_string(rank));
 }
 
 template <class Edge>
 std::uint64_t edge_files<Edge>::count_nonmanifold(pacer& pace) {
-    std::vector<record_count> counts;
-    for (record_writer<Edge>& writer : writers_) counts.push_back(writer.finish_unsynced());
+    state_writer mine;
+    for (record_writer<Edge>& writer : writers_) store_count(writer.finish_unsynced(), mine);
+    std::vector<std::vector<record_count>> counts;  // of [a] process in [b] bucket
+    for (state_reader& one : all_.exchange(mine)) {
+        std::vector<record_count>& some = counts.emplace_back();
+        for (std::size_t b = 0; b < writers_.size(); ++b) some.push_back(load_count(one));
+    }
     std::uint64_t count = 0;
+    const share buckets = all_.share_of(writers_.size(), all_.rank());
+    for (std::uint64_t b = buckets.first; b < buckets.last; ++b)
+        count += count_bucket(static_cast<std::size_t>(b), counts, pace);
+    return all_.sum(count);
+}
+
+template <class Edge>
+std::uint64_t edge_files<Edge>::count_bucket(std::size_t bucket,
+                                             const std::vector<std::vector<record_count>>& counts,
+                                             pacer& pace) const {
     std::vector<Edge> uses;
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
-        uses.clear();
-        record_reader<Edge> reader(paths_[i], counts[i], bytes_at_a_time);
+    for (std::size_t r = 0; r < counts.size(); ++r) {
+        record_reader<Edge> reader(path(bucket, r), counts[r][bucket], bytes_at_a_time);
         for (auto some = reader.next(); !some.empty(); some = reader.next()) {
             uses.insert(uses.end(), some.begin(), some.end());
             if (uses.size() > most_) leave_three(uses);
             pace.check();
         }
-        leave_three(uses);
-        count += count_threes(uses);
-        std::filesystem::remove(paths_[i]);
+        std::filesystem::remove(path(bucket, r));
     }
-    return count;
+    leave_three(uses);
+    return count_threes(uses);
 }
 
 template class edge_files<numbered_edge>;

@@ -1,9 +1,11 @@
 #pragma once
 /// \file
-/// Counts edges of more than two faces, of more faces than memory holds.
+/// Counts edges of more than two faces, of more faces than memory holds, which each of a team has some
+/// of.
 
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/record_file.hpp>
+#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -37,13 +39,14 @@ using placed_edge = std::array<std::uint64_t, 3>;  ///< by the places of its end
     return {from[0] << 32 | from[1], from[2] << 32 | to[0], to[1] << 32 | to[2]};
 }
 
-/// All uses of an edge go to the same of several files, each of which memory holds.
+/// All uses of an edge go to the same of several buckets, each of which memory holds. Each of a team
+/// has a file for its uses of a bucket, and counts a share of the buckets.
 template <class Edge>
 class TREEFORM_API edge_files {
   public:
-    /// For at most `uses` of edges. Files are called `name` and a number. About `memory` bytes are
-    /// held.
-    edge_files(const work_folder& folder, const std::string& name, std::uint64_t uses,
+    /// For at most `uses` of edges by all of a team. Files are called `name` and numbers. About
+    /// `memory` bytes are held.
+    edge_files(const work_folder& folder, const team& all, std::string name, std::uint64_t uses,
                std::uint64_t memory);
     ~edge_files();
     edge_files(const edge_files&) = delete;
@@ -53,11 +56,15 @@ class TREEFORM_API edge_files {
     void put(const Edge& edge) {
         writers_[static_cast<std::size_t>((mixed(edge) >> 32) * writers_.size() >> 32)].put(edge);
     }
-    /// How many edges more than two faces have. Call it once, after all were put.
-    /// \throws stream_error, cancelled
+    /// How many edges more than two faces have, of those of all of the team. Call it once, after all
+    /// were put; all come here. \throws stream_error, cancelled
     [[nodiscard]] std::uint64_t count_nonmanifold(pacer& pace);
 
   private:
+    [[nodiscard]] std::filesystem::path path(std::size_t bucket, std::size_t rank) const;
+    [[nodiscard]] std::uint64_t count_bucket(std::size_t bucket,
+                                             const std::vector<std::vector<record_count>>& counts,
+                                             pacer& pace) const;
     static std::uint64_t mixed(std::uint64_t edge) { return edge * 0x9e3779b97f4a7c15; }
     static std::uint64_t mixed(const placed_edge& edge) {
         std::uint64_t sum = 0;
@@ -65,9 +72,11 @@ class TREEFORM_API edge_files {
         return sum;
     }
 
-    std::vector<std::filesystem::path> paths_{};
-    std::vector<record_writer<Edge>> writers_{};
-    std::size_t most_;  ///< uses held at a time
+    const work_folder& folder_;
+    const team& all_;
+    std::string name_;
+    std::vector<record_writer<Edge>> writers_{};  ///< for each bucket
+    std::size_t most_;                            ///< uses held at a time
 };
 
 extern template class edge_files<numbered_edge>;

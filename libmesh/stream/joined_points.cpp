@@ -71,8 +71,7 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team
 void joined_points::open(std::size_t file, std::uint64_t first) {
     reader_.reset();
     const bool is_alone = inputs_.paths.size() == 1;
-    const auto& text = texts_[file];
-    reader_.emplace(inputs_.paths[file], inputs_.format, first, is_alone, text ? &*text : nullptr);
+    reader_.emplace(inputs_.paths[file], inputs_.format, first, is_alone, text(file));
     file_ = file;
     if (inputs_.paths.size() > 1) fits_ = same_columns(head_, reader_->header());
 }

@@ -48,6 +48,10 @@ class joined_points {
 
     [[nodiscard]] std::size_t files() const { return formats_.size(); }
     [[nodiscard]] const std::string& format(std::size_t file) const { return formats_[file]; }
+    /// What is known of it where it is text, or null.
+    [[nodiscard]] const io::text_index* text(std::size_t file) const {
+        return texts_[file] ? &*texts_[file] : nullptr;
+    }
 
     /// Of files that were read to their ends.
     [[nodiscard]] const std::vector<io_warning>& warnings() const { return warnings_; }

@@ -36,6 +36,33 @@ class paged_file {
         if (held_[slot] != p) load(p, slot);
         return records_[slot * page + static_cast<std::size_t>(i % page)];
     }
+    /// Those of the numbers `of`, fewer than 2^32. Where the last ones were all over the file, they are
+    /// looked up in ascending order, so that each page is read once.
+    ///
+    /// \throws stream_error
+    template <class To>
+    void look_up(std::span<const std::uint32_t> of, std::vector<To>& found) {
+        constexpr std::uint64_t numbers_a_load = 16;
+        const std::uint64_t before = loads_;
+        std::uint64_t far = 0;  // from the one before, so that its page would not stay for long
+        found.resize(of.size());
+        if (is_scattered_) {
+            sorted_.clear();
+            for (std::size_t i = 0; i < of.size(); ++i) {
+                const auto [low, high] = std::minmax(of[i], of[i == 0 ? 0 : i - 1]);
+                far += high - low > slots_ * page / 4 ? 1 : 0;
+                sorted_.push_back(std::uint64_t{of[i]} << 32 | i);
+            }
+            std::sort(sorted_.begin(), sorted_.end());
+            for (const std::uint64_t s : sorted_)
+                found[static_cast<std::uint32_t>(s)] = static_cast<To>(at(s >> 32));
+        } else {
+            for (std::size_t i = 0; i < of.size(); ++i) found[i] = static_cast<To>(at(of[i]));
+        }
+        is_scattered_ = std::max(loads_ - before, far) * numbers_a_load > of.size();
+    }
+    /// Whether the next ones will be: the more at a time, the fewer pages are read.
+    [[nodiscard]] bool is_scattered() const { return is_scattered_; }
 
   private:
     static constexpr std::size_t page = sizeof(Record) > 8 ? 128 : 512;
@@ -46,6 +73,7 @@ class paged_file {
             static_cast<std::size_t>(std::min<std::uint64_t>(page, count_ - p * page));
         const auto bytes = std::as_writable_bytes(std::span(records_).subspan(slot * page, some));
         held_[slot] = none;
+        ++loads_;
         if (file_.read(p * page * sizeof(Record), bytes) != bytes.size())
             fail_damaged(file_.path());
         held_[slot] = p;
@@ -56,6 +84,9 @@ class paged_file {
     std::size_t slots_ = 1;
     std::vector<std::uint64_t> held_{};
     std::vector<Record> records_{};
+    std::uint64_t loads_ = 0;
+    bool is_scattered_ = false;
+    std::vector<std::uint64_t> sorted_{};  ///< numbers that are looked up, and which they are
 };
 
 }  // namespace treeform::detail::stream

@@ -17,8 +17,6 @@
 namespace treeform::detail::stream {
 namespace {
 
-constexpr std::size_t rows_a_block = std::size_t{1} << 15;
-
 const char* const renumbering_name = "new_numbers";
 const char* const places_before_name = "places_before";
 const char* const places_after_name = "places_after";
@@ -85,27 +83,7 @@ class records_of_all {
     record_writer<Record> writer_;
 };
 
-bool are_zeros(const element& e) {
-    return std::ranges::all_of(e.columns, [](const column& c) {
-        return std::ranges::all_of(c.values, [](std::byte b) { return b == std::byte{0}; });
-    });
-}
-
-/// Corners of the face that has most.
-std::size_t longest(const row_block& block) {
-    std::size_t most = 0;
-    for (std::size_t f = 0; f < block.rows.rows; ++f)
-        most = std::max<std::size_t>(most, block.first_corner[f + 1] - block.first_corner[f]);
-    return most;
-}
-
 }  // namespace
-
-bool has_rows_behind(const mesh_file& header) {
-    return std::ranges::any_of(header.attributes.elements, [](const element& e) {
-        return e.name != "vertex" && e.rows > 0 && !e.columns.empty();
-    });
-}
 
 tile_faces::~tile_faces() {
     if (!steps_.all().leads()) return;
@@ -114,77 +92,39 @@ tile_faces::~tile_faces() {
         std::filesystem::remove(folder_.file(name), ignored);
 }
 
+stream_error tile_faces::changed() const {
+    const std::filesystem::path& input = task_.inputs.paths.front();
+    return stream_error(stream_error::reason::input_changed, input,
+                        input.string() + ": the file changed while it was read");
+}
+
 template <class Take>
-std::vector<io_warning> tile_faces::each_block(const Take& take) {
-    const cloud_inputs& in = task_.inputs;
-    const std::uint64_t points = steps_.source().count().value_or(0);
-    point_reader reader(in.paths.front(), in.format, points, true);
+void tile_faces::each_block(bool whole, const Take& take) {
+    io::point_blocks reader = open();
+    const bool in_parts = !parts_.empty();
+    const std::size_t first = whole ? 0 : steps_.all().rank();
+    const std::size_t last = whole ? steps_.all().size() : first + 1;
+    if (in_parts) reader.go_to(parts_[first]);
+    std::uint64_t left =
+        in_parts ? parts_[last].row - parts_[first].row : std::numeric_limits<std::uint64_t>::max();
     row_block block;
-    while (reader.read(block, rows_a_block)) {
+    while (left > 0 && reader.read(block, rows_of_next(left, rows_at_once_))) {
+        left -= block.rows.rows;
         take(block);
         pace_.check();
     }
-    return reader.header().warnings;
+    if (in_parts && left > 0) throw changed();
 }
 
-void tile_faces::look(cloud_survey& survey) {
-    if (reads_rows()) look_at_rows(survey);
-    if (!steps_.all().is_alone()) share_look(survey);
-    if (survey.disk_bytes > 0)
-        survey.disk_bytes += 8 * survey.points + 48 * survey.triangles +
-                             (survey.tolerance > 0.0 ? 48 * survey.points : 0);
-}
-
-void tile_faces::look_at_rows(cloud_survey& survey) {
-    survey.faces = survey.triangles = 0;
-    is_blank_ = is_soup_;
-    const std::vector<io_warning> warnings = each_block([&](const row_block& block) {
-        if (block.rows.name != "face") return;
-        survey.faces += block.rows.rows;
-        survey.triangles += block.corners.size() - 2 * block.rows.rows;
-        is_blank_ = is_blank_ && are_zeros(block.rows);
-        most_corners_ = std::max(most_corners_, longest(block));
-    });
-    for (const io_warning& w : warnings)
-        if (std::ranges::find(survey.warnings, w.text, &io_warning::text) == survey.warnings.end())
-            survey.warnings.push_back(w);
-    if (survey.triangles > std::numeric_limits<std::uint32_t>::max())
-        throw io_error(task_.inputs.paths.front().string() +
-                       ": more triangles than 32-bit numbers can name");
-}
-
-/// What the last one has seen, for all.
-void tile_faces::share_look(cloud_survey& survey) {
-    state_writer mine;
-    if (reads_rows()) {
-        for (const std::uint64_t n :
-             {survey.faces, survey.triangles, std::uint64_t{most_corners_},
-              std::uint64_t{is_blank_}, std::uint64_t{survey.warnings.size()}})
-            mine.number(n);
-        for (const io_warning& w : survey.warnings) {
-            mine.text(w.code);
-            mine.text(w.text);
-        }
-    }
-    state_reader last = std::move(steps_.all().exchange(mine).back());
-    survey.faces = last.number();
-    survey.triangles = last.number();
-    most_corners_ = static_cast<std::size_t>(last.number());
-    is_blank_ = last.number() != 0;
-    survey.warnings.clear();
-    for (std::uint64_t left = last.number(); left > 0 && last.whole(); --left) {
-        std::string code = last.text();
-        survey.warnings.push_back({std::move(code), last.text()});
-    }
-}
-
-/// Each of a team does it for its points.
+/// Each of a team does it for its points; and looks at the facets of a soup that begin with one.
 void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_moves) {
     const team& all = steps_.all();
     const share& mine = welded.points;
     new_numbers renumbered(pace_, folder_, all, steps_, welded);
     joined_points& source = steps_.source();
-    source.rewind(mine);
+    share corners = mine;
+    if (is_soup_) corners.last = (mine.last + 2) / 3 * 3;
+    source.rewind(corners);
     if (rows != nullptr) rows->rewind();
     records_of_all<std::uint64_t> renumbering(folder_, all, renumbering_name);
     std::optional<records_of_all<point3>> before;
@@ -193,10 +133,9 @@ void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_m
     if (has_moves) after.emplace(folder_, all, places_after_name);
     std::uint64_t point = mine.first;
     for (point_block block; source.read(block, points_a_block); pace_.check()) {
-        if (before)
-            for (const point3& p : block.points) before->put(p);
-        if (is_soup_ && all.is_alone()) look_at_corners(block);
-        for (std::size_t i = 0; i < block.points.size(); ++i, ++point) {
+        if (is_soup_) look_at_corners(block, point);
+        for (std::size_t i = 0; i < block.points.size() && point < mine.last; ++i, ++point) {
+            if (before) before->put(block.points[i]);
             renumbering.put(renumbered.of(point));
             if (!after || !welded.kept.keeps(point)) continue;
             if (rows != nullptr && !welded.followed->keeps(point)) rows->replace(block, i);
@@ -214,17 +153,12 @@ void tile_faces::open_numbers() {
                          task_.options.memory / 4);
 }
 
-void tile_faces::look_at_soup() {
-    joined_points& source = steps_.source();
-    source.rewind();
-    for (point_block block; source.read(block, points_a_block); pace_.check())
-        look_at_corners(block);
-}
-
-/// Of a soup, as of what `weld` looks at: equal corners are one.
-void tile_faces::look_at_corners(const point_block& block) {
+/// Of a soup, as of what `weld` looks at: equal corners are one. The block begins with `point`.
+void tile_faces::look_at_corners(const point_block& block, std::uint64_t point) {
     std::vector<point3>& held = corners_of_soup_;
     for (const point3& p : block.points) {
+        const bool begins = point++ % 3 == 0;
+        if (held.empty() && !begins) continue;  // its facet began with a point of another
         held.push_back(p);
         if (held.size() < 3) continue;
         const auto equal = [&](std::size_t i, std::size_t j) {
@@ -247,17 +181,15 @@ void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts&
     counts_ = counts;
     const std::uint64_t uses = 3 * steps_.survey().triangles;
     const std::uint64_t memory = task_.options.memory / 8;
-    if (reads_rows() && is_soup_)
-        edges_of_soup_.emplace(folder_, "edges_before", uses, memory);
-    else if (reads_rows())
-        edges_before_.emplace(folder_, "edges_before", uses, memory);
+    const team& all = steps_.all();
+    if (is_soup_)
+        edges_of_soup_.emplace(folder_, all, "edges_before", uses, memory);
+    else
+        edges_before_.emplace(folder_, all, "edges_before", uses, memory);
     number_points(welded, rows, counts.max_displacement > 0.0);
     steps_.step_done();
-    if (reads_rows()) {
-        if (is_soup_ && !steps_.all().is_alone()) look_at_soup();
-        edges_after_.emplace(folder_, "edges_after", uses, memory);
-        carry_all();
-    }
+    edges_after_.emplace(folder_, all, "edges_after", uses, memory);
+    carry_all();
     share_counts();
     counts = counts_;
     steps_.step_done();
@@ -272,36 +204,37 @@ void tile_faces::carry_all() {
     }
     counts_now_ = true;
     row_block carried;
-    each_block([&](const row_block& block) {
+    each_block(false, [&](const row_block& block) {
         if (block.rows.name != "face") return;
         carry(block, carried);
         counts_.faces += carried.rows.rows;
-        most_kept_corners_ = std::max(most_kept_corners_, longest(carried));
+        most_kept_corners_ = std::max(most_kept_corners_, longest_face(carried));
     });
     counts_now_ = false;
     before_.reset();
     after_.reset();
+    places_before_ = {};
+    places_after_ = {};
     counts_.nonmanifold_before = is_soup_ ? edges_of_soup_->count_nonmanifold(pace_)
                                           : edges_before_->count_nonmanifold(pace_);
     edges_of_soup_.reset();
     edges_before_.reset();
-    if (is_soup_) counts_.collapsed -= counts_.degenerate;  // those collapse, too
     counts_.nonmanifold_after = edges_after_->count_nonmanifold(pace_);
     edges_after_.reset();
 }
 
-/// What the last one has counted, for all.
+/// Sums up what all have counted, of which edges are of all already.
 void tile_faces::share_counts() {
-    const std::array counted{
-        &counts_.faces,      &counts_.triangles,          &counts_.collapsed,
-        &counts_.degenerate, &counts_.nonmanifold_before, &counts_.nonmanifold_after,
-        &counts_.flipped};
+    const std::array counted{&counts_.faces, &counts_.triangles, &counts_.collapsed,
+                             &counts_.degenerate, &counts_.flipped};
     state_writer mine;
-    for (const std::uint64_t* n : counted) mine.number(*n);
+    for (std::uint64_t* n : counted) mine.number(std::exchange(*n, 0));
     mine.number(most_kept_corners_);
-    state_reader last = std::move(steps_.all().exchange(mine).back());
-    for (std::uint64_t* n : counted) *n = last.number();
-    most_kept_corners_ = static_cast<std::size_t>(last.number());
+    for (state_reader& one : steps_.all().exchange(mine)) {
+        for (std::uint64_t* n : counted) *n += one.number();
+        most_kept_corners_ = std::max(most_kept_corners_, static_cast<std::size_t>(one.number()));
+    }
+    if (is_soup_) counts_.collapsed -= counts_.degenerate;  // those collapse, too
 }
 
 /// As `weld` and `rejoin_polygons` do in memory: of the fans of polygons, triangles that collapse are
@@ -310,23 +243,34 @@ void tile_faces::carry(const row_block& from, row_block& to) {
     rows_.clear();
     to.corners.clear();
     to.first_corner.assign(1, 0);
-    const std::span<const std::uint32_t> corners(from.corners);
-    for (std::uint32_t f = 0; f < from.rows.rows; ++f)
-        carry_face(
-            corners.subspan(from.first_corner[f], from.first_corner[f + 1] - from.first_corner[f]),
-            f, to);
+    look_up(from.corners);
+    for (std::uint32_t f = 0; f < from.rows.rows; ++f) carry_face(from, f, to);
     to.rows = gather(from.rows, rows_);
 }
 
-void tile_faces::carry_face(std::span<const std::uint32_t> corners, std::uint32_t row,
-                            row_block& to) {
-    corners_.clear();
-    for (const std::uint32_t corner : corners) corners_.push_back(number_of(corner));
+void tile_faces::look_up(std::span<const std::uint32_t> corners) {
+    constexpr std::uint64_t bytes_a_row = 300;
+    numbers_->look_up(corners, corners_);
+    bool scattered = numbers_->is_scattered();
+    if (before_) {
+        before_->look_up(corners, places_before_);
+        after_->look_up(corners_, places_after_);
+        scattered = scattered || before_->is_scattered() || after_->is_scattered();
+    }
+    const std::uint64_t most = scattered ? task_.options.memory / 8 / bytes_a_row : 0;
+    rows_at_once_ = std::max(rows_a_block, static_cast<std::size_t>(most));
+}
+
+void tile_faces::carry_face(const row_block& from, std::uint32_t row, row_block& to) {
+    const auto first = static_cast<std::size_t>(from.first_corner[row]);
+    const auto end = static_cast<std::size_t>(from.first_corner[row + 1]);
+    const std::vector<std::uint32_t>& corners = from.corners;
     std::optional<grown_face> grown;
-    std::size_t last = 0;  // corner of the triangle before
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-        const face after{corners_[0], corners_[i - 1], corners_[i]};
-        if (!is_kept({corners[0], corners[i - 1], corners[i]}, after)) continue;
+    std::size_t last = first;  // corner of the triangle before
+    for (std::size_t i = first + 2; i < end; ++i) {
+        const face after{corners_[first], corners_[i - 1], corners_[i]};
+        if (!is_kept({corners[first], corners[i - 1], corners[i]}, after, {first, i - 1, i}))
+            continue;
         const bool continues = grown && after[1] == corners_[last] &&
                                (task_.options.keep_degenerate || !grown->has(after[2]));
         if (continues) {
@@ -342,7 +286,7 @@ void tile_faces::carry_face(std::span<const std::uint32_t> corners, std::uint32_
     if (grown) to.first_corner.push_back(to.corners.size());
 }
 
-bool tile_faces::is_kept(const face& before, const face& after) {
+bool tile_faces::is_kept(const face& before, const face& after, const corners_of_block& at) {
     const bool was_whole = base::has_three_corners(before);
     const bool is_whole = base::has_three_corners(after);
     const bool kept = is_whole || task_.options.keep_degenerate;
@@ -355,17 +299,15 @@ bool tile_faces::is_kept(const face& before, const face& after) {
     }
     if (!kept) return false;
     ++counts_.triangles;
-    if (before_ && is_flipped(before, after)) ++counts_.flipped;
+    if (before_ && is_flipped(at)) ++counts_.flipped;
     return true;
 }
 
-bool tile_faces::is_flipped(const face& before, const face& after) {
-    const auto places = [](paged_file<point3>& at, const face& f) {
-        const point3 a = at.at(f[0]);
-        const point3 b = at.at(f[1]);
-        return plane_points{a, b, at.at(f[2])};
+bool tile_faces::is_flipped(const corners_of_block& at) const {
+    const auto places = [&](const std::vector<point3>& of) {
+        return plane_points{of[at[0]], of[at[1]], of[at[2]]};
     };
-    return weld::is_flipped(places(*before_, before), places(*after_, after));
+    return weld::is_flipped(places(places_before_), places(places_after_));
 }
 
 void tile_faces::renumber(row_block& block) {
@@ -393,20 +335,23 @@ void tile_faces::drop_blank(element& faces) const {
     if (is_blank_) faces.columns.clear();
 }
 
-void tile_faces::give(point_writer& to, bool all) {
+void tile_faces::give(point_writer& to, bool all, bool whole) {
     open_numbers();
     row_block carried;
-    each_block([&](row_block& block) {
+    std::uint64_t faces = 0;
+    each_block(whole, [&](row_block& block) {
         if (block.rows.name == "face") drop_blank(block.rows);
         if (all) return to.write(block);
         if (block.rows.name == "face") {
             carry(block, carried);
+            faces += carried.rows.rows;
             if (carried.rows.rows > 0) to.write(carried);
             return;
         }
         renumber(block);
         to.write(block);
     });
+    if (!whole && !all && steps_.all().sum(faces) != counts_.faces) throw changed();
 }
 
 }  // namespace treeform::detail::stream

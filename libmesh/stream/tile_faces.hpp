@@ -2,6 +2,7 @@
 /// \file
 /// Faces, and other rows behind the points, of a mesh that is welded in tiles.
 
+#include <libmesh/io/point_blocks.hpp>
 #include <libmesh/stream/edge_files.hpp>
 #include <libmesh/stream/kept_rows.hpp>
 #include <libmesh/stream/paged_file.hpp>
@@ -9,6 +10,8 @@
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/predicates.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,9 +20,23 @@
 
 namespace treeform::detail::stream {
 
+inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
+
+/// How many are read at once where so many are left.
+[[nodiscard]] inline std::size_t rows_of_next(std::uint64_t left, std::size_t most = rows_a_block) {
+    return static_cast<std::size_t>(std::min<std::uint64_t>(left, most));
+}
+
+/// Corners of the face that has most.
+[[nodiscard]] std::size_t longest_face(const row_block& block);
+
 /// Whether a file has rows behind its points.
 [[nodiscard]] bool has_rows_behind(const mesh_file& header);
 
+/// Each of a team has a share of the rows: a part of the file of about as many bytes as those of
+/// others. Where that is known without reading them (`point_reader::row_parts`, and in text), each
+/// looks at its own; else, as where faces have any number of corners, the last one looks at all, and
+/// tells where parts begin.
 class tile_faces {
   public:
     tile_faces(pacer& pace, const work_folder& folder, const tile_task& task, tile_steps& steps)
@@ -33,12 +50,10 @@ class tile_faces {
     tile_faces& operator=(const tile_faces&) = delete;
 
     /// Reads all rows once. Counts faces in `survey`, which gets what is to be said of the end of the
-    /// file. All of a team come here, and to `weld`; the last one, which writes the end of the file,
-    /// reads the rows.
-    /// \throws io_error for what is not as it should be; cancelled
+    /// file. All of a team come here, and to `weld`.
+    /// \throws io_error for what is not as it should be, the first of it in the file; cancelled
     void look(cloud_survey& survey);
-    /// Reads the points and the rows once; of a soup the last of a team reads all points once more.
-    /// `rows` as for `give_back`.
+    /// Reads the points and the rows once, each of a team its share. `rows` as for `give_back`.
     /// \throws stream_error, cancelled
     void weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts);
     /// How many rows `give` will write. With `all`, faces stay as they are.
@@ -46,28 +61,38 @@ class tile_faces {
     [[nodiscard]] std::size_t most_corners(bool all) const {
         return all ? most_corners_ : most_kept_corners_;
     }
-    /// Reads the rows once more. One of a team comes here. \pre `weld` was called
-    void give(point_writer& to, bool all);
+    /// Reads the rows once more: all of them, for one of a team; or its share, when all come here.
+    /// \pre `weld` was called
+    void give(point_writer& to, bool all, bool whole);
 
   private:
-    /// Returns what is to be said of the file.
+    using corners_of_block = std::array<std::size_t, 3>;
+
+    [[nodiscard]] io::point_blocks open() const;
+    [[nodiscard]] stream_error changed() const;
+    /// Calls `take` with the rows of the share, or of the whole file.
     template <class Take>
-    std::vector<io_warning> each_block(const Take& take);
-    [[nodiscard]] bool reads_rows() const { return steps_.all().rank() + 1 == steps_.all().size(); }
-    void look_at_rows(cloud_survey& survey);
-    void share_look(cloud_survey& survey);
+    void each_block(bool whole, const Take& take);
+    [[nodiscard]] bool is_last() const { return steps_.all().rank() + 1 == steps_.all().size(); }
+    void start_look(cloud_survey& survey);
+    [[nodiscard]] bool look_at_part(cloud_survey& survey);
+    void look_at_whole(cloud_survey& survey);
+    void look_at_rows(const row_block& block, cloud_survey& survey);
+    void end_look(const io::point_blocks& reader, cloud_survey& survey) const;
+    [[nodiscard]] bool share_look(cloud_survey& survey, bool seen);
+    void divide(const std::vector<row_place>& places);
     void number_points(tiles_welded& welded, kept_rows* rows, bool has_moves);
     void open_numbers();
     void carry_all();
     void share_counts();
-    void look_at_soup();
-    void look_at_corners(const point_block& block);
+    void look_at_corners(const point_block& block, std::uint64_t point);
     void drop_blank(element& faces) const;
     void carry(const row_block& from, row_block& to);
-    void carry_face(std::span<const std::uint32_t> corners, std::uint32_t row, row_block& to);
+    void look_up(std::span<const std::uint32_t> corners);
+    void carry_face(const row_block& from, std::uint32_t row, row_block& to);
     void renumber(row_block& block);
-    [[nodiscard]] bool is_kept(const face& before, const face& after);
-    [[nodiscard]] bool is_flipped(const face& before, const face& after);
+    [[nodiscard]] bool is_kept(const face& before, const face& after, const corners_of_block& at);
+    [[nodiscard]] bool is_flipped(const corners_of_block& at) const;
     [[nodiscard]] std::uint32_t number_of(std::uint64_t point) {
         return static_cast<std::uint32_t>(numbers_->at(point));
     }
@@ -76,6 +101,9 @@ class tile_faces {
     const work_folder& folder_;
     const tile_task& task_;
     tile_steps& steps_;
+    std::vector<row_place>
+        parts_{};  ///< of a team: where that of each begins, and the last one ends
+    std::size_t rows_at_once_ = rows_a_block;
     std::size_t most_corners_ = 0;
     std::size_t most_kept_corners_ = 0;
     weld_stream_counts counts_{};
@@ -91,7 +119,9 @@ class tile_faces {
     std::optional<edge_files<placed_edge>> edges_of_soup_{};
     std::optional<edge_files<numbered_edge>> edges_after_{};
     std::vector<std::uint32_t> rows_{};     ///< that faces of a block come from
-    std::vector<std::uint32_t> corners_{};  ///< new ones of a face
+    std::vector<std::uint32_t> corners_{};  ///< new ones of a block
+    std::vector<point3> places_before_{};   ///< of these
+    std::vector<point3> places_after_{};
 };
 
 }  // namespace treeform::detail::stream

@@ -69,8 +69,13 @@ class points_out {
             leading_.emplace(folder, *all_, "leading." + name, header, mine, together);
     }
     void write(tile_faces& faces, bool all) {
-        if (all_ != nullptr) writer_.end_part();
-        faces.give(writer_, all);
+        if (all_ != nullptr) {
+            const std::uint64_t mine = writer_.end_part();
+            const std::uint64_t points = all_->sum(mine);
+            // That of the first one becomes the whole: the points of others are ahead of its rows.
+            if (all_->leads()) writer_.leave_room(points - mine);
+        }
+        faces.give(writer_, all, all_ == nullptr);
     }
     write_result commit() {
         if (all_ == nullptr) return writer_.commit();
@@ -84,27 +89,38 @@ class points_out {
         std::string head(static_cast<std::size_t>(part.head), '\0');
         if (read_from(path_, 0, std::as_writable_bytes(std::span(head))) != head.size())
             fail_damaged(path_);
+        const bool is_last = all_->rank() + 1 == all_->size();
+        const std::uint64_t rows =
+            is_last ? fs::file_size(path_) - part.head - part.points : part.rows;
         state_writer mine;
         mine.number(part.points);
+        mine.number(rows);
         mine.real(result.max_displacement);
         mine.text(path_.string());
         mine.text(head);
         std::vector<state_reader> told = all_->exchange(mine);
         std::uint64_t at = part.head;
+        std::uint64_t rows_at = part.head;
         fs::path whole;
         std::vector<std::string> heads;
         for (std::size_t r = 0; r < told.size(); ++r) {
             const std::uint64_t bytes = told[r].number();
-            if (r < all_->rank()) at += bytes;
+            const std::uint64_t rows_of_one = told[r].number();
+            rows_at += bytes;
+            if (r < all_->rank()) {
+                at += bytes;
+                rows_at += rows_of_one;
+            }
             result.max_displacement = std::max(result.max_displacement, told[r].real());
             const std::string path = told[r].text();
             if (r == 0) whole = path;
             if (bytes > 0) heads.push_back(told[r].text());
         }
         if (heads.empty()) heads.push_back(head);
-        const bool is_last = all_->rank() + 1 == all_->size();
-        const std::uint64_t size = is_last ? fs::file_size(path_) - part.head : part.points;
-        if (!all_->leads()) copy_bytes(path_, part.head, whole, at, size);
+        if (!all_->leads()) {
+            copy_bytes(path_, part.head, whole, at, part.points);
+            copy_bytes(path_, part.head + part.points, whole, rows_at, rows);
+        }
         if (all_->leads()) {
             const std::string joined = point_writer::join_heads(heads);
             write_to(whole, 0, std::as_bytes(std::span(joined)));
@@ -346,8 +362,7 @@ class giving_back {
                                     static_cast<double>(mine.size()));
         });
         steps_.step_done();
-        const bool is_end = !is_divided_ || all_.rank() + 1 == all_.size();
-        if (result_ && faces_ != nullptr && is_end) result_->write(*faces_, drops_nothing());
+        if (result_ && faces_ != nullptr) result_->write(*faces_, drops_nothing());
         if (removed_) written_.removed = removed_->commit();
         if (result_) written_.welded = result_->commit();
         if (map_) map_->commit();

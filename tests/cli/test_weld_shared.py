@@ -295,29 +295,34 @@ class Shared(WeldTest):
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_no_rank_knows_much_more_of_a_file_than_its_share(self):
-        size = 4
         points = [(100.0 + 0.5 * (i % 97), 100.0 + 0.25 * (i // 97), 100.0, 0.5) for i in range(9000)]
-        rows = ["%.4f %.4f %.4f %.4f\n" % p for p in points]
-        head = lambda text: (text + "end_header\n").encode()
+        corners = [(3, i, i + 1, i + 97) for i in range(8800)]
+        rows = [b"%.4f %.4f %.4f %.4f\n" % p for p in points]
         axes = "".join(f"property double {name}\n" for name in ("x", "y", "z", "t"))
-        for name, first, lines in (
+        of_faces = "element face 8800\nproperty list uchar int vertex_indices\n"
+        head = lambda form, more="": (f"ply\nformat {form} 1.0\nelement vertex 9000\n{axes}{more}"
+                                      "end_header\n").encode()
+        binary = [struct.pack("<4d", *p) for p in points]
+        for name, *parts in (
                 ("in.xyz", b"# by hand\n", rows),
-                ("in.csv", b"x,y,z,t\n", [row.replace(" ", ",") for row in rows]),
+                ("in.csv", b"x,y,z,t\n", [row.replace(b" ", b",") for row in rows]),
                 ("in.pts", b"9000\n", rows),
-                ("in.ply", head(f"ply\nformat ascii 1.0\nelement vertex 9000\n{axes}"), rows),
                 ("in.pcd", b"VERSION .7\nFIELDS x y z t\nSIZE 8 8 8 8\nTYPE F F F F\nCOUNT 1 1 1 1\n"
                  b"WIDTH 9000\nHEIGHT 1\nPOINTS 9000\nDATA ascii\n", rows),
-                ("b.ply", head(f"ply\nformat binary_little_endian 1.0\nelement vertex 9000\n{axes}"),
-                 [struct.pack("<4d", *p) for p in points])):
-            lines = [line if isinstance(line, bytes) else line.encode() for line in lines]
-            whole = first + b"".join(lines)
+                ("in.ply", head("ascii"), rows),
+                ("binary.ply", head("binary_little_endian"), binary),
+                ("mesh.ply", head("ascii", of_faces), rows,
+                 [b"%d %4d %4d %4d\n" % face for face in corners]),
+                ("binary_mesh.ply", head("binary_little_endian", of_faces), binary,
+                 [struct.pack("<B3i", *face) for face in corners])):
+            whole = parts[0] + b"".join(row for part in parts[1:] for row in part)
             self.write(name, whole)
             gives = ["-t", "0.3", "-o", "out.ply", "--removed", "gone.ply"]
             self.run_tool(name, *gives, status=0)
             expected = self.written()
-            names = [f"{rank}.{name}" for rank in range(size)]
+            names = [f"{rank}.{name}" for rank in range(4)]
             for rank, copy in enumerate(names):
-                self.write(copy, for_rank(rank, size, first, lines))
+                self.write(copy, for_rank(rank, 4, *parts))
             with self.subTest(name=name):
                 run = self.mpi_each([[copy, *gives, "-r", "-", "--tile-points", 900, "--work", "tiles"]
                                      for copy in names])

@@ -91,6 +91,14 @@ def mesh(rng, encoding, points, faces, edges=True):
     return ply_mesh(encoding, [("vertex", VERTEX, rows), ("face", FACE, faces)] + behind)
 
 
+def triangles(encoding, points, faces, edges):
+    """Without lists but those of corners, which are alike if the faces are."""
+    rows = [(*p, 0.0, 7, 0, 0.0) for p in points]
+    return ply_mesh(encoding, [
+        ("vertex", VERTEX, rows), ("face", FACE[:2], [(f, i % 9) for i, f in enumerate(faces)]),
+        *([("edge", EDGE, edges)] if edges else [])])
+
+
 def stl(points, faces, bits=0):
     rows = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(x for p in f for x in points[p]), bits * i % 7)
                     for i, f in enumerate(faces))
@@ -291,6 +299,10 @@ class TilesOfMeshes(WeldTest):
         small, big, text = (encoding + ".ply" for encoding in
                             ("binary_little_endian", "binary_big_endian", "ascii"))
         self.write("few.ply", mesh(self.rng, "ascii", points[:4], [(0, 1, 2), (1, 2, 3)]))
+        alike = [f[:3] for f in faces] + [faces[3][:3]] * 2 + [(4, 4, 5)]
+        self.write("alike.ply", triangles("binary_big_endian", points, alike,
+                                          [(i, 2 * i, i % 3) for i in range(90)]))
+        self.write("ends.ply", self.read_bytes("alike.ply") + b"more")
         self.write("in.stl", stl(*soup(points[:99], [f[:3] for f in faces if max(f) < 99] +
                                        [(7, 7, 8), (8, 9, 8)], self.rng)))
         across, gone = ["--across", "normal,color"], ["--removed", "gone.ply", "--map", "map.csv"]
@@ -304,6 +316,11 @@ class TilesOfMeshes(WeldTest):
                                "map.csv"], "out.ply"),
                 ((4,), small, ["-t", "0.15", "--order", "x", "--keep-degenerate", *gone], "out.obj"),
                 ((7,), "few.ply", ["-t", "9", *gone], "out.ply"),
+                ((2, 4, 7), "alike.ply", ["-t", "0.02", *gone], "out.ply"),
+                ((3,), "alike.ply", ["-t", "0.02", "--keep", "mean", "--ascii"], "out.ply"),
+                ((4,), "alike.ply", ["-t", "0.15", "--rule", "chain", *gone], "out.obj"),
+                ((3,), "alike.ply", ["-t", "0.02", "--label", "group", "--map", "map.csv"], "out.ply"),
+                ((4,), "ends.ply", ["-t", "0.02", *gone], "out.ply"),
                 ((2, 4), "in.stl", ["--removed", "gone.csv"], "out.ply"),
                 ((3,), "in.stl", ["-t", "0.1", "--rule", "chain", *gone], "out.obj")):
             command = [name, *options, "-o", out, "--tile-points", 30]
@@ -349,10 +366,17 @@ class TilesOfMeshes(WeldTest):
             run = self.mpi(size, name, *options, status=status)
             self.assertEqual(run.err.count(words), 1, msg=run.err)
             self.assertEqual(self.listing(), inputs)
-        for name in ("far.ply", "two.ply", "cut.ply"):
+        middle = [*faces, (0, 36, 1), *faces, (0, 1), (0, 1, 37), *faces]
+        alike = [f[:3] for f in middle if len(f) > 2]
+        self.write("mixed.ply", ply_mesh("binary_little_endian", [
+            ("vertex", VERTEX, rows), ("face", FACE[:1], [(f,) for f in middle])]))
+        self.write("middle.ply", triangles("binary_little_endian", points, alike, []))
+        self.write("text.ply", triangles("ascii", points, alike, []))
+        for name in ("far.ply", "two.ply", "cut.ply", "mixed.ply", "middle.ply", "text.ply"):
             said = self.run_tool(name, "-o", "out.ply", "--tile-points", 9, status=3).err
             last = said.splitlines()[-1]
-            self.assertIn(last, self.mpi(3, name, "-o", "out.ply", status=3).err)
+            for size in (2, 4):
+                self.assertIn(last, self.mpi(size, name, "-o", "out.ply", status=3).err)
         self.write("in.ply", self.read_bytes("in.ply") + b"1 2 3\n")
         said = [w["code"] for w in self.entry("in.ply", "-o", "out.ply", status=0)["warnings"]]
         run = self.mpi(3, "in.ply", "-o", "out.ply", "-f", "-r", "-")
@@ -363,17 +387,19 @@ class TilesOfMeshes(WeldTest):
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
         points, faces = soup(*grid(9, self.rng), self.rng, 0.002)
         self.write("in.ply", mesh(self.rng, "binary_little_endian", points, faces))
-        for size, which in ((2, ["--across", "normal,color"]), (3, ["--keep", "mean"])):
-            command = ["in.ply", "-t", "0.02", *which, "--tile-points", 150, "-o", "out.ply",
+        self.write("alike.ply", triangles("binary_little_endian", points, [f[:3] for f in faces], []))
+        for size, which, each in ((2, ["in.ply", "--across", "normal,color"], 1),
+                                  (3, ["in.ply", "--keep", "mean"], 1), (4, ["alike.ply"], 4)):
+            command = ["-t", "0.02", *which, "--tile-points", 150, "-o", "out.ply",
                        "--removed", "gone.ply", "--work", "tiles"]
             self.run_tool(*command, status=0)
             expected = self.written("out.ply", "gone.ply")
-            for step in range(1, 100):
+            for step in range(1, 100, each):
                 run = self.mpi(size, *command, status=None, last=["--stop-at", step])
                 if run.status == 0:
                     break
                 self.assertEqual(run.status, 128 + signal.SIGKILL)
-                self.assertEqual(self.listing(), ["in.ply", "tiles"])
+                self.assertEqual(self.listing(), ["alike.ply", "in.ply", "tiles"])
                 self.mpi(self.rng.choice((1, 2, 4)), *command)
                 self.assertEqual(self.written("out.ply", "gone.ply"), expected)
             self.assertGreater(step, 5)
@@ -391,6 +417,31 @@ class TilesOfMeshes(WeldTest):
             for more in (["--tile-points", 3], ["--memory", "64M"]):
                 self.assertEqual(self.run_tool(name, "-o", "out.ply", *more, status=3).err, whole)
         self.assertEqual(self.listing(), ["cut.ply", "head.ply", "in.csv"])
+
+    @unittest.skipIf(NO_MPI or SANITIZED, "ranks of the tool itself, by MPI")
+    def test_no_rank_reads_or_writes_much_more_than_its_share(self):
+        n = 250  # 125,000 triangles
+        points, faces = grid(n, self.rng)
+        faces = [t for f in faces for t in ((f[:3], (f[0], *f[2:])) if len(f) > 3 else (f,))]
+        self.write("alike.ply", triangles("binary_little_endian", points, faces, []))
+        where, corners = soup(points, faces, self.rng)
+        self.write("in.stl", stl(where, corners))
+        mine = "%s \"$@\"; s=$?; cat /proc/$$/io > $OMPI_COMM_WORLD_RANK.io; exit $s" % WELD
+        for name in ("alike.ply", "in.stl"):
+            for out in ("out.ply", "out.obj"):
+                ranks = []
+                for size in (1, 4):
+                    subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", str(size), "sh",
+                                    "-c", mine, "sh", name, "-t", "0.001", "--rule", "chain", "-o", out, "-f",
+                                    "--tile-points", "8000", "-j1"],
+                                   cwd=self.folder, check=True, capture_output=True, timeout=300)
+                    ranks.append([dict(line.split(": ") for line in self.read(f"{r}.io").splitlines())
+                                  for r in range(size)])
+                for what in ("rchar", "wchar"):
+                    one, *several = (int(r[what]) for some in ranks for r in some)
+                    with self.subTest(name=name, out=out, what=what):
+                        self.assertGreater(one, 5_000_000)
+                        self.assertLess(max(several), 1.5 * sum(several) / 4)
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_meshes_larger_than_the_memory_stay_within_it(self):

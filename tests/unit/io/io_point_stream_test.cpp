@@ -7,10 +7,13 @@
 #include <support/own_folder.hpp>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -223,7 +226,8 @@ TEST_CASE("point streams: parts written by several, put one after the other, are
                 CHECK_THROWS_AS(writer.commit_part(result), std::logic_error);
                 break;
             }
-            const auto [head, points] = writer.commit_part(result);
+            const auto [head, points, behind] = writer.commit_part(result);
+            CHECK(behind == 0);
             const std::string part = bytes_of(here.folder / "part");
             heads.push_back(part.substr(0, head));
             bytes += i == 250 ? part.substr(head, points) : part.substr(head);
@@ -382,33 +386,175 @@ TEST_CASE("point streams: rows behind the points are those of the file") {
     CHECK(bytes_of(here.folder / "copy.ply") == bytes_of(here.folder / "big.ply"));
 }
 
-TEST_CASE("point streams: of a file in parts, the last part has the rows behind the points") {
+TEST_CASE("point streams: of a file in parts, each has some points, and some of the rows behind") {
     const scratch here;
     const fs::path text = here.put("text.ply", mesh_text);
-    tf::write(here.folder / "whole.ply", tf::read(text));
-    const std::string whole = bytes_of(here.folder / "whole.ply");
-    std::string joined;
-    for (const std::uint64_t first : {0U, 3U}) {
-        tf::point_reader reader(text, {}, first, true);
-        const fs::path path = here.folder / "part.ply";
-        tf::point_writer writer(path, reader.header(), 5, {}, 4);
-        tf::point_block points;
-        REQUIRE(reader.read(points, first == 0 ? 3 : 2));
-        writer.write(points);
-        tf::row_block rows;
-        if (first > 0) {
-            REQUIRE(reader.read(rows, 100));
+    for (const char* const name : {"whole.ply", "whole.obj"}) {
+        const fs::path to = here.folder / name;
+        tf::write(to, tf::read(text));
+        const std::string whole = bytes_of(to);
+        std::vector<std::string> points_of;
+        std::vector<std::string> rows_of;
+        std::string heads;
+        for (const std::uint64_t first : {0U, 3U}) {
+            tf::point_reader reader(text, {}, first, true);
+            const fs::path path = here.folder / (std::string("part") + to.extension().string());
+            tf::point_writer writer(path, reader.header(), 5, {}, 5);
+            tf::point_block points;
+            REQUIRE(reader.read(points, first == 0 ? 3 : 2));
+            writer.write(points);
+            tf::row_block rows;
+            REQUIRE(reader.read(rows, 3));  // three faces for the first part
+            if (first > 0) REQUIRE(reader.read(rows, 3));
             CHECK_THROWS_AS(writer.write(rows), std::invalid_argument);  // points are missing
-            writer.end_part();
+            const std::uint64_t bytes = writer.end_part();
             CHECK_THROWS_AS(writer.write(points), std::invalid_argument);
+            const std::uint64_t room = first == 0 ? 1000 : 0;
+            writer.leave_room(room);
             do writer.write(rows);
-            while (reader.read(rows, 100));
+            while (first > 0 && reader.read(rows, 100));
+            tf::write_result result;
+            const tf::point_writer::part part = writer.commit_part(result);
+            const std::string made = bytes_of(path);
+            CHECK(part.points == bytes);
+            CHECK(made.size() == part.head + part.points + room + part.rows);
+            heads = made.substr(0, part.head);
+            points_of.push_back(made.substr(part.head, part.points));
+            rows_of.push_back(made.substr(part.head + part.points + room));
         }
-        tf::write_result result;
-        const auto head = static_cast<std::size_t>(writer.commit_part(result).head);
-        joined += bytes_of(path).substr(first == 0 ? 0 : head);
+        CHECK(heads + points_of[0] + points_of[1] + rows_of[0] + rows_of[1] == whole);
     }
-    CHECK(joined == whole);
+    // A part may begin with rows of a later element.
+    tf::point_reader reader(text, {}, 5, true);
+    tf::point_writer writer(here.folder / "part.ply", reader.header(), 5, {}, 5);
+    writer.end_part();
+    tf::row_block rows;
+    while (reader.read(rows, 100))
+        if (rows.rows.name == "edge") writer.write(rows);
+    rows.rows.name = "face";
+    CHECK_THROWS_AS(writer.write(rows), std::invalid_argument);
+}
+
+namespace {
+
+/// Triangles, edges behind them, as bytes; STL has triangles only.
+tf::mesh_file triangles_and_edges(std::uint32_t count) {
+    tf::mesh_file file;
+    for (std::uint32_t i = 0; i < count + 2; ++i)
+        file.mesh.points.push_back({0.5 * i, static_cast<double>(i % 7), 1.0});
+    for (std::uint32_t i = 0; i < count; ++i) file.mesh.faces.push_back({i, i + 1, i + 2});
+    std::vector<std::int32_t> ends;
+    for (std::uint32_t i = 0; i < count / 2; ++i) ends.push_back(static_cast<std::int32_t>(i));
+    tf::element& edges = tf::obtain_element(file.attributes, "edge", ends.size());
+    tf::set_column(edges, tf::make_column<std::int32_t>("vertex1", ends));
+    return file;
+}
+
+/// All rows: the name of the element, the corners, and bytes of columns, one after the other.
+std::string rows_from(tf::point_reader& reader, std::uint64_t count, std::size_t most) {
+    std::string all;
+    tf::row_block block;
+    while (count > 0 && reader.read(block, std::min<std::uint64_t>(count, most))) {
+        count -= block.rows.rows;
+        for (std::size_t r = 0; r < block.rows.rows; ++r) {
+            all += block.rows.name;
+            for (std::uint64_t c = block.corners.empty() ? 0 : block.first_corner[r];
+                 !block.corners.empty() && c < block.first_corner[r + 1]; ++c)
+                all += ' ' + std::to_string(block.corners[c]);
+            for (const tf::column& c : block.rows.columns)
+                if (c.role == tf::column_role::data && !c.list_length)
+                    all += ' ' + std::to_string(tf::number_at(c, r));
+            all += '\n';
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("point streams: rows behind the points are read from any place, and in alike parts") {
+    const scratch here;
+    const fs::path stl = here.folder / "a.stl";
+    const fs::path binary = here.folder / "a.ply";
+    const fs::path text = here.folder / "text.ply";
+    tf::mesh_file file = triangles_and_edges(300);
+    tf::write(binary, file);
+    tf::write(text, file, {.ascii = true});
+    tf::write(stl, file);
+    constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
+    for (const fs::path& path : {stl, binary, text}) {
+        CAPTURE(path);
+        tf::point_reader front(path, {}, 0, true);
+        std::vector<tf::row_place> places{front.next_row()};
+        CHECK(places[0].row == 0);
+        std::string whole;
+        while (true) {
+            const std::string some = rows_from(front, 7, 7);
+            if (some.empty()) break;
+            whole += some;
+            places.push_back(front.next_row());
+        }
+        CHECK(places.back().row == (path == stl ? 300 : 450));
+        CHECK(places.back().byte == fs::file_size(path));
+        for (const tf::row_place& place : places) {
+            tf::point_reader reader(path, {}, 0, true);
+            reader.go_to(place);
+            CHECK(whole.ends_with(rows_from(reader, all, 100)));
+            const bool at_end = place.row == places.back().row;
+            reader.go_to(place);
+            CHECK(rows_from(reader, 1, 1).empty() == at_end);
+        }
+        for (const std::size_t count : {1U, 4U, 7U, 1000U}) {
+            tf::point_reader reader(path, {}, 0, true);
+            const std::vector<tf::row_place> parts = reader.row_parts(count);
+            CHECK(parts.empty() == (path == text));
+            if (parts.empty()) continue;
+            REQUIRE(parts.size() == count + 1);
+            CHECK(parts.front().byte == places.front().byte);
+            CHECK(parts.back().byte == places.back().byte);
+            std::string joined;
+            for (std::size_t p = 0; p < count; ++p) {
+                const std::uint64_t bytes = parts[p + 1].byte - parts[p].byte;
+                CHECK(bytes * count <= parts.back().byte - parts.front().byte + 50 * count);
+                reader.go_to(parts[p]);
+                joined += rows_from(reader, parts[p + 1].row - parts[p].row, 100);
+            }
+            CHECK(joined == whole);
+        }
+    }
+}
+
+TEST_CASE("point streams: parts of rows that cannot be alike, or are not, are not taken for such") {
+    const scratch here;
+    const auto polygons = [&](const std::vector<std::uint32_t>& lengths, const std::string& more) {
+        std::string bytes =
+            "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n"
+            "property float y\nproperty float z\nelement face " +
+            std::to_string(lengths.size()) +
+            "\nproperty list uchar uchar vertex_indices\nend_header\n" + std::string(108, '\0');
+        for (const std::uint32_t n : lengths) {
+            bytes += static_cast<char>(n);
+            for (std::uint32_t i = 0; i < n; ++i) bytes += static_cast<char>(i);
+        }
+        return here.put("a.ply", bytes + more);
+    };
+    tf::row_block block;
+    tf::point_reader alike(polygons({4, 4, 4}, ""), {}, 0, true);
+    CHECK(alike.row_parts(3).size() == 4);
+    REQUIRE(alike.read(block, 9));
+    CHECK(block.rows.rows == 3);
+    for (const fs::path& path : {polygons({4, 3, 4}, ""), polygons({4, 4, 4}, "more")}) {
+        tf::point_reader mixed(path, {}, 0, true);
+        CHECK(mixed.row_parts(3).empty());
+        CHECK(mixed.read(block, 9));
+    }
+    tf::point_reader same_size(polygons({4, 3, 5}, ""), {}, 0, true);
+    const auto parts = same_size.row_parts(3);
+    REQUIRE(parts.size() == 4);
+    CHECK_THROWS_AS(same_size.read(block, 9), tf::io_error);
+    tf::point_reader front(polygons({4, 3, 5}, ""), {}, 0, true);
+    REQUIRE(front.read(block, 9));
+    CHECK(block.rows.rows == 3);
 }
 
 TEST_CASE("point streams: rows behind the points can be read alone, and are checked") {

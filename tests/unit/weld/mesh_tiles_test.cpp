@@ -116,6 +116,68 @@ TEST_CASE("mesh tiles: what is not written in tiles, and who does not") {
     CHECK_FALSE(fs::exists(here.path / "out.xyz"));
 }
 
+namespace {
+
+/// What is known of a weld.
+std::vector<std::uint64_t> known(const tf::weld_stream_result& of) {
+    const tf::weld_stream_counts& c = of.counts;
+    return {of.survey.faces,
+            of.survey.triangles,
+            c.kept,
+            c.groups,
+            c.faces,
+            c.triangles,
+            c.collapsed,
+            c.degenerate,
+            c.flipped,
+            c.nonmanifold_before,
+            c.nonmanifold_after,
+            of.written.still_within.value()};
+}
+
+/// Whether teams write the bytes that one writes, and know what it knows.
+void check_teams(const fs::path& in, const fs::path& out, const tf::weld_stream_options& options) {
+    const tf::weld_stream_result one = tf::weld_stream(in, out, options);
+    const std::string expected = bytes_of(out);
+    for (const std::size_t size : {2U, 4U, 7U}) {
+        CAPTURE(size);
+        std::vector<tf::weld_stream_result> made(size);
+        CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
+            tf::weld_stream_options mine = options;
+            mine.team = team;
+            made[team.rank] = tf::weld_stream(in, out, mine);
+        }));
+        CHECK(bytes_of(out) == expected);
+        for (const tf::weld_stream_result& r : made) {
+            CHECK(known(r) == known(one));
+            CHECK(r.counts.max_displacement == one.counts.max_displacement);
+            CHECK(r.survey.warnings.size() == one.survey.warnings.size());
+        }
+        CHECK_FALSE(fs::exists(in.string() + ".tiles"));
+    }
+}
+
+/// The soup in triangles, with each edge of some of them three times, one without an area, and
+/// edges of the file behind them.
+tf::mesh_file triangles() {
+    tf::mesh_file file = soup(16);
+    file.stored_face.clear();
+    file.attributes.elements.pop_back();
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        file.mesh.faces.push_back(file.mesh.faces[3 * i]);
+        file.mesh.faces.push_back(file.mesh.faces[3 * i]);
+    }
+    file.mesh.faces.push_back({5, 5, 6});
+    file.stored_faces = file.mesh.faces.size();
+    std::vector<std::int32_t> ends;
+    for (std::int32_t i = 0; i < 300; ++i) ends.push_back(i);
+    tf::element& edges = tf::obtain_element(file.attributes, "edge", ends.size());
+    tf::set_column(edges, tf::make_column<std::int32_t>("vertex1", ends));
+    return file;
+}
+
+}  // namespace
+
 TEST_CASE("mesh tiles: any number of processes write what one writes, and know what it knows") {
     const test::own_folder here("mesh_tiles_team");
     const fs::path in = here.path / "in.ply";
@@ -126,37 +188,65 @@ TEST_CASE("mesh tiles: any number of processes write what one writes, and know w
             options.tolerance = tolerance;
             options.keep = keep;
             options.points_per_tile = 200;
-            const tf::weld_stream_result one = tf::weld_stream(in, here.path / "one.ply", options);
-            const std::string expected = bytes_of(here.path / "one.ply");
-            for (const std::size_t size : {2U, 4U, 7U}) {
-                std::vector<tf::weld_stream_result> made(size);
-                CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
-                    tf::weld_stream_options mine = options;
-                    mine.team = team;
-                    made[team.rank] = tf::weld_stream(in, here.path / "team.ply", mine);
-                }));
-                CHECK(bytes_of(here.path / "team.ply") == expected);
-                for (const tf::weld_stream_result& r : made) {
-                    const auto known = [](const tf::weld_stream_result& of) {
-                        const tf::weld_stream_counts& c = of.counts;
-                        return std::vector<std::uint64_t>{of.survey.faces,
-                                                          of.survey.triangles,
-                                                          c.kept,
-                                                          c.groups,
-                                                          c.faces,
-                                                          c.triangles,
-                                                          c.collapsed,
-                                                          c.degenerate,
-                                                          c.flipped,
-                                                          c.nonmanifold_before,
-                                                          c.nonmanifold_after,
-                                                          of.written.still_within.value()};
-                    };
-                    CHECK(known(r) == known(one));
-                    CHECK(r.counts.max_displacement == one.counts.max_displacement);
-                }
-                CHECK_FALSE(fs::exists(here.path / "in.ply.tiles"));
+            check_teams(in, here.path / "out.ply", options);
+        }
+}
+
+TEST_CASE("mesh tiles: faces of one length, text, facets of STL and OBJ are shared out as well") {
+    const test::own_folder here("mesh_tiles_formats");
+    const tf::mesh_file file = triangles();
+    tf::write(here.path / "alike.ply", file);
+    tf::write(here.path / "text.ply", file, {.ascii = true});
+    tf::mesh_file facets = file;
+    facets.mesh.faces.erase(facets.mesh.faces.begin());
+    facets.attributes = {};
+    tf::write(here.path / "in.stl", facets);
+    std::ofstream(here.path / "more.ply", std::ios::binary)
+        << bytes_of(here.path / "alike.ply") << "more";
+    for (const char* const name : {"alike.ply", "text.ply", "in.stl", "more.ply"})
+        for (const char* const out : {"out.ply", "out.obj"})
+            for (const double tolerance : {0.0, 0.05}) {
+                CAPTURE(name);
+                CAPTURE(out);
+                tf::weld_stream_options options;
+                options.tolerance = tolerance;
+                options.rule = tf::weld_rule::chain;
+                options.points_per_tile = 200;
+                check_teams(here.path / name, here.path / out, options);
             }
+}
+
+TEST_CASE("mesh tiles: a damaged face is told of as by one, whoever reads it") {
+    const test::own_folder here("mesh_tiles_damaged");
+    const fs::path path = here.path / "in.ply";
+    tf::mesh_file file = triangles();
+    file.attributes.elements.pop_back();
+    tf::write(path, file);
+    const std::string whole = bytes_of(path);
+    const std::size_t first = whole.size() - 13 * file.mesh.faces.size();
+    const auto error_of = [&](std::size_t size) -> std::string {
+        try {
+            test::run_as_team(size, [&](const tf::process_team& team) {
+                tf::weld_stream_options options;
+                options.team = team;
+                static_cast<void>(tf::weld_stream(path, here.path / "out.ply", options));
+            });
+        } catch (const tf::io_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::vector<std::vector<std::size_t>> places{
+        {200}, {0}, {file.mesh.faces.size() - 1}, {400, 100, 201}};
+    for (const std::vector<std::size_t>& rows : places)
+        for (const std::size_t byte : {0U, 4U}) {  // a length, or a number of a point
+            std::string damaged = whole;
+            for (const std::size_t row : rows) damaged[first + 13 * row + byte] = '\x7f';
+            std::ofstream(path, std::ios::binary) << damaged;
+            const std::string expected = error_of(1);
+            CHECK(expected.find("in.ply: byte ") != std::string::npos);
+            for (const std::size_t size : {2U, 4U, 7U}) CHECK(error_of(size) == expected);
+            CHECK_FALSE(fs::exists(here.path / "out.ply"));
         }
 }
 
@@ -164,11 +254,12 @@ TEST_CASE("edge files: edges of more than two faces, with little memory") {
     const test::own_folder here("edge_files");
     const stream::work_folder folder(here.path / "work", "test");
     stream::pacer pace({});
+    const stream::team alone{tf::process_team{}};
     test::random random(2);
     for (const std::uint32_t points : {3U, 40U, 2000U}) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
         constexpr std::size_t count = 60000;
-        stream::edge_files<stream::numbered_edge> files(folder, "edges", count, 1);
+        stream::edge_files<stream::numbered_edge> files(folder, alone, "edges", count, 1);
         for (std::size_t i = 0; i < count; ++i) {
             const auto a = static_cast<std::uint32_t>(random.unit() * points);
             const auto b =
@@ -180,6 +271,34 @@ TEST_CASE("edge files: edges of more than two faces, with little memory") {
         for (const auto& [edge, n] : uses) expected += n > 2 ? 1 : 0;
         CHECK(files.count_nonmanifold(pace) == expected);
     }
+}
+
+TEST_CASE("edge files: of a team, each writes its uses, and counts a share of all") {
+    const test::own_folder here("edge_files_team");
+    const stream::work_folder folder(here.path / "work", "test");
+    constexpr std::size_t size = 4;
+    constexpr std::uint32_t points = 3000;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+    std::vector<std::vector<stream::numbered_edge>> edges(size);
+    test::random random(6);
+    for (std::size_t i = 0; i < 60000; ++i) {
+        const auto a = static_cast<std::uint32_t>(random.unit() * points);
+        const auto b = static_cast<std::uint32_t>((a + 1 + i % 7) % points);
+        edges[i % size].push_back(stream::edge_between(a, b));
+        ++uses[std::minmax(a, b)];
+    }
+    std::uint64_t expected = 0;
+    for (const auto& [edge, n] : uses) expected += n > 2 ? 1 : 0;
+    std::vector<std::uint64_t> counted(size);
+    CHECK(test::run_as_team(size, [&](const tf::process_team& some) {
+        const stream::team all(some);
+        stream::pacer pace({});
+        stream::edge_files<stream::numbered_edge> files(folder, all, "edges", 60000, 1 << 20);
+        for (const stream::numbered_edge e : edges[all.rank()]) files.put(e);
+        counted[all.rank()] = files.count_nonmanifold(pace);
+    }));
+    CHECK(counted == std::vector<std::uint64_t>(size, expected));
+    CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);  // the lock
 }
 
 TEST_CASE("paged files: any record in any order, and a file that was cut") {
@@ -198,6 +317,19 @@ TEST_CASE("paged files: any record in any order, and a file that was cut") {
             same = same && file.at(at) == 3 * at;
         }
         CHECK(same);
+        // Many at a time, all over the file and then in order; by little memory in ascending order.
+        std::vector<std::uint32_t> found;
+        for (const std::uint64_t step : {1U, 7919U, 7919U, 7919U, 1U, 1U}) {
+            std::vector<std::uint32_t> of(50000);
+            for (std::size_t i = 0; i < of.size(); ++i)
+                of[i] = static_cast<std::uint32_t>(i * step % count);
+            file.look_up(of, found);
+            CHECK(file.is_scattered() == (step > 1 && memory == 1));
+            REQUIRE(found.size() == of.size());
+            same = true;
+            for (std::size_t i = 0; i < of.size(); ++i) same = same && found[i] == 3 * of[i];
+            CHECK(same);
+        }
     }
     fs::resize_file(path, 8 * 50000);
     stream::paged_file<std::uint64_t> cut(path, count, 1);

@@ -39,6 +39,13 @@ struct row_block {
     std::vector<std::uint64_t> first_corner{};  ///< [rows + 1] in `corners`; of others empty
 };
 
+/// A row behind the points, counted from the first of all elements there, and the byte of the file
+/// where it begins.
+struct row_place {
+    std::uint64_t row = 0;
+    std::uint64_t byte = 0;
+};
+
 /// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
 /// together are what `read` gives for the whole file.
 class TREEFORM_API point_reader {
@@ -79,6 +86,21 @@ class TREEFORM_API point_reader {
     ///
     /// \throws io_error as `read`
     bool read(row_block& block, std::size_t most);
+    /// The next row behind the points; passes over points that have not been read.
+    ///
+    /// \throws io_error as `read`
+    [[nodiscard]] row_place next_row();
+    /// Goes on at a row behind the points, which a reader of the same file has told of.
+    void go_to(const row_place& place);
+    /// Where `count` parts of the rows begin, of about as many bytes each, and where the last one ends:
+    /// `count + 1` places, found without reading more than a row. Empty where the rows have to be read:
+    /// in text, with lists of points or of other values, and where not all faces can have as many
+    /// corners as the first one. That they have is taken for granted, and refused from now on where
+    /// it is not so.
+    ///
+    /// \pre    no row was read
+    /// \throws io_error as `read`
+    [[nodiscard]] std::vector<row_place> row_parts(std::size_t count);
 
   private:
     struct state;
@@ -119,16 +141,23 @@ class TREEFORM_API point_writer {
     [[nodiscard]] bool has_parts() const;
     /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else 1.
     [[nodiscard]] std::uint64_t points_together() const;
-    /// No more points come: the others are in other parts. What is behind the points may follow.
-    void end_part();
+    /// No more points come: the others are in other parts. Rows that are behind the points of all
+    /// parts may follow, those of earlier parts first. Returns the bytes of the points.
+    std::uint64_t end_part();
+    /// Leaves so many bytes of the file to others.
+    /// \pre    a regular file, and `end_part` was called
+    /// \throws io_error
+    void leave_room(std::uint64_t bytes);
     struct part {
         std::uint64_t head = 0;    ///< bytes ahead of its points
-        std::uint64_t points = 0;  ///< bytes of its points; what is behind them is that of the file
+        std::uint64_t points = 0;  ///< bytes of its points
+        std::uint64_t rows = 0;    ///< bytes of rows that came after `end_part`
     };
     /// What must be known of a part to finish others; call it when all of its points are there.
     [[nodiscard]] std::string tell_part();
     /// Finishes a file that has only some of the points. The joined head, the points of all parts,
-    /// and what is behind those of the last one are what one writer of all points would have written.
+    /// their rows, and what else is behind those of the last one are what one writer of all would have
+    /// written.
     /// `told` is what `tell_part` gave for each part, in their order; LAZ needs it.
     /// \throws io_error, std::logic_error where it has no parts
     part commit_part(write_result& result, const std::vector<std::string>& told = {});

@@ -170,8 +170,8 @@ class TREEFORM_API stream_error : public std::runtime_error {
 
 /// Welds the cloud in the files `inputs` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
 /// writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may
-/// be a mesh: as `weld` would, faces get their new corners, and those that collapse are left out; of a
-/// team the last one reads and writes all of them. Meshes need `welded` as PLY or OBJ; an STL no
+/// be a mesh: as `weld` would, faces get their new corners, and those that collapse are left out. Each
+/// of a team has a share of points and of faces. Meshes need `welded` as PLY or OBJ; an STL no
 /// tolerance, or `weld_rule::chain`.
 ///
 /// \throws io_error when an input cannot be read or an output cannot be written, stream_error,

@@ -1,0 +1,168 @@
+/// \file
+/// The first look at the rows behind the points, and whose each of them is.
+
+#include <libmesh/stream/tile_faces.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace treeform::detail::stream {
+namespace {
+
+bool are_zeros(const element& e) {
+    return std::ranges::all_of(e.columns, [](const column& c) {
+        return std::ranges::all_of(c.values, [](std::byte b) { return b == std::byte{0}; });
+    });
+}
+
+}  // namespace
+
+std::size_t longest_face(const row_block& block) {
+    std::size_t most = 0;
+    for (std::size_t f = 0; f < block.rows.rows; ++f)
+        most = std::max<std::size_t>(most, block.first_corner[f + 1] - block.first_corner[f]);
+    return most;
+}
+
+bool has_rows_behind(const mesh_file& header) {
+    return std::ranges::any_of(header.attributes.elements, [](const element& e) {
+        return e.name != "vertex" && e.rows > 0 && !e.columns.empty();
+    });
+}
+
+io::point_blocks tile_faces::open() const {
+    return {task_.inputs.paths.front(), task_.inputs.format, 0, true, steps_.source().text(0)};
+}
+
+void tile_faces::look(cloud_survey& survey) {
+    start_look(survey);
+    const bool is_alone = steps_.all().is_alone();
+    if (!is_alone && !share_look(survey, look_at_part(survey))) {
+        start_look(survey);
+        if (is_last()) look_at_whole(survey);
+        static_cast<void>(share_look(survey, true));
+    } else if (is_alone) {
+        look_at_whole(survey);
+    }
+    if (survey.triangles > std::numeric_limits<std::uint32_t>::max())
+        throw io_error(task_.inputs.paths.front().string() +
+                       ": more triangles than 32-bit numbers can name");
+    if (survey.disk_bytes > 0)
+        survey.disk_bytes += 8 * survey.points + 48 * survey.triangles +
+                             (survey.tolerance > 0.0 ? 48 * survey.points : 0);
+}
+
+void tile_faces::start_look(cloud_survey& survey) {
+    survey.faces = survey.triangles = 0;
+    most_corners_ = 0;
+    is_blank_ = is_soup_;
+    parts_.clear();
+}
+
+/// Returns false where that needs all that is ahead of the part, and where it is not as it should be:
+/// whoever reads it from the front says what is wrong first.
+bool tile_faces::look_at_part(cloud_survey& survey) {
+    try {
+        io::point_blocks reader = open();
+        parts_ = reader.row_parts(steps_.all().size());
+        if (parts_.empty()) return false;
+        const row_place& first = parts_[steps_.all().rank()];
+        reader.go_to(first);
+        std::uint64_t left = parts_[steps_.all().rank() + 1].row - first.row;
+        row_block block;
+        while (left > 0 && reader.read(block, rows_of_next(left))) {
+            left -= block.rows.rows;
+            look_at_rows(block, survey);
+            pace_.check();
+        }
+        end_look(reader, survey);
+        return left == 0;
+    } catch (const io_error&) {
+        return false;
+    }
+}
+
+/// For one of a team, the parts begin between blocks.
+void tile_faces::look_at_whole(cloud_survey& survey) {
+    constexpr std::uint64_t blocks_a_part = 32;
+    io::point_blocks reader = open();
+    std::uint64_t rows = 0;
+    for (const element& e : reader.header().attributes.elements) rows += e.rows;
+    const std::uint64_t parts = steps_.all().size();
+    const std::size_t most =
+        parts == 1 ? rows_a_block : rows_of_next(rows / (blocks_a_part * parts) + 1);
+    std::vector<row_place> places;
+    if (parts > 1) places.push_back(reader.next_row());
+    for (row_block block; reader.read(block, most); pace_.check()) {
+        look_at_rows(block, survey);
+        if (parts > 1) places.push_back(reader.next_row());
+    }
+    end_look(reader, survey);
+    if (parts > 1) divide(places);
+}
+
+void tile_faces::look_at_rows(const row_block& block, cloud_survey& survey) {
+    if (block.rows.name != "face") return;
+    survey.faces += block.rows.rows;
+    survey.triangles += block.corners.size() - 2 * block.rows.rows;
+    is_blank_ = is_blank_ && are_zeros(block.rows);
+    most_corners_ = std::max(most_corners_, longest_face(block));
+}
+
+void tile_faces::end_look(const io::point_blocks& reader, cloud_survey& survey) const {
+    for (const io_warning& w : reader.header().warnings)
+        if (std::ranges::find(survey.warnings, w.text, &io_warning::text) == survey.warnings.end())
+            survey.warnings.push_back(w);
+}
+
+/// Parts of about as many bytes, which begin at some of these places; the last one is the end.
+void tile_faces::divide(const std::vector<row_place>& places) {
+    const std::uint64_t size = steps_.all().size();
+    const std::uint64_t bytes = places.back().byte - places.front().byte;
+    for (std::uint64_t part = 0; part < size; ++part) {
+        const std::uint64_t wanted =
+            places.front().byte + bytes / size * part + bytes % size * part / size;
+        parts_.push_back(*std::ranges::lower_bound(places, wanted, {}, &row_place::byte));
+    }
+    parts_.push_back(places.back());
+}
+
+/// Sums up what all have seen; the last one knows the end of the file, and where parts begin. Returns
+/// whether each has `seen` its part.
+bool tile_faces::share_look(cloud_survey& survey, bool seen) {
+    state_writer mine;
+    for (const std::uint64_t n :
+         {std::uint64_t{seen}, survey.faces, survey.triangles, std::uint64_t{most_corners_},
+          std::uint64_t{is_blank_}, std::uint64_t{survey.warnings.size()},
+          std::uint64_t{parts_.size()}})
+        mine.number(n);
+    for (const io_warning& w : survey.warnings) {
+        mine.text(w.code);
+        mine.text(w.text);
+    }
+    for (const row_place& place : parts_) {
+        mine.number(place.row);
+        mine.number(place.byte);
+    }
+    survey.faces = survey.triangles = 0;
+    for (state_reader& one : steps_.all().exchange(mine)) {
+        seen = one.number() != 0 && seen;
+        survey.faces += one.number();
+        survey.triangles += one.number();
+        most_corners_ = std::max(most_corners_, static_cast<std::size_t>(one.number()));
+        is_blank_ = one.number() != 0 && is_blank_;
+        survey.warnings.resize(one.whole() ? static_cast<std::size_t>(one.number()) : 0);
+        parts_.resize(one.whole() ? static_cast<std::size_t>(one.number()) : 0);
+        for (io_warning& w : survey.warnings) {
+            w.code = one.text();
+            w.text = one.text();
+        }
+        for (row_place& place : parts_) {
+            place.row = one.number();
+            place.byte = one.number();
+        }
+    }
+    return seen;
+}
+
+}  // namespace treeform::detail::stream
