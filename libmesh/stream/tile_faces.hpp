@@ -35,8 +35,8 @@ inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
 
 /// Each of a team has a share of the rows: a part of the file of about as many bytes as those of
 /// others. Where that is known without reading them (`point_reader::row_parts`, and in text), each
-/// looks at its own; else, as where faces have any number of corners, the last one looks at all, and
-/// tells where parts begin.
+/// looks at its own; else, as where faces have any number of corners, each in turn looks at what
+/// begins in its share of the bytes, and tells where that ends.
 class tile_faces {
   public:
     tile_faces(pacer& pace, const work_folder& folder, const tile_task& task, tile_steps& steps)
@@ -77,10 +77,10 @@ class tile_faces {
     void start_look(cloud_survey& survey);
     [[nodiscard]] bool look_at_part(cloud_survey& survey);
     void look_at_whole(cloud_survey& survey);
+    void look_in_turn(cloud_survey& survey);
     void look_at_rows(const row_block& block, cloud_survey& survey);
     void end_look(const io::point_blocks& reader, cloud_survey& survey) const;
     [[nodiscard]] bool share_look(cloud_survey& survey, bool seen);
-    void divide(const std::vector<row_place>& places);
     void number_points(tiles_welded& welded, kept_rows* rows, bool has_moves);
     void open_numbers();
     void carry_all();

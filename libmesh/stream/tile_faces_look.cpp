@@ -4,7 +4,10 @@
 #include <libmesh/stream/tile_faces.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
+#include <system_error>
+#include <utility>
 
 namespace treeform::detail::stream {
 namespace {
@@ -36,13 +39,12 @@ io::point_blocks tile_faces::open() const {
 
 void tile_faces::look(cloud_survey& survey) {
     start_look(survey);
-    const bool is_alone = steps_.all().is_alone();
-    if (!is_alone && !share_look(survey, look_at_part(survey))) {
-        start_look(survey);
-        if (is_last()) look_at_whole(survey);
-        static_cast<void>(share_look(survey, true));
-    } else if (is_alone) {
+    if (steps_.all().is_alone()) {
         look_at_whole(survey);
+    } else if (!share_look(survey, look_at_part(survey))) {
+        start_look(survey);
+        look_in_turn(survey);
+        static_cast<void>(share_look(survey, true));
     }
     if (survey.triangles > std::numeric_limits<std::uint32_t>::max())
         throw io_error(task_.inputs.paths.front().string() +
@@ -60,7 +62,7 @@ void tile_faces::start_look(cloud_survey& survey) {
 }
 
 /// Returns false where that needs all that is ahead of the part, and where it is not as it should be:
-/// whoever reads it from the front says what is wrong first.
+/// when all look in turn, what is wrong first is said.
 bool tile_faces::look_at_part(cloud_survey& survey) {
     try {
         io::point_blocks reader = open();
@@ -82,23 +84,54 @@ bool tile_faces::look_at_part(cloud_survey& survey) {
     }
 }
 
-/// For one of a team, the parts begin between blocks.
 void tile_faces::look_at_whole(cloud_survey& survey) {
-    constexpr std::uint64_t blocks_a_part = 32;
     io::point_blocks reader = open();
-    std::uint64_t rows = 0;
-    for (const element& e : reader.header().attributes.elements) rows += e.rows;
-    const std::uint64_t parts = steps_.all().size();
-    const std::size_t most =
-        parts == 1 ? rows_a_block : rows_of_next(rows / (blocks_a_part * parts) + 1);
-    std::vector<row_place> places;
-    if (parts > 1) places.push_back(reader.next_row());
-    for (row_block block; reader.read(block, most); pace_.check()) {
+    for (row_block block; reader.read(block, rows_a_block); pace_.check())
         look_at_rows(block, survey);
-        if (parts > 1) places.push_back(reader.next_row());
-    }
     end_look(reader, survey);
-    if (parts > 1) divide(places);
+}
+
+/// Each of a team in turn goes on where the one before has ended, up to the end of its share of the
+/// bytes: a row is where the last one ends.
+void tile_faces::look_in_turn(cloud_survey& survey) {
+    constexpr std::uint64_t blocks_a_part = 32;
+    const team& all = steps_.all();
+    std::error_code unknown;
+    const std::uint64_t bytes = std::filesystem::file_size(task_.inputs.paths.front(), unknown);
+    row_place next;
+    std::uint64_t begin = 0;
+    for (std::size_t turn = 0; turn < all.size(); ++turn) {
+        state_writer mine;
+        if (turn == all.rank()) {
+            io::point_blocks reader = open();
+            if (turn > 0) reader.go_to(next);
+            row_place at = reader.next_row();
+            if (turn == 0) begin = at.byte;
+            mine.number(at.row);
+            mine.number(at.byte);
+            std::uint64_t rows = 0;
+            for (const element& e : reader.header().attributes.elements) rows += e.rows;
+            const std::size_t most = rows_of_next(rows / (blocks_a_part * all.size()) + 1);
+            const std::uint64_t end = is_last() || unknown
+                                          ? std::numeric_limits<std::uint64_t>::max()
+                                          : begin + all.share_of(bytes - begin, turn).last;
+            for (row_block block; at.byte < end && reader.read(block, most); pace_.check()) {
+                look_at_rows(block, survey);
+                at = reader.next_row();
+            }
+            end_look(reader, survey);
+            mine.number(at.row);
+            mine.number(at.byte);
+        }
+        state_reader told = std::move(all.exchange(mine)[turn]);
+        next.row = told.number();
+        next.byte = told.number();
+        if (turn == 0) begin = next.byte;
+        parts_.push_back(next);
+        next.row = told.number();
+        next.byte = told.number();
+    }
+    parts_.push_back(next);
 }
 
 void tile_faces::look_at_rows(const row_block& block, cloud_survey& survey) {
@@ -113,18 +146,6 @@ void tile_faces::end_look(const io::point_blocks& reader, cloud_survey& survey) 
     for (const io_warning& w : reader.header().warnings)
         if (std::ranges::find(survey.warnings, w.text, &io_warning::text) == survey.warnings.end())
             survey.warnings.push_back(w);
-}
-
-/// Parts of about as many bytes, which begin at some of these places; the last one is the end.
-void tile_faces::divide(const std::vector<row_place>& places) {
-    const std::uint64_t size = steps_.all().size();
-    const std::uint64_t bytes = places.back().byte - places.front().byte;
-    for (std::uint64_t part = 0; part < size; ++part) {
-        const std::uint64_t wanted =
-            places.front().byte + bytes / size * part + bytes % size * part / size;
-        parts_.push_back(*std::ranges::lower_bound(places, wanted, {}, &row_place::byte));
-    }
-    parts_.push_back(places.back());
 }
 
 /// Sums up what all have seen; the last one knows the end of the file, and where parts begin. Returns

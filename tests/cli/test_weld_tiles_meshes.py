@@ -422,12 +422,14 @@ class TilesOfMeshes(WeldTest):
     def test_no_rank_reads_or_writes_much_more_than_its_share(self):
         n = 250  # 125,000 triangles
         points, faces = grid(n, self.rng)
+        polygons = faces
         faces = [t for f in faces for t in ((f[:3], (f[0], *f[2:])) if len(f) > 3 else (f,))]
         self.write("alike.ply", triangles("binary_little_endian", points, faces, []))
+        self.write("mixed.ply", triangles("binary_little_endian", points, polygons, []))
         where, corners = soup(points, faces, self.rng)
         self.write("in.stl", stl(where, corners))
         mine = "%s \"$@\"; s=$?; cat /proc/$$/io > $OMPI_COMM_WORLD_RANK.io; exit $s" % WELD
-        for name in ("alike.ply", "in.stl"):
+        for name in ("alike.ply", "mixed.ply", "in.stl"):
             for out in ("out.ply", "out.obj"):
                 ranks = []
                 for size in (1, 4):
