@@ -77,8 +77,8 @@ question ask(test::random& source, double scale, bool on_lattice) {
         }
         const tf::point3 at{number(size) + far * scale, number(size), number(size)};
         q.box.include(at);
-        q.box.include(
-            {at.x + std::abs(number(1)), at.y + std::abs(number(1)), at.z + std::abs(number(1))});
+        q.box.include(tf::point3{at.x + std::abs(number(1)), at.y + std::abs(number(1)),
+                                 at.z + std::abs(number(1))});
         if (overlaps(around, q.box)) return q;
     }
 }
