@@ -21,4 +21,11 @@ struct file_part {
     [[nodiscard]] bool is_last() const { return rank + 1 == size; }
 };
 
+/// A row behind the points, counted from the first of all elements there, and the byte of the file
+/// where it begins.
+struct row_place {
+    std::uint64_t row = 0;
+    std::uint64_t byte = 0;
+};
+
 }  // namespace treeform::detail::io

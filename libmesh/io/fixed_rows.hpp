@@ -2,9 +2,9 @@
 /// \file
 /// Rows of bytes in which each value has its place: binary PLY without lists, binary PCD.
 
+#include <libmesh/io/file_part.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/point_stream.hpp>
 
 #include <bit>
 #include <cstddef>

@@ -25,10 +25,4 @@ bool point_reader::read(row_block& block, std::size_t most) {
     return state_->blocks.read(block, most);
 }
 
-row_place point_reader::next_row() { return state_->blocks.next_row(); }
-void point_reader::go_to(const row_place& place) { state_->blocks.go_to(place); }
-std::vector<row_place> point_reader::row_parts(std::size_t count) {
-    return state_->blocks.row_parts(count);
-}
-
 }  // namespace treeform

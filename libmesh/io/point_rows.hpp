@@ -3,6 +3,7 @@
 /// The points of a file from the front to the back, a run at a time; what the readers of whole
 /// point files and of streams have in common.
 
+#include <libmesh/io/file_part.hpp>
 #include <libmesh/io/source.hpp>
 #include <libmesh/io/text_index.hpp>
 #include <treeform/mesh/attributes.hpp>
@@ -34,9 +35,16 @@ struct point_rows {
     /// read is passed over. False at the end. None where there is nothing to read but points.
     std::function<bool(row_block& block, std::size_t most, std::vector<io_warning>& warnings)>
         behind{};
-    /// As those of `point_reader`; there where `behind` is.
+    /// The next row behind the points; points that have not been read are passed over. This and the
+    /// next two are there where `behind` is. \throws io_error
     std::function<row_place()> next_row{};
+    /// Goes on at a row that a reader of the same file has told of.
     std::function<void(const row_place&)> go_to{};
+    /// Where `count` parts of the rows begin, of about as many bytes each, and where the last one ends:
+    /// `count + 1` places, found without reading more than a row. Empty where the rows have to be read:
+    /// in text of which nothing is known, with lists of points or of other values, and where not all
+    /// faces can have as many corners as the first one. That they have is taken for granted, and
+    /// refused from then on where it is not so. \pre no row was read. \throws io_error
     std::function<std::vector<row_place>(std::size_t count)> row_parts{};
 };
 

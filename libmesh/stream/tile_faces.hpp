@@ -34,7 +34,7 @@ inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
 [[nodiscard]] bool has_rows_behind(const mesh_file& header);
 
 /// Each of a team has a share of the rows: a part of the file of about as many bytes as those of
-/// others. Where that is known without reading them (`point_reader::row_parts`, and in text), each
+/// others. Where that is known without reading them (`point_blocks::row_parts`, and in text), each
 /// looks at its own; else, as where faces have any number of corners, each in turn looks at what
 /// begins in its share of the bytes, and tells where that ends.
 class tile_faces {
@@ -101,7 +101,7 @@ class tile_faces {
     const work_folder& folder_;
     const tile_task& task_;
     tile_steps& steps_;
-    std::vector<row_place>
+    std::vector<io::row_place>
         parts_{};  ///< of a team: where that of each begins, and the last one ends
     std::size_t rows_at_once_ = rows_a_block;
     std::size_t most_corners_ = 0;

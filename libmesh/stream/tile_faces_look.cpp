@@ -68,7 +68,7 @@ bool tile_faces::look_at_part(cloud_survey& survey) {
         io::point_blocks reader = open();
         parts_ = reader.row_parts(steps_.all().size());
         if (parts_.empty()) return false;
-        const row_place& first = parts_[steps_.all().rank()];
+        const io::row_place& first = parts_[steps_.all().rank()];
         reader.go_to(first);
         std::uint64_t left = parts_[steps_.all().rank() + 1].row - first.row;
         row_block block;
@@ -98,14 +98,14 @@ void tile_faces::look_in_turn(cloud_survey& survey) {
     const team& all = steps_.all();
     std::error_code unknown;
     const std::uint64_t bytes = std::filesystem::file_size(task_.inputs.paths.front(), unknown);
-    row_place next;
+    io::row_place next;
     std::uint64_t begin = 0;
     for (std::size_t turn = 0; turn < all.size(); ++turn) {
         state_writer mine;
         if (turn == all.rank()) {
             io::point_blocks reader = open();
             if (turn > 0) reader.go_to(next);
-            row_place at = reader.next_row();
+            io::row_place at = reader.next_row();
             if (turn == 0) begin = at.byte;
             mine.number(at.row);
             mine.number(at.byte);
@@ -161,7 +161,7 @@ bool tile_faces::share_look(cloud_survey& survey, bool seen) {
         mine.text(w.code);
         mine.text(w.text);
     }
-    for (const row_place& place : parts_) {
+    for (const io::row_place& place : parts_) {
         mine.number(place.row);
         mine.number(place.byte);
     }
@@ -178,7 +178,7 @@ bool tile_faces::share_look(cloud_survey& survey, bool seen) {
             w.code = one.text();
             w.text = one.text();
         }
-        for (row_place& place : parts_) {
+        for (io::row_place& place : parts_) {
             place.row = one.number();
             place.byte = one.number();
         }

@@ -39,13 +39,6 @@ struct row_block {
     std::vector<std::uint64_t> first_corner{};  ///< [rows + 1] in `corners`; of others empty
 };
 
-/// A row behind the points, counted from the first of all elements there, and the byte of the file
-/// where it begins.
-struct row_place {
-    std::uint64_t row = 0;
-    std::uint64_t byte = 0;
-};
-
 /// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
 /// together are what `read` gives for the whole file.
 class TREEFORM_API point_reader {
@@ -86,21 +79,6 @@ class TREEFORM_API point_reader {
     ///
     /// \throws io_error as `read`
     bool read(row_block& block, std::size_t most);
-    /// The next row behind the points; passes over points that have not been read.
-    ///
-    /// \throws io_error as `read`
-    [[nodiscard]] row_place next_row();
-    /// Goes on at a row behind the points, which a reader of the same file has told of.
-    void go_to(const row_place& place);
-    /// Where `count` parts of the rows begin, of about as many bytes each, and where the last one ends:
-    /// `count + 1` places, found without reading more than a row. Empty where the rows have to be read:
-    /// in text, with lists of points or of other values, and where not all faces can have as many
-    /// corners as the first one. That they have is taken for granted, and refused from now on where
-    /// it is not so.
-    ///
-    /// \pre    no row was read
-    /// \throws io_error as `read`
-    [[nodiscard]] std::vector<row_place> row_parts(std::size_t count);
 
   private:
     struct state;
