@@ -45,29 +45,28 @@ struct face_rows {
     std::optional<box3> bounds{};    ///< of all finite points, where these come ahead of the faces
     std::vector<point3>
         sample{};  ///< finite corners from all over it; at most `sample_size` of the file
-    /// Whether it is taken for granted that all faces ahead are as long as the first one. If so, any
-    /// error of `append`, of this part or another, may come from faces that are not.
-    bool jumped = false;
     /// Appends the next triangles, about `most` of them. Returns false when there are none left; then
     /// the last part has been read to its end, and `warnings` got what was to be said.
     std::function<bool(std::vector<placed_triangle>& triangles, std::size_t most,
                        std::vector<io_warning>& warnings)>
         append{};
+    /// Of PLY: as of `point_rows`.
+    std::function<std::vector<row_place>(std::size_t count)> row_parts{};
+    /// Of PLY: `append` gives the triangles of the rows from `first` on, up to row `end`, and looks at
+    /// the end of the file behind the last row. Not called: of all rows.
+    std::function<void(const row_place& first, std::optional<std::uint64_t> end)> go_to{};
 };
 
 inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 
-/// What is read by runs. `in` must outlive what comes back. The points of a PLY are put into what
-/// `make_store` gives for so many of them. Of what is `known` of text, rows of other parts are passed
-/// over unread; then an error of any part may come from rows of others.
+/// What is read by runs. `in` must outlive what comes back, and so must what is `known` of text. An STL
+/// has the faces of the part. Of a PLY the points of the part are put into what `make_store` gives for
+/// so many of them.
 ///
-/// \throws io_error, also for a PLY that `has_face_runs` is not true of
+/// \throws io_error; whole_file_error for a PLY that `has_rows_to_look_at` is not true of
 [[nodiscard]] face_rows open_stl_faces(const source& in, const file_part& part = {});
 [[nodiscard]] face_rows open_ply_faces(
     const source& in, const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,
     const file_part& part = {}, const text_index* known = nullptr);
-
-/// Whether vertices come ahead of faces, and these are no triangle strips. \throws io_error
-[[nodiscard]] bool has_face_runs(const source& ply);
 
 }  // namespace treeform::detail::io

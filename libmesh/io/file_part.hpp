@@ -10,7 +10,6 @@ namespace treeform::detail::io {
 struct file_part {
     std::uint64_t rank = 0;
     std::uint64_t size = 1;
-    bool from_front = false;  ///< whether faces that are ahead must be read, too
 
     [[nodiscard]] std::uint64_t first(std::uint64_t count) const {
         return count / size * rank + count % size * rank / size;

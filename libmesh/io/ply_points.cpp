@@ -14,20 +14,72 @@
 namespace treeform::detail::io {
 namespace {
 
+/// Elements that have rows.
+struct elements_to_read {
+    std::vector<element> ahead{};  ///< of the points
+    element points{};
+    std::vector<element> behind{};
+};
+
+/// What cannot be read so is refused.
+elements_to_read sort_elements(const source& in, std::vector<element>& elements, row_use use) {
+    const element& vertices = vertices_of(in, elements);
+    elements_to_read sorted{.points = vertices};
+    for (const element& e : elements) {
+        if (&e == &vertices || e.rows == 0) continue;
+        if (use == row_use::none)
+            fail_in_blocks(
+                in, "element '" + e.name + "' has rows; only files of points are read in blocks");
+        if (e.columns.empty()) continue;
+        const bool is_ahead = &e < &vertices;
+        const bool is_face = e.name == "face";
+        if ((is_ahead && (is_face || use == row_use::copied)) || e.name == "tristrips" ||
+            std::ranges::count(elements, e.name, &element::name) > 1)
+            fail_in_blocks(in, "element '" + e.name + "' is not read in blocks");
+        if (is_face && with_role(e, column_role::corners) == nullptr)
+            in.fail("element 'face' has no list of vertex_indices");
+        if (is_face && use == row_use::copied && find_column(e, face_texture_name) != nullptr)
+            fail_in_blocks(in, "texture coordinates of corners are not read in blocks");
+        (is_ahead ? sorted.ahead : sorted.behind).push_back(e);
+    }
+    if (!sorted.behind.empty() && vertices.rows > most_numbers)
+        in.fail("more vertices than 32-bit numbers can name");
+    return sorted;
+}
+
 /// The element "vertex" from the front to the back, and the elements behind it.
 template <class Values>
 class ply_points {
   public:
-    /// Of `vertices`, as many rows are left to read.
-    ply_points(const source& in, Values values, const element& vertices,
-               std::vector<element> behind, std::uint64_t points, const text_index* known)
+    ply_points(const source& in, Values values, const elements_to_read& elements,
+               const text_index* known)
         : in_(in),
           values_(std::move(values)),
-          left_(vertices.rows),
-          columns_(vertices),
-          behind_(std::move(behind)),
-          all_points_(points),
-          known_(known) {}
+          left_(elements.points.rows),
+          columns_(elements.points),
+          behind_(elements.behind),
+          known_(known) {
+        if (known != nullptr) values_.expect(*known);
+        pass_rows(elements.ahead);
+        check_room(values_, columns_);
+    }
+
+    /// Passes over the first points where that takes no reading; returns how many.
+    std::uint64_t pass(std::uint64_t first) {
+        if constexpr (has_bytes<Values>) {
+            const std::size_t size = fixed_row_size(columns_);
+            if (size == 0) return 0;
+            static_cast<void>(values_.take_bytes(first * size));
+        } else {
+            if (known_ == nullptr) return 0;
+            const text_index::mark at = known_->before(lines_ahead_ + first);
+            if (at.record <= lines_ahead_) return 0;
+            first = at.record - lines_ahead_;
+            values_.go_to(in_.begin() + std::min<std::uint64_t>(at.byte, in_.size()));
+        }
+        left_ -= first;
+        return first;
+    }
 
     std::size_t append(std::vector<point3>& points, element& vertices, std::size_t most,
                        std::vector<io_warning>& warnings) {
@@ -38,9 +90,7 @@ class ply_points {
         return rows;
     }
 
-    /// \pre the numbers of points are those of the file
-    bool read(row_block& block, std::size_t most, std::uint64_t points,
-              std::vector<io_warning>& warnings) {
+    bool read(row_block& block, std::size_t most, std::vector<io_warning>& warnings) {
         pass_points();
         while (at_ < behind_.size() && row_ == behind_[at_].rows) {
             ++at_;
@@ -56,7 +106,6 @@ class ply_points {
         block.corners.clear();
         block.first_corner.clear();
         if (e.name == "face") block.first_corner.push_back(0);
-        points_ = static_cast<std::int64_t>(points);
         constexpr std::size_t corners_a_face = 4;
         while (block.rows.rows < most && block.corners.size() < corners_a_face * most &&
                row_ < e.rows)
@@ -108,23 +157,43 @@ class ply_points {
     [[nodiscard]] std::vector<row_place> parts_of_text(std::size_t count) {
         std::uint64_t rows = 0;
         for (const element& e : behind_) rows += e.rows;
-        const bool plain = known_ != nullptr && known_->records == all_points_ + rows &&
+        const bool plain = known_ != nullptr &&
+                           known_->records == lines_ahead_ + columns_.rows + rows &&
                            !known_->hexadecimal;  // else there is something to say at the end
         if (!plain) return {};
         std::vector<row_place> places;
         for (std::size_t part = 0; part <= count; ++part) {
             const std::uint64_t row = rows / count * part + rows % count * part / count;
-            go_to_line(all_points_ + row);
+            go_to_line(columns_.rows + row);
             places.push_back({row, static_cast<std::uint64_t>(values_.at() - in_.begin())});
         }
         left_ = 0;
         return places;
     }
-    /// By way of the last mark ahead of it.
+    /// Of a line, counted from the first point; by way of the last mark ahead of it.
     void go_to_line(std::uint64_t line) {
+        line += lines_ahead_;
         const text_index::mark at = known_->before(line);
         values_.go_to(in_.begin() + std::min<std::uint64_t>(at.byte, in_.size()));
         for (std::uint64_t left = line - at.record; left > 0; --left) values_.pass_row();
+    }
+
+    void pass_rows(const std::vector<element>& ahead) {
+        for (const element& e : ahead) {
+            check_room(values_, e);
+            element row;
+            restart(row, e);
+            for (std::size_t left = e.rows; left > 0; --left) {
+                values_.begin_row();
+                for (column& c : row.columns) {
+                    c.values.clear();
+                    c.list_begin.clear();
+                    read_data(values_, c);
+                }
+                values_.end_row();
+            }
+            lines_ahead_ += e.rows;
+        }
     }
 
     void pass_points() {
@@ -134,7 +203,7 @@ class ply_points {
                 left_ = 0;
             }
         } else if (known_ != nullptr && left_ > 0) {
-            go_to_line(all_points_);
+            go_to_line(columns_.rows);
             left_ = 0;
         }
         constexpr std::size_t run = std::size_t{1} << 15;
@@ -165,7 +234,7 @@ class ply_points {
         if (count < 3) values_.fail("face with " + std::to_string(count) + " corners");
         for (std::size_t i = 0; i < count; ++i) {
             const std::int64_t index = values_.index(c);
-            if (index < 0 || index >= points_)
+            if (index < 0 || index >= static_cast<std::int64_t>(columns_.rows))
                 values_.fail("vertex index " + std::to_string(index) + " is out of range");
             block.corners.push_back(static_cast<std::uint32_t>(index));
         }
@@ -174,86 +243,53 @@ class ply_points {
 
     const source& in_;
     Values values_;
-    std::size_t left_;
-    element columns_;
-    std::vector<element> behind_;  ///< with rows
-    std::size_t at_ = 0;           ///< the one that is read
-    std::size_t row_ = 0;          ///< the next of it
-    std::int64_t points_ = 0;
-    std::uint64_t all_points_;  ///< of the file
+    std::size_t left_;               ///< points to read
+    element columns_;                ///< of the points
+    std::vector<element> behind_;    ///< with rows
+    std::size_t at_ = 0;             ///< the one that is read
+    std::size_t row_ = 0;            ///< the next of it
+    std::uint64_t lines_ahead_ = 0;  ///< of the points
     const text_index* known_;
     std::optional<std::size_t> length_{};  ///< of all faces, where they must be alike
 };
 
-/// The elements behind the points that have rows; what cannot be read so is refused.
-std::vector<element> elements_behind(const source& in, const std::vector<element>& elements,
-                                     const element& vertices) {
-    std::vector<element> behind;
-    for (const element& e : elements) {
-        if (&e == &vertices || e.rows == 0 || e.columns.empty()) continue;
-        const auto same_name = std::ranges::count(elements, e.name, &element::name);
-        if (&e < &vertices || e.name == "tristrips" || same_name > 1)
-            fail_in_blocks(in, "element '" + e.name + "' is not read in blocks");
-        if (e.name == "face") {
-            if (with_role(e, column_role::corners) == nullptr)
-                in.fail("element 'face' has no list of vertex_indices");
-            if (find_column(e, face_texture_name) != nullptr)
-                fail_in_blocks(in, "texture coordinates of corners are not read in blocks");
-        }
-        behind.push_back(e);
-    }
-    if (!behind.empty() && vertices.rows > most_numbers)
-        in.fail("more vertices than 32-bit numbers can name");
-    return behind;
-}
-
 }  // namespace
 
-point_rows open_ply_points(const source& in, std::uint64_t first, bool with_rows,
+bool has_rows_to_look_at(const source& ply) {
+    ply_header header = read_ply_header(ply);
+    try {
+        static_cast<void>(sort_elements(ply, header.elements, row_use::looked_at));
+        return true;
+    } catch (const whole_file_error&) {
+        return false;
+    }
+}
+
+point_rows open_ply_points(const source& in, std::uint64_t first, row_use use,
                            const text_index* known) {
     ply_header header = read_ply_header(in);
+    const elements_to_read elements = sort_elements(in, header.elements, use);
     point_rows rows;
-    element& vertices = vertices_of(in, header.elements);
-    for (const element& e : header.elements)
-        if (!with_rows && &e != &vertices && e.rows > 0)
-            fail_in_blocks(
-                in, "element '" + e.name + "' has rows; only files of points are read in blocks");
-    std::vector<element> behind = elements_behind(in, header.elements, vertices);
-    const std::uint64_t count = vertices.rows;
-    rows.count = count;
-    with_reader(in, header, [&](const char*, auto values) { check_room(values, vertices); });
-    const bool binary = header.encoding != ply_encoding::ascii;
-    if (const std::size_t row = fixed_row_size(vertices); binary && row > 0) {
-        rows.left_out = first;
-        header.body += first * row;
-        vertices.rows -= first;
-    }
-    if (!binary && known != nullptr) {
-        const text_index::mark at = known->before(first);
-        rows.left_out = at.record;
-        header.body =
-            std::max(header.body, in.begin() + std::min<std::uint64_t>(at.byte, in.size()));
-        vertices.rows -= at.record;
-    }
+    rows.count = elements.points.rows;
     with_reader(in, header, [&](const char* format, auto values) {
         rows.head.format = format;
-        if (known != nullptr) values.expect(*known);
         using reader = ply_points<decltype(values)>;
-        const auto body = std::make_shared<reader>(in, std::move(values), vertices,
-                                                   std::move(behind), count, known);
+        const auto body = std::make_shared<reader>(in, std::move(values), elements, known);
+        rows.left_out = body->pass(first);
         rows.append = [body](auto& points, element& to, std::size_t most, auto& warnings) {
             return body->append(points, to, most, warnings);
         };
-        rows.behind = [body, count](row_block& block, std::size_t most, auto& warnings) {
-            return body->read(block, most, count, warnings);
+        rows.behind = [body](row_block& block, std::size_t most, auto& warnings) {
+            return body->read(block, most, warnings);
         };
         rows.next_row = [body] { return body->next_row(); };
         rows.go_to = [body](const row_place& place) { body->go_to(place); };
         rows.row_parts = [body](std::size_t parts) { return body->parts(parts); };
     });
-    rows.head.stored_as =
-        binary && has_single_axes(vertices) ? precision::float32 : precision::float64;
-    vertices.rows = 0;
+    rows.head.stored_as = header.encoding != ply_encoding::ascii && has_single_axes(elements.points)
+                              ? precision::float32
+                              : precision::float64;
+    vertices_of(in, header.elements).rows = 0;
     take_remarks(header, rows.head);
     rows.head.attributes.elements = std::move(header.elements);
     return rows;

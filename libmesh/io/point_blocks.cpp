@@ -15,13 +15,13 @@ namespace {
 }
 
 [[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
-                                   std::string_view format, std::uint64_t first, bool with_rows,
+                                   std::string_view format, std::uint64_t first, row_use use,
                                    const text_index* known) {
     switch (kind_of(in, path, format)) {
         case file_kind::ply:
-            return open_ply_points(in, first, with_rows, known);
+            return open_ply_points(in, first, use, known);
         case file_kind::stl_binary:
-            if (with_rows) return open_stl_points(in, first);
+            if (use != row_use::none) return open_stl_points(in, first);
             fail_in_blocks(in, "corners of faces are no points that are read alone");
         case file_kind::pcd:
             return open_pcd_points(in, first, known);
@@ -41,9 +41,9 @@ namespace {
 }  // namespace
 
 point_blocks::point_blocks(const std::filesystem::path& path, std::string_view format,
-                           std::uint64_t first, bool with_rows, const text_index* known)
+                           std::uint64_t first, row_use use, const text_index* known)
     : in_(source::open(path, scratch_place::file)),
-      rows_(open_rows(in_, path, format, first, with_rows, known)) {
+      rows_(open_rows(in_, path, format, first, use, known)) {
     point_block block;
     constexpr std::uint64_t some = std::uint64_t{1} << 15;
     for (std::uint64_t left = first - rows_.left_out;
@@ -60,7 +60,7 @@ bool point_blocks::read(point_block& block, std::size_t most) {
 }
 
 std::optional<text_index> scan_points(const std::filesystem::path& path, std::string_view format,
-                                      const file_part& part, std::size_t most) {
+                                      const file_part& part, std::size_t most, bool even) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // it is read once
     try {
@@ -71,11 +71,11 @@ std::optional<text_index> scan_points(const std::filesystem::path& path, std::st
             case file_kind::pcd:
                 return scan_pcd(in, part, most);
             case file_kind::xyz:
-                return scan_xyz(in, "xyz", part, most);
+                return scan_xyz(in, "xyz", part, most, even);
             case file_kind::pts:
-                return scan_xyz(in, "pts", part, most);
+                return scan_xyz(in, "pts", part, most, even);
             case file_kind::csv:
-                return scan_xyz(in, "csv", part, most);
+                return scan_xyz(in, "csv", part, most, even);
             default:
                 return std::nullopt;
         }

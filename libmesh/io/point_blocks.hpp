@@ -21,7 +21,7 @@ class point_blocks {
   public:
     /// As for `point_reader`; `known` as for `open_xyz_points`.
     point_blocks(const std::filesystem::path& path, std::string_view format, std::uint64_t first,
-                 bool with_rows, const text_index* known = nullptr);
+                 row_use use, const text_index* known = nullptr);
     point_blocks(const point_blocks&) = delete;
     point_blocks& operator=(const point_blocks&) = delete;
 
@@ -45,9 +45,9 @@ class point_blocks {
 };
 
 /// What a part of a text has, with at most so many marks; none for what is no text of points, or
-/// cannot be read, which is then said where it is opened.
+/// cannot be read, which is then said where it is opened. `even` as for `scan_xyz`.
 [[nodiscard]] std::optional<text_index> scan_points(const std::filesystem::path& path,
                                                     std::string_view format, const file_part& part,
-                                                    std::size_t most);
+                                                    std::size_t most, bool even = true);
 
 }  // namespace treeform::detail::io

@@ -11,7 +11,8 @@ struct point_reader::state {
 
 point_reader::point_reader(const std::filesystem::path& path, std::string_view format,
                            std::uint64_t first, bool with_rows)
-    : state_(new state{{path, format, first, with_rows}}) {}
+    : state_(new state{{path, format, first,
+                        with_rows ? detail::io::row_use::copied : detail::io::row_use::none}}) {}
 point_reader::~point_reader() = default;
 point_reader::point_reader(point_reader&&) noexcept = default;
 point_reader& point_reader::operator=(point_reader&&) noexcept = default;

@@ -20,6 +20,13 @@
 
 namespace treeform::detail::io {
 
+/// What is done with rows of a PLY other than points.
+enum class row_use : std::uint8_t {
+    none,      ///< there are none
+    copied,    ///< those behind the points are read; where they could not be written so, refused
+    looked_at  ///< those behind the points are read, and what is ahead is passed over
+};
+
 struct point_rows {
     /// Everything but the points; the element "vertex", if any, has columns without values.
     mesh_file head{};
@@ -52,10 +59,14 @@ struct point_rows {
 /// there, are passed over where that takes no reading; of text, those ahead of the last mark of what
 /// is `known` of it, which must outlive what comes back. XYZ is read once if nothing is.
 ///
-/// \throws io_error, whole_file_error also for a file with faces or other elements that have rows;
-///         `with_rows` as for `point_reader`
+/// \throws io_error; whole_file_error also for a PLY that has rows which `use` has not, as
+///         `point_reader`
 [[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0,
-                                         bool with_rows = false, const text_index* known = nullptr);
+                                         row_use use = row_use::none,
+                                         const text_index* known = nullptr);
+/// Whether rows can be looked at: vertices come ahead of faces, and these are no triangle strips.
+/// \throws io_error
+[[nodiscard]] bool has_rows_to_look_at(const source& ply);
 /// The corners of a binary STL, facets behind them.
 [[nodiscard]] point_rows open_stl_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0,
@@ -66,13 +77,14 @@ struct point_rows {
                                          const text_index* known = nullptr);
 
 /// Looks at the lines that begin in a part of a text of points; none where it is no text. Marks are at
-/// most `most`. \throws io_error, of XYZ for any line
+/// most `most`. Unless XYZ is `even` ahead of the part, its lines are looked at up to the coordinates.
+/// \throws io_error, of XYZ for any line
 [[nodiscard]] std::optional<text_index> scan_ply(const source& in, const file_part& part,
                                                  std::size_t most);
 [[nodiscard]] std::optional<text_index> scan_pcd(const source& in, const file_part& part,
                                                  std::size_t most);
 [[nodiscard]] text_index scan_xyz(const source& in, std::string_view format, const file_part& part,
-                                  std::size_t most);
+                                  std::size_t most, bool even = true);
 
 [[noreturn]] inline void fail_in_blocks(const source& in, std::string_view reason) {
     throw whole_file_error(std::string(in.name()) + ": " + std::string(reason));

@@ -44,7 +44,8 @@ class xyz_reader {
     [[nodiscard]] bool even() const { return keep_more_; }
 
     /// Goes through the lines that begin in a part.
-    [[nodiscard]] text_index scan(const file_part& part, std::size_t most_marks) {
+    [[nodiscard]] text_index scan(const file_part& part, std::size_t most_marks, bool even) {
+        keep_more_ = keep_more_ && even;
         text_scan lines(text_, part, most_marks);
         for (point3 p; !done() && lines.is_in_part();) {
             lines.add();
@@ -299,14 +300,14 @@ mesh_file read_xyz(const source& in, std::string_view format) {
 }
 
 text_index scan_xyz(const source& in, std::string_view format, const file_part& part,
-                    std::size_t most) {
-    return xyz_reader(in, format).scan(part, most);
+                    std::size_t most, bool even) {
+    return xyz_reader(in, format).scan(part, most, even);
 }
 
 point_rows open_xyz_points(const source& in, std::string_view format, std::uint64_t first,
                            const text_index* known) {
     auto reader = std::make_shared<xyz_reader>(in, format);
-    const text_index found = known == nullptr ? reader->scan({}, most_marks) : text_index();
+    const text_index found = known == nullptr ? reader->scan({}, most_marks, true) : text_index();
     const text_index& all = known == nullptr ? found : *known;
     point_rows rows;
     const text_index::mark at = all.before(first);

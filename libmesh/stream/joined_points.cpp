@@ -71,7 +71,8 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team
 void joined_points::open(std::size_t file, std::uint64_t first) {
     reader_.reset();
     const bool is_alone = inputs_.paths.size() == 1;
-    reader_.emplace(inputs_.paths[file], inputs_.format, first, is_alone, text(file));
+    reader_.emplace(inputs_.paths[file], inputs_.format, first,
+                    is_alone ? io::row_use::copied : io::row_use::none, text(file));
     file_ = file;
     if (inputs_.paths.size() > 1) fits_ = same_columns(head_, reader_->header());
 }

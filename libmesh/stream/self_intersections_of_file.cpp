@@ -1,6 +1,6 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
-#include <libmesh/io/face_rows.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <libmesh/stream/team.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -91,7 +91,7 @@ bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
         const auto found = detail::io::detect(in, detail::io::plain_extension(format),
                                               detail::io::extension_of(input));
         return found.kind == detail::io::file_kind::stl_binary ||
-               (found.kind == detail::io::file_kind::ply && detail::io::has_face_runs(in));
+               (found.kind == detail::io::file_kind::ply && detail::io::has_rows_to_look_at(in));
     } catch (const io_error&) {
         return false;
     }

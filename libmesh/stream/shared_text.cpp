@@ -33,15 +33,30 @@ std::optional<io::text_index> load_text(state_reader& state) {
     return text;
 }
 
-/// Where lines are uneven, only one that knows those ahead knows what of them is looked at: what is a
-/// fault there, or hexadecimal, has to be found from the front. Then nothing is known.
-std::optional<io::text_index> joined_text(std::vector<std::optional<io::text_index>>& parts) {
+using parts_of_text = std::vector<std::optional<io::text_index>>;
+
+/// How many parts from the first one on are as one that knows what is ahead has seen them: those up to
+/// the first line that is uneven. Behind it less of a line is looked at.
+std::size_t seen_as_one(const parts_of_text& parts) {
+    const auto uneven =
+        std::ranges::find_if(parts, [](const auto& part) { return !part || !part->even; });
+    return std::min(parts.size(), static_cast<std::size_t>(uneven - parts.begin()) + 1);
+}
+
+/// Whether parts behind an uneven line may have been taken for what they are not.
+bool is_misread(const parts_of_text& parts) {
+    const std::size_t seen = seen_as_one(parts);
+    return parts[seen - 1] &&
+           std::any_of(parts.begin() + static_cast<std::ptrdiff_t>(seen), parts.end(),
+                       [](const auto& part) { return !part || part->hexadecimal; });
+}
+
+std::optional<io::text_index> joined_text(const parts_of_text& parts) {
     io::text_index all;
     for (const auto& part : parts) {
         if (!part) return std::nullopt;
         all.add(*part);
     }
-    if (parts.size() > 1 && !all.even && all.hexadecimal) return std::nullopt;
     return all;
 }
 
@@ -51,17 +66,25 @@ std::vector<std::optional<io::text_index>> look_at_texts(
     const std::vector<std::filesystem::path>& paths, std::string_view format, const team& all) {
     const std::size_t marks =
         std::clamp<std::size_t>(4 * io::most_marks / paths.size(), 2, io::most_marks);
-    state_writer mine;
-    for (const std::filesystem::path& path : paths)
-        store_text(io::scan_points(path, format, {all.rank(), all.size()}, marks), mine);
-    std::vector<state_reader> told = all.exchange(mine);
-    std::vector<std::optional<io::text_index>> texts;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        std::vector<std::optional<io::text_index>> parts;
-        for (state_reader& one : told) parts.push_back(load_text(one));
-        texts.push_back(joined_text(parts));
-    }
-    return texts;
+    const io::file_part part{all.rank(), all.size()};
+    std::vector<parts_of_text> texts(paths.size());
+    const auto share = [&](const auto& scan) {
+        state_writer mine;
+        for (std::size_t i = 0; i < paths.size(); ++i) store_text(scan(i), mine);
+        texts.assign(paths.size(), {});
+        for (state_reader& one : all.exchange(mine))
+            for (parts_of_text& parts : texts) parts.push_back(load_text(one));
+    };
+    share([&](std::size_t i) { return io::scan_points(paths[i], format, part, marks); });
+    if (std::ranges::any_of(texts, is_misread))
+        share([&](std::size_t i) {
+            const bool again = is_misread(texts[i]) && all.rank() >= seen_as_one(texts[i]);
+            return again ? io::scan_points(paths[i], format, part, marks, false)
+                         : texts[i][all.rank()];
+        });
+    std::vector<std::optional<io::text_index>> joined;
+    for (const parts_of_text& parts : texts) joined.push_back(joined_text(parts));
+    return joined;
 }
 
 }  // namespace treeform::detail::stream

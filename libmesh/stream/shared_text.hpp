@@ -13,7 +13,7 @@
 namespace treeform::detail::stream {
 
 /// What is known of each file when all have looked; none of what is no text of points or of a PLY, and
-/// of what has to be read from the front, be it to say what is wrong with it. All come here.
+/// of what cannot be read: what is wrong is said where it is read from the front. All come here.
 [[nodiscard]] std::vector<std::optional<io::text_index>> look_at_texts(
     const std::vector<std::filesystem::path>& paths, std::string_view format, const team& all);
 

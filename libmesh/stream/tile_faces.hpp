@@ -6,6 +6,7 @@
 #include <libmesh/stream/edge_files.hpp>
 #include <libmesh/stream/kept_rows.hpp>
 #include <libmesh/stream/paged_file.hpp>
+#include <libmesh/stream/rows_in_turn.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -68,6 +69,7 @@ class tile_faces {
   private:
     using corners_of_block = std::array<std::size_t, 3>;
 
+    [[nodiscard]] file_of_rows file() const;
     [[nodiscard]] io::point_blocks open() const;
     [[nodiscard]] stream_error changed() const;
     /// Calls `take` with the rows of the share, or of the whole file.

@@ -4,9 +4,7 @@
 #include <libmesh/stream/tile_faces.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
-#include <system_error>
 #include <utility>
 
 namespace treeform::detail::stream {
@@ -33,8 +31,15 @@ bool has_rows_behind(const mesh_file& header) {
     });
 }
 
+file_of_rows tile_faces::file() const {
+    const cloud_inputs& inputs = task_.inputs;
+    return {
+        .path = inputs.paths.front(), .format = inputs.format, .known = steps_.source().text(0)};
+}
+
 io::point_blocks tile_faces::open() const {
-    return {task_.inputs.paths.front(), task_.inputs.format, 0, true, steps_.source().text(0)};
+    const file_of_rows of = file();
+    return {of.path, of.format, 0, of.use, of.known};
 }
 
 void tile_faces::look(cloud_survey& survey) {
@@ -91,47 +96,14 @@ void tile_faces::look_at_whole(cloud_survey& survey) {
     end_look(reader, survey);
 }
 
-/// Each of a team in turn goes on where the one before has ended, up to the end of its share of the
-/// bytes: a row is where the last one ends.
 void tile_faces::look_in_turn(cloud_survey& survey) {
-    constexpr std::uint64_t blocks_a_part = 32;
-    const team& all = steps_.all();
-    std::error_code unknown;
-    const std::uint64_t bytes = std::filesystem::file_size(task_.inputs.paths.front(), unknown);
-    io::row_place next;
-    std::uint64_t begin = 0;
-    for (std::size_t turn = 0; turn < all.size(); ++turn) {
-        state_writer mine;
-        if (turn == all.rank()) {
-            io::point_blocks reader = open();
-            if (turn > 0) reader.go_to(next);
-            io::row_place at = reader.next_row();
-            if (turn == 0) begin = at.byte;
-            mine.number(at.row);
-            mine.number(at.byte);
-            std::uint64_t rows = 0;
-            for (const element& e : reader.header().attributes.elements) rows += e.rows;
-            const std::size_t most = rows_of_next(rows / (blocks_a_part * all.size()) + 1);
-            const std::uint64_t end = is_last() || unknown
-                                          ? std::numeric_limits<std::uint64_t>::max()
-                                          : begin + all.share_of(bytes - begin, turn).last;
-            for (row_block block; at.byte < end && reader.read(block, most); pace_.check()) {
-                look_at_rows(block, survey);
-                at = reader.next_row();
-            }
-            end_look(reader, survey);
-            mine.number(at.row);
-            mine.number(at.byte);
-        }
-        state_reader told = std::move(all.exchange(mine)[turn]);
-        next.row = told.number();
-        next.byte = told.number();
-        if (turn == 0) begin = next.byte;
-        parts_.push_back(next);
-        next.row = told.number();
-        next.byte = told.number();
-    }
-    parts_.push_back(next);
+    parts_ = rows_in_turn(
+        steps_.all(), file(),
+        [&](const row_block& block) {
+            look_at_rows(block, survey);
+            pace_.check();
+        },
+        [&](const io::point_blocks& reader) { end_look(reader, survey); });
 }
 
 void tile_faces::look_at_rows(const row_block& block, cloud_survey& survey) {

@@ -2,6 +2,7 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
 #include <libmesh/stream/point_places.hpp>
+#include <libmesh/stream/rows_in_turn.hpp>
 #include <libmesh/stream/shared_text.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -185,7 +186,7 @@ void tile_search::forget_tiles() {
     firsts_.clear();
 }
 
-bool tile_search::give_tiles(bool from_front) {
+bool tile_search::give_tiles(bool in_turn) {
     forget_tiles();
     const io::source in = io::source::open(input_, io::scratch_place::file);
     const auto make_store = [&](std::size_t points) -> std::unique_ptr<io::point_store> {
@@ -193,12 +194,12 @@ bool tile_search::give_tiles(bool from_front) {
         return std::make_unique<shared_points>(folder_, all_, points, memory_ / 4);
     };
     std::optional<io::text_index> text;
-    if (!all_.is_alone() && !from_front)
-        text = look_at_texts({input_}, options_.format, all_).front();
+    if (!all_.is_alone()) text = look_at_texts({input_}, options_.format, all_).front();
+    const io::text_index* const known = text ? &*text : nullptr;
     io::face_rows rows =
-        open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size(), from_front},
-                   text ? &*text : nullptr);
+        open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size()}, known);
     share_head(rows);
+    in_turn = share_rows(rows, in_turn, known);
     others_read_ = !all_.is_alone();
     vertices_ = options_.vertices.value_or(rows.head.indexed ? vertex_identity::by_index
                                                              : vertex_identity::by_coordinates);
@@ -225,8 +226,33 @@ bool tile_search::give_tiles(bool from_front) {
     const auto failed = share_counts(failure);
     others_read_ = false;
     shared_points::remove(folder_, all_.rank());
-    if (failed && from_front) throw io_error(*failed);
+    if (failed && in_turn) throw io_error(*failed);
     return !failed;
+}
+
+/// Gives each of a team its part of the rows of a PLY. Where these are only alike if the first one is
+/// like the others, any error from then on may come from one that is not. Returns whether all have been
+/// read in turn, so that none can come.
+bool tile_search::share_rows(const io::face_rows& rows, bool in_turn,
+                             const io::text_index* known) const {
+    if (all_.is_alone() || !rows.go_to) return true;
+    std::vector<io::row_place> parts;
+    try {
+        if (!in_turn) parts = rows.row_parts(all_.size());
+    } catch (const io_error&) {  // of the first row: it is said in its turn
+    }
+    in_turn = all_.sum(parts.empty() ? 1 : 0) > 0;
+    if (in_turn)
+        parts = rows_in_turn(all_,
+                             {.path = input_,
+                              .format = options_.format,
+                              .use = io::row_use::looked_at,
+                              .known = known},
+                             [&](const row_block&) { pace_.check(); });
+    const std::size_t next = all_.rank() + 1;
+    rows.go_to(parts[next - 1],
+               next == all_.size() ? std::nullopt : std::optional(parts[next].row));
+    return in_turn;
 }
 
 /// What all have found ahead of the faces. When all are here, all points are where they are looked

@@ -89,8 +89,11 @@ class tile_search {
     void store(std::size_t tile, const tile_found& found) const;
 
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
-    /// Returns false where faces could not be read; with `from_front`, all of a team throw then.
-    [[nodiscard]] bool give_tiles(bool from_front);
+    /// Returns false where faces could not be read; where all have been read in turn, all of a team
+    /// throw then.
+    [[nodiscard]] bool give_tiles(bool in_turn);
+    [[nodiscard]] bool share_rows(const io::face_rows& rows, bool in_turn,
+                                  const io::text_index* known) const;
     template <class Real>
     void give_all(io::face_rows& rows);
     void share_head(io::face_rows& rows) const;

@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using tf::detail::io::point_blocks;
 using tf::detail::io::row_place;
+using tf::detail::io::row_use;
 
 /// Triangles, edges behind them, as bytes; STL has triangles only.
 tf::mesh_file triangles_and_edges(std::uint32_t count) {
@@ -69,7 +70,7 @@ TEST_CASE("row parts: rows behind the points are read from any place, and in ali
     constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
     for (const fs::path& path : {stl, binary, text}) {
         CAPTURE(path);
-        point_blocks front(path, {}, 0, true);
+        point_blocks front(path, {}, 0, row_use::copied);
         std::vector<row_place> places{front.next_row()};
         CHECK(places[0].row == 0);
         std::string whole;
@@ -82,7 +83,7 @@ TEST_CASE("row parts: rows behind the points are read from any place, and in ali
         CHECK(places.back().row == (path == stl ? 300 : 450));
         CHECK(places.back().byte == fs::file_size(path));
         for (const row_place& place : places) {
-            point_blocks reader(path, {}, 0, true);
+            point_blocks reader(path, {}, 0, row_use::copied);
             reader.go_to(place);
             CHECK(whole.ends_with(rows_from(reader, all, 100)));
             const bool at_end = place.row == places.back().row;
@@ -90,7 +91,7 @@ TEST_CASE("row parts: rows behind the points are read from any place, and in ali
             CHECK(rows_from(reader, 1, 1).empty() == at_end);
         }
         for (const std::size_t count : {1U, 4U, 7U, 1000U}) {
-            point_blocks reader(path, {}, 0, true);
+            point_blocks reader(path, {}, 0, row_use::copied);
             const std::vector<row_place> parts = reader.row_parts(count);
             CHECK(parts.empty() == (path == text));
             if (parts.empty()) continue;
@@ -125,20 +126,20 @@ TEST_CASE("row parts: parts of rows that cannot be alike, or are not, are not ta
         return own.path / "a.ply";
     };
     tf::row_block block;
-    point_blocks alike(polygons({4, 4, 4}, ""), {}, 0, true);
+    point_blocks alike(polygons({4, 4, 4}, ""), {}, 0, row_use::copied);
     CHECK(alike.row_parts(3).size() == 4);
     REQUIRE(alike.read(block, 9));
     CHECK(block.rows.rows == 3);
     for (const fs::path& path : {polygons({4, 3, 4}, ""), polygons({4, 4, 4}, "more")}) {
-        point_blocks mixed(path, {}, 0, true);
+        point_blocks mixed(path, {}, 0, row_use::copied);
         CHECK(mixed.row_parts(3).empty());
         CHECK(mixed.read(block, 9));
     }
-    point_blocks same_size(polygons({4, 3, 5}, ""), {}, 0, true);
+    point_blocks same_size(polygons({4, 3, 5}, ""), {}, 0, row_use::copied);
     const auto parts = same_size.row_parts(3);
     REQUIRE(parts.size() == 4);
     CHECK_THROWS_AS(same_size.read(block, 9), tf::io_error);
-    point_blocks front(polygons({4, 3, 5}, ""), {}, 0, true);
+    point_blocks front(polygons({4, 3, 5}, ""), {}, 0, row_use::copied);
     REQUIRE(front.read(block, 9));
     CHECK(block.rows.rows == 3);
 }

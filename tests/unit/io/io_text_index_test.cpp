@@ -58,7 +58,7 @@ std::vector<kind> kinds(std::size_t points) {
                        return io::scan_ply(in, part, most).value();
                    },
                    [](const auto& in, std::uint64_t first, const auto* known) {
-                       return io::open_ply_points(in, first, false, known);
+                       return io::open_ply_points(in, first, io::row_use::none, known);
                    }});
     all.push_back({"pcd",
                    "VERSION .7\nFIELDS x y z t\nSIZE 8 8 8 8\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH " +
