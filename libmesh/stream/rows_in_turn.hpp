@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// Rows behind the points of a file whose places only those know who have read what is ahead of them.
+
+#include <libmesh/io/point_blocks.hpp>
+#include <libmesh/stream/team.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// As for `io::point_blocks`.
+struct file_of_rows {
+    const std::filesystem::path& path;
+    std::string_view format{};
+    io::row_use use = io::row_use::copied;
+    const io::text_index* known = nullptr;
+};
+
+/// Each of a team in turn reads on where the one before has ended, up to the end of its share of the
+/// bytes, and calls `take` with each block that it reads, and then `done`. Returns where the rows of
+/// each begin, and where the last ones end. All come here; what is wrong first in the file, all throw.
+///
+/// \throws io_error, and what `take` throws
+[[nodiscard]] std::vector<io::row_place> rows_in_turn(
+    const team& all, const file_of_rows& of, const std::function<void(const row_block&)>& take,
+    const std::function<void(const io::point_blocks&)>& done = {});
+
+}  // namespace treeform::detail::stream
