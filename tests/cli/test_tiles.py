@@ -47,6 +47,15 @@ def ply_lines(mesh):
     return head + ["1", "", "0.5", *rows, *edges, *polygons[:9], " \t ", *polygons[9:], "0", "2 1 1"]
 
 
+def polygon_rows(faces, rng):
+    """Those of a binary PLY: of several lengths, with a list and a number beside the corners."""
+    for f in faces:
+        corners = (*f, *rng.choices(f, k=rng.choice((0, 0, 1, 4))))
+        marks = [rng.random() for _ in range(rng.randrange(3))]
+        yield struct.pack(f"<B{len(corners)}iB{len(marks)}fh", len(corners), *corners, len(marks), *marks,
+                          rng.randrange(99))
+
+
 def answers(report):
     file = dict(report["files"][0])
     for key in WAY:
@@ -234,6 +243,8 @@ class Tiles(ToolTest):
         elements = (f"element vertex {len(points)}\nproperty float x\nproperty float y\n"
                     f"property float z\nelement face {len(faces)}\n"
                     "property list uchar int vertex_indices\nend_header\n")
+        more = elements.replace("end_header", "property list uchar float texcoord\nproperty short mark\n"
+                                "end_header")
         text = [["%8.4f %8.4f %8.4f\n" % p for p in points], ["3 %4d %4d %4d\n" % f for f in faces]]
         soup = stl_bytes((points, faces))
         for name, head, parts in (
@@ -241,6 +252,9 @@ class Tiles(ToolTest):
                  [[line.encode() for line in part] for part in text]),
                 ("in.ply", f"ply\nformat binary_little_endian 1.0\n{elements}".encode(),
                  [[struct.pack("<3f", *p) for p in points], [struct.pack("<B3i", 3, *f) for f in faces]]),
+                ("polygons.ply", f"ply\nformat binary_little_endian 1.0\n{more}".encode(),
+                 [[struct.pack("<3f", *p) for p in points],
+                  list(polygon_rows(faces, random.Random(5)))]),
                 ("in.stl", soup[:84], [[soup[i:i + 50] for i in range(84, len(soup), 50)]])):
             whole = head + b"".join(row for part in parts for row in part)
             for copy, data in [(name, whole)] + [(f"{rank}.{name}", for_rank(rank, 4, head, *parts))
@@ -255,6 +269,25 @@ class Tiles(ToolTest):
                 self.assertEqual(self.read_bytes("pairs.csv"), expected[1])
                 self.assertEqual(json.loads(run.text)["files"][0]["sha256"],
                                  hashlib.sha256(whole).hexdigest())
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_of_faces_of_several_lengths_the_first_fault_is_said(self):
+        points, faces = heap(40)
+        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\n"
+                f"property float y\nproperty float z\nelement face {len(faces)}\n"
+                "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+                "property short mark\nend_header\n").encode()
+        rows = list(polygon_rows(faces, random.Random(7)))
+        none = lambda row: row[:1] + struct.pack("<i", 1 << 30) + row[5:]
+        for faults in ([len(rows) - 1], [len(rows) // 2, len(rows) - 9], [3, len(rows) // 3]):
+            bad = [none(row) if n in faults else row for n, row in enumerate(rows)]
+            with open(self.path("in.ply"), "wb") as file:
+                file.write(head + b"".join(struct.pack("<3f", *p) for p in points) + b"".join(bad))
+            said = self.run_tool("in.ply", "--tile-faces", 50, status=3).err.splitlines()[-1]
+            self.assertIn("vertex index 1073741824 is out of range", said)
+            run = self.mpi(4, "in.ply", "--tile-faces", 50, status=3)
+            self.assertEqual((run.err.count(said), run.err.count("error:")), (1, 1), run.err)
+            self.assertEqual(self.listing(), ["in.ply"])
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
@@ -305,11 +338,13 @@ class Tiles(ToolTest):
         self.put_all(heap(3))
         with open(self.path("in.obj"), "wb") as file:
             file.write(obj_bytes(CROSSING))
+        os.mkfifo(self.path("in.fifo"))
         for arguments, word in ((["in.stl", "--between"], "--between"),
                                 (["in.stl", "-t", "0.1"], "-t"),
                                 (["in.stl", "--first"], "--first"),
                                 (["in.stl", "--repair", "-o", "out.stl"], "a mesh to write"),
-                                (["in.obj"], "neither a binary STL nor a PLY"), (["-"], "standard input")):
+                                (["in.obj"], "neither a binary STL nor a PLY"), (["-"], "standard input"),
+                                (["in.fifo"], "a pipe or device")):
             run = self.run_tool(*arguments, "--tile-faces", 10, status=2)
             self.assertIn(word + " needs the whole mesh in memory", run.err)
         self.put("foreign/file.txt", "mine")

@@ -361,15 +361,17 @@ class Shared(WeldTest):
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_what_fails_is_said_once_and_nothing_is_written(self):
         self.write("there.ply", b"mine")
+        os.mkfifo(self.path("in.fifo"))
         for arguments, status, words in (
                 (["none.ply", "-o", "out.ply"], 3, "none.ply: No such file"),
                 (["in.ply", "-t", "0.1", "-o", "there.ply"], 4, "there.ply: exists"),
                 (["in.ply", "-t", "0.1", "--map", "there.ply"], 4, "there.ply: exists"),
                 (["in.ply", "--same", "color", "-o", "out.ply"], 3, "no such property"),
-                (["in.ply", "-t", "0.1"], 2, "nothing to give back")):
+                (["in.ply", "-t", "0.1"], 2, "nothing to give back"),
+                (["in.fifo", "-t", "0.1", "-o", "out.ply"], 2, "a file, not a pipe or device")):
             run = self.mpi(3, *arguments, status=status)
             self.assertEqual(run.err.count(words), 1, msg=run.err)
-            self.assertEqual(self.listing(), ["in.ply", "there.ply"])
+            self.assertEqual(self.listing(), ["in.fifo", "in.ply", "there.ply"])
         self.assertEqual(self.read_bytes("there.ply"), b"mine")
         for more in ([], ["-r", "report.json"]):
             self.mpi(2, "in.ply", "-t", "0.1", "--check", *more, status=1)

@@ -108,6 +108,12 @@ void say_tiles(job& work) {
                     (finished > 0 ? ", " + grouped(finished) + " finished" : ""));
 }
 
+bool is_read_once(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    return std::filesystem::exists(status) && std::filesystem::is_other(status);
+}
+
 std::string remark_on_folder(const tile_options& tiles) {
     return tiles.folder.empty() ? std::string()
                                 : "enough memory to work without tiles: --work is not used";
