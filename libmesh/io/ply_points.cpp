@@ -64,21 +64,44 @@ class ply_points {
         check_room(values_, columns_);
     }
 
-    /// Passes over the first points where that takes no reading; returns how many.
+    /// Passes over the first points, as many of them as takes no reading; returns how many.
     std::uint64_t pass(std::uint64_t first) {
         if constexpr (has_bytes<Values>) {
-            const std::size_t size = fixed_row_size(columns_);
-            if (size == 0) return 0;
-            static_cast<void>(values_.take_bytes(first * size));
-        } else {
-            if (known_ == nullptr) return 0;
-            const text_index::mark at = known_->before(lines_ahead_ + first);
-            if (at.record <= lines_ahead_) return 0;
-            first = at.record - lines_ahead_;
-            values_.go_to(in_.begin() + std::min<std::uint64_t>(at.byte, in_.size()));
+            if (const std::size_t size = fixed_row_size(columns_); size > 0) {
+                static_cast<void>(values_.take_bytes(first * size));
+                left_ -= first;
+                return first;
+            }
         }
-        left_ -= first;
-        return first;
+        const auto at =
+            known_ == nullptr ? text_index::mark{} : known_->before(lines_ahead_ + first);
+        if (at.record <= lines_ahead_) return 0;
+        go_to_byte(at.byte);
+        left_ = columns_.rows - (at.record - lines_ahead_);
+        return at.record - lines_ahead_;
+    }
+
+    /// As `scan_listed_points`.
+    [[nodiscard]] listed_points scan(const row_place& first, std::uint64_t end, std::size_t most) {
+        constexpr std::size_t points_a_mark = 256;
+        if (first.byte > 0) go_to_byte(first.byte);
+        left_ = columns_.rows - std::min<std::uint64_t>(first.row, columns_.rows);
+        listed_points seen;
+        spread_marks marks(most);
+        element rows;
+        std::vector<point3> points;
+        while (left_ > 0 && byte() < end) {
+            marks.add(seen.found.records, byte());
+            restart(rows, columns_);
+            points.clear();
+            append_vertices(values_, rows, points, std::min(left_, points_a_mark));
+            left_ -= points.size();
+            seen.found.records += points.size();
+        }
+        seen.next = {first.row + seen.found.records, byte()};
+        seen.found.marks = std::move(marks).all();
+        if (left_ == 0) seen.found.marks.push_back({seen.found.records, byte()});
+        return seen;
     }
 
     std::size_t append(std::vector<point3>& points, element& vertices, std::size_t most,
@@ -115,8 +138,7 @@ class ply_points {
 
     [[nodiscard]] row_place next_row() {
         pass_points();
-        row_place place{.row = row_,
-                        .byte = static_cast<std::uint64_t>(values_.at() - in_.begin())};
+        row_place place{.row = row_, .byte = byte()};
         for (std::size_t e = 0; e < at_; ++e) place.row += behind_[e].rows;
         return place;
     }
@@ -127,13 +149,13 @@ class ply_points {
         std::uint64_t row = place.row;
         for (; at_ < behind_.size() && row >= behind_[at_].rows; ++at_) row -= behind_[at_].rows;
         row_ = static_cast<std::size_t>(row);
-        values_.go_to(in_.begin() + std::min<std::uint64_t>(place.byte, in_.size()));
+        go_to_byte(place.byte);
     }
 
     [[nodiscard]] std::vector<row_place> parts(std::size_t count) {
         std::vector<alike_rows> rows;
         if constexpr (has_bytes<Values>) {
-            if (left_ > 0 && fixed_row_size(columns_) == 0) return {};
+            if (left_ > 0 && fixed_row_size(columns_) == 0 && known_ == nullptr) return {};
             pass_points();
             Values values = values_;
             std::optional<std::size_t> corners;
@@ -146,14 +168,20 @@ class ply_points {
             }
             if (values.bytes_left() > 0) return {};
             length_ = corners;
-            return parts_of_rows(static_cast<std::uint64_t>(values_.at() - in_.begin()), rows,
-                                 count);
+            return parts_of_rows(byte(), rows, count);
         } else {
             return parts_of_text(count);
         }
     }
 
   private:
+    [[nodiscard]] std::uint64_t byte() const {
+        return static_cast<std::uint64_t>(values_.at() - in_.begin());
+    }
+    void go_to_byte(std::uint64_t byte) {
+        values_.go_to(in_.begin() + std::min<std::uint64_t>(byte, in_.size()));
+    }
+
     [[nodiscard]] std::vector<row_place> parts_of_text(std::size_t count) {
         std::uint64_t rows = 0;
         for (const element& e : behind_) rows += e.rows;
@@ -165,7 +193,7 @@ class ply_points {
         for (std::size_t part = 0; part <= count; ++part) {
             const std::uint64_t row = rows / count * part + rows % count * part / count;
             go_to_line(columns_.rows + row);
-            places.push_back({row, static_cast<std::uint64_t>(values_.at() - in_.begin())});
+            places.push_back({row, byte()});
         }
         left_ = 0;
         return places;
@@ -174,7 +202,7 @@ class ply_points {
     void go_to_line(std::uint64_t line) {
         line += lines_ahead_;
         const text_index::mark at = known_->before(line);
-        values_.go_to(in_.begin() + std::min<std::uint64_t>(at.byte, in_.size()));
+        go_to_byte(at.byte);
         for (std::uint64_t left = line - at.record; left > 0; --left) values_.pass_row();
     }
 
@@ -192,16 +220,16 @@ class ply_points {
                 }
                 values_.end_row();
             }
-            lines_ahead_ += e.rows;
+            if constexpr (!has_bytes<Values>) lines_ahead_ += e.rows;
         }
     }
 
     void pass_points() {
         if constexpr (has_bytes<Values>) {
-            if (const std::size_t size = fixed_row_size(columns_); size > 0) {
-                static_cast<void>(values_.take_bytes(left_ * size));
-                left_ = 0;
-            }
+            if (fixed_row_size(columns_) > 0)
+                static_cast<void>(pass(left_));
+            else if (left_ > 0)
+                static_cast<void>(pass(columns_.rows));
         } else if (known_ != nullptr && left_ > 0) {
             go_to_line(columns_.rows);
             left_ = 0;
@@ -248,7 +276,7 @@ class ply_points {
     std::vector<element> behind_;    ///< with rows
     std::size_t at_ = 0;             ///< the one that is read
     std::size_t row_ = 0;            ///< the next of it
-    std::uint64_t lines_ahead_ = 0;  ///< of the points
+    std::uint64_t lines_ahead_ = 0;  ///< of the points, in text
     const text_index* known_;
     std::optional<std::size_t> length_{};  ///< of all faces, where they must be alike
 };
@@ -293,6 +321,24 @@ point_rows open_ply_points(const source& in, std::uint64_t first, row_use use,
     take_remarks(header, rows.head);
     rows.head.attributes.elements = std::move(header.elements);
     return rows;
+}
+
+bool has_listed_points(const source& ply) {
+    ply_header header = read_ply_header(ply);
+    return header.encoding != ply_encoding::ascii &&
+           fixed_row_size(vertices_of(ply, header.elements)) == 0;
+}
+
+listed_points scan_listed_points(const source& ply, const row_place& first, std::uint64_t end,
+                                 std::size_t most) {
+    ply_header header = read_ply_header(ply);
+    const elements_to_read elements = sort_elements(ply, header.elements, row_use::looked_at);
+    listed_points seen;
+    with_reader(ply, header, [&](const char*, auto values) {
+        ply_points<decltype(values)> points(ply, std::move(values), elements, nullptr);
+        seen = points.scan(first, end, most);
+    });
+    return seen;
 }
 
 std::optional<text_index> scan_ply(const source& in, const file_part& part, std::size_t most) {

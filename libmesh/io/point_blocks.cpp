@@ -84,4 +84,15 @@ std::optional<text_index> scan_points(const std::filesystem::path& path, std::st
     }
 }
 
+bool has_listed_points_at(const std::filesystem::path& path, std::string_view format) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return false;
+    try {
+        const source in = source::open(path);
+        return kind_of(in, path, format) == file_kind::ply && has_listed_points(in);
+    } catch (const io_error&) {
+        return false;
+    }
+}
+
 }  // namespace treeform::detail::io

@@ -50,4 +50,7 @@ class point_blocks {
                                                     std::string_view format, const file_part& part,
                                                     std::size_t most, bool even = true);
 
+/// Whether it is a PLY that `has_listed_points`; not where it cannot be read.
+[[nodiscard]] bool has_listed_points_at(const std::filesystem::path& path, std::string_view format);
+
 }  // namespace treeform::detail::io

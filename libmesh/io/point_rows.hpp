@@ -76,6 +76,19 @@ struct point_rows {
                                          std::uint64_t first = 0,
                                          const text_index* known = nullptr);
 
+/// Whether the points of a PLY are rows of bytes with lists, so that only who has read those ahead knows
+/// where one begins. \throws io_error
+[[nodiscard]] bool has_listed_points(const source& ply);
+struct listed_points {
+    text_index found{};
+    row_place next{};  ///< the first point behind them; its row is that of the element
+};
+/// Looks at such points from `first` on, a byte of zero being where they begin, up to the first that
+/// begins at byte `end` or behind it; some more are looked at. Marks are at most `most`, and one.
+/// \throws io_error
+[[nodiscard]] listed_points scan_listed_points(const source& ply, const row_place& first,
+                                               std::uint64_t end, std::size_t most);
+
 /// Looks at the lines that begin in a part of a text of points; none where it is no text. Marks are at
 /// most `most`. Unless XYZ is `even` ahead of the part, its lines are looked at up to the coordinates.
 /// \throws io_error, of XYZ for any line

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What is known of the lines of a text once all have been looked at, be it by many: how many are
-/// records, and where some of these begin.
+/// What is known of the records of a file whose places can only be read, once all have been looked at,
+/// be it by many: how many there are, and where some of them begin.
 
 #include <libmesh/io/file_part.hpp>
 #include <libmesh/io/text.hpp>
@@ -9,13 +9,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::io {
 
 inline constexpr std::size_t most_marks = 1024;
 
-/// A record is a line with the values of a point, or in a PLY of a row.
+/// A record is a line with the values of a point, or in a PLY of a row; in binary a point with lists,
+/// where the last mark is the end of all points.
 struct text_index {
     struct mark {
         std::uint64_t record = 0;
@@ -40,12 +42,38 @@ struct text_index {
     }
 };
 
+/// Marks of records, evenly spread, as these come.
+class spread_marks {
+  public:
+    /// At most so many, at least two.
+    explicit spread_marks(std::size_t most) : most_(most) {}
+
+    /// Of each record, or each some-th one. \pre it is behind those before
+    void add(std::uint64_t record, std::uint64_t byte) {
+        if (record % spacing_ != 0) return;
+        if (marks_.size() == most_) thin_out();
+        if (record % spacing_ == 0) marks_.push_back({record, byte});
+    }
+    [[nodiscard]] std::vector<text_index::mark> all() && { return std::move(marks_); }
+
+  private:
+    /// Leaves every other one.
+    void thin_out() {
+        spacing_ *= 2;
+        std::erase_if(marks_, [&](const auto& m) { return m.record % spacing_ != 0; });
+    }
+
+    std::size_t most_;
+    std::uint64_t spacing_ = 1;
+    std::vector<text_index::mark> marks_{};
+};
+
 /// Counts the records whose lines begin in one part of a text, and marks some, evenly spread.
 class text_scan {
   public:
     /// Of what is left of the text; at most `most` marks, at least two.
     text_scan(text& of, const file_part& part, std::size_t most)
-        : text_(of), body_(of.at), most_(most) {
+        : text_(of), body_(of.at), marks_(most) {
         const auto size = static_cast<std::uint64_t>(text_.end - body_);
         last_ = body_ + part.last(size);
         text_.at = body_ + part.first(size);
@@ -60,29 +88,19 @@ class text_scan {
     }
     /// The text is at the next record.
     void add() {
-        if (found_.records % spacing_ == 0 && found_.marks.size() == most_) thin_out();
-        if (found_.records % spacing_ == 0)
-            found_.marks.push_back(
-                {found_.records, static_cast<std::uint64_t>(text_.at - text_.file.begin())});
+        marks_.add(found_.records, static_cast<std::uint64_t>(text_.at - text_.file.begin()));
         ++found_.records;
     }
-    [[nodiscard]] text_index found() && { return std::move(found_); }
-
-  private:
-    /// Leaves every other one.
-    void thin_out() {
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < found_.marks.size(); i += 2)
-            found_.marks[left++] = found_.marks[i];
-        found_.marks.resize(left);
-        spacing_ *= 2;
+    [[nodiscard]] text_index found() && {
+        found_.marks = std::move(marks_).all();
+        return std::move(found_);
     }
 
+  private:
     text& text_;
     const char* body_;
     const char* last_;
-    std::size_t most_;
-    std::uint64_t spacing_ = 1;
+    spread_marks marks_;
     text_index found_{};
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 
 namespace treeform::detail::stream {
 namespace {
@@ -60,6 +62,37 @@ std::optional<io::text_index> joined_text(const parts_of_text& parts) {
     return all;
 }
 
+/// Points with lists: each of a team in turn reads on where the one before has ended.
+std::optional<io::text_index> look_in_turn(const std::filesystem::path& path, const team& all,
+                                           std::size_t marks) {
+    parts_of_text parts;
+    io::row_place next;
+    for (std::size_t turn = 0; turn < all.size(); ++turn) {
+        state_writer mine;
+        if (turn == all.rank()) {
+            io::listed_points seen;
+            bool good = true;
+            try {
+                const io::source in = io::source::open(path);
+                const std::uint64_t end = turn + 1 == all.size()
+                                              ? std::numeric_limits<std::uint64_t>::max()
+                                              : all.share_of(in.size(), turn).last;
+                seen = io::scan_listed_points(in, next, end, marks);
+            } catch (const io_error&) {  // it is said where the point is read
+                good = false;
+            }
+            store_text(good ? std::optional(std::move(seen.found)) : std::nullopt, mine);
+            for (const std::uint64_t n : {seen.next.row, seen.next.byte}) mine.number(n);
+        }
+        state_reader told = std::move(all.exchange(mine)[turn]);
+        parts.push_back(load_text(told));
+        next.row = told.number();
+        next.byte = told.number();
+        if (!parts.back()) return std::nullopt;
+    }
+    return joined_text(parts);
+}
+
 }  // namespace
 
 std::vector<std::optional<io::text_index>> look_at_texts(
@@ -83,7 +116,10 @@ std::vector<std::optional<io::text_index>> look_at_texts(
                          : texts[i][all.rank()];
         });
     std::vector<std::optional<io::text_index>> joined;
-    for (const parts_of_text& parts : texts) joined.push_back(joined_text(parts));
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        joined.push_back(!all.is_alone() && io::has_listed_points_at(paths[i], format)
+                             ? look_in_turn(paths[i], all, marks)
+                             : joined_text(texts[i]));
     return joined;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Texts that each of a team looks at: at the lines that begin in its share of the bytes.
+/// Files that each of a team looks at before any of them can read its share: at the lines of a text that
+/// begin in its share of the bytes, and likewise at points with lists, one after the other.
 
 #include <libmesh/io/text_index.hpp>
 #include <libmesh/stream/team.hpp>

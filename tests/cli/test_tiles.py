@@ -255,6 +255,10 @@ class Tiles(ToolTest):
                 ("polygons.ply", f"ply\nformat binary_little_endian 1.0\n{more}".encode(),
                  [[struct.pack("<3f", *p) for p in points],
                   list(polygon_rows(faces, random.Random(5)))]),
+                ("lists.ply", f"ply\nformat binary_little_endian 1.0\n{elements}".replace(
+                    "element face", "property list uchar uchar views\nelement face").encode(),
+                 [[struct.pack("<3fB", *p, i % 3) + bytes(i % 3) for i, p in enumerate(points)],
+                  [struct.pack("<B3i", 3, *f) for f in faces]]),
                 ("in.stl", soup[:84], [[soup[i:i + 50] for i in range(84, len(soup), 50)]])):
             whole = head + b"".join(row for part in parts for row in part)
             for copy, data in [(name, whole)] + [(f"{rank}.{name}", for_rank(rank, 4, head, *parts))

@@ -303,6 +303,8 @@ class Shared(WeldTest):
         head = lambda form, more="": (f"ply\nformat {form} 1.0\nelement vertex 9000\n{axes}{more}"
                                       "end_header\n").encode()
         binary = [struct.pack("<4d", *p) for p in points]
+        listed = [row + bytes([i % 3] * (1 + i % 3)) for i, row in enumerate(binary)]
+        views = "property list uchar uchar views\n"
         for name, *parts in (
                 ("in.xyz", b"# by hand\n", rows),
                 ("in.csv", b"x,y,z,t\n", [row.replace(b" ", b",") for row in rows]),
@@ -311,9 +313,12 @@ class Shared(WeldTest):
                  b"WIDTH 9000\nHEIGHT 1\nPOINTS 9000\nDATA ascii\n", rows),
                 ("in.ply", head("ascii"), rows),
                 ("binary.ply", head("binary_little_endian"), binary),
+                ("listed.ply", head("binary_little_endian", views), listed),
                 ("mesh.ply", head("ascii", of_faces), rows,
                  [b"%d %4d %4d %4d\n" % face for face in corners]),
                 ("binary_mesh.ply", head("binary_little_endian", of_faces), binary,
+                 [struct.pack("<B3i", *face) for face in corners]),
+                ("listed_mesh.ply", head("binary_little_endian", views + of_faces), listed,
                  [struct.pack("<B3i", *face) for face in corners])):
             whole = parts[0] + b"".join(row for part in parts[1:] for row in part)
             self.write(name, whole)

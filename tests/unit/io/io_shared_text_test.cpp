@@ -118,3 +118,55 @@ TEST_CASE("shared text: behind an uneven line, what is no number is a fault of a
             CHECK_FALSE(look({path}, team).front().has_value());
         }));
 }
+
+TEST_CASE("shared text: points with lists are found by many, each at its share") {
+    const test::own_folder own{"io_shared_text"};
+    test::random random(8);
+    for (const std::size_t count : {0U, 1U, 700U, 9000U}) {
+        std::string bytes =
+            "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
+            "\nproperty float x\nproperty list uchar uchar views\nproperty float y\n"
+            "property float z\nelement face 1\nproperty list uchar uchar vertex_indices\n"
+            "end_header\n";
+        const std::size_t head = bytes.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            bytes += {0, 0, static_cast<char>(i % 100), 0x42};
+            const std::size_t views = random.below(9);
+            bytes += static_cast<char>(views);
+            bytes += std::string(views + 8, '\1');
+        }
+        const std::size_t points_end = bytes.size();
+        bytes += {3, 0, 0, 0};
+        const fs::path path = own.path / "a.ply";
+        std::ofstream(path, std::ios::binary) << bytes;
+        CHECK_FALSE(look({path}, {}).front().has_value());
+        for (const std::size_t size : {2U, 4U, 7U})
+            CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
+                const auto known = look({path}, team).front();
+                REQUIRE(known.has_value());
+                CHECK(known->records == count);
+                CHECK(known->marks.front().byte == head);
+                CHECK(known->marks.back().record == count);
+                CHECK(known->marks.back().byte == points_end);
+                const std::uint64_t first = count * team.rank / size;
+                CHECK(first - known->before(first).record < 300);
+                const auto from = [&](const io::text_index* index) {
+                    io::point_blocks reader(path, {}, first, io::row_use::copied, index);
+                    std::string all;
+                    tf::point_block block;
+                    while (reader.read(block, 64))
+                        for (const tf::point3& p : block.points) all += std::to_string(p[0]) + ' ';
+                    return all;
+                };
+                CHECK(from(&*known) == from(nullptr));
+                io::point_blocks rows(path, {}, first, io::row_use::copied, &*known);
+                CHECK(rows.next_row().byte == points_end);
+            }));
+        if (count < 9000) continue;
+        bytes[points_end - 12] = '\xff';  // a list that is longer: no point begins where it did
+        std::ofstream(path, std::ios::binary) << bytes.substr(0, points_end);
+        CHECK(test::run_as_team(4, [&](const tf::process_team& team) {
+            CHECK_FALSE(look({path}, team).front().has_value());
+        }));
+    }
+}
