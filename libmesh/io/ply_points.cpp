@@ -83,7 +83,7 @@ class ply_points {
 
     /// As `scan_listed_points`.
     [[nodiscard]] listed_points scan(const row_place& first, std::uint64_t end, std::size_t most) {
-        constexpr std::size_t points_a_mark = 256;
+        constexpr std::size_t points_a_mark = 16;
         if (first.byte > 0) go_to_byte(first.byte);
         left_ = columns_.rows - std::min<std::uint64_t>(first.row, columns_.rows);
         listed_points seen;
