@@ -348,7 +348,7 @@ class Tiles(ToolTest):
                                 (["in.stl", "--first"], "--first"),
                                 (["in.stl", "--repair", "-o", "out.stl"], "a mesh to write"),
                                 (["in.obj"], "neither a binary STL nor a PLY"), (["-"], "standard input"),
-                                (["in.fifo"], "a pipe or device")):
+                                (["in.fifo"], "a pipe")):
             run = self.run_tool(*arguments, "--tile-faces", 10, status=2)
             self.assertIn(word + " needs the whole mesh in memory", run.err)
         self.put("foreign/file.txt", "mine")

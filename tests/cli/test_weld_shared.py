@@ -203,7 +203,7 @@ class Shared(WeldTest):
             run = self.run_tool("in.ply", "-t", "0.1", *arguments, status=status)
             self.assertIn(words, run.err)
             self.assertEqual(self.listing(), ["in.ply"])
-        self.assertIn("not standard input",
+        self.assertIn("files only, no pipes",
                       self.run_tool("-", "-t", "0.1", "--plan", *work, status=2).err)
         self.run_tool("in.ply", "-t", "0.02", "--plan", "--tile-points", 300, *work, status=0)
         self.assertIn("there are only",
@@ -373,7 +373,7 @@ class Shared(WeldTest):
                 (["in.ply", "-t", "0.1", "--map", "there.ply"], 4, "there.ply: exists"),
                 (["in.ply", "--same", "color", "-o", "out.ply"], 3, "no such property"),
                 (["in.ply", "-t", "0.1"], 2, "nothing to give back"),
-                (["in.fifo", "-t", "0.1", "-o", "out.ply"], 2, "a file, not a pipe or device")):
+                (["in.fifo", "-t", "0.1", "-o", "out.ply"], 2, "files only, no pipes")):
             run = self.mpi(3, *arguments, status=status)
             self.assertEqual(run.err.count(words), 1, msg=run.err)
             self.assertEqual(self.listing(), ["in.fifo", "in.ply", "there.ply"])

@@ -164,10 +164,8 @@ exit_status weld_somewhere(job& work, const weld_request& request, const tile_op
         inputs.names = {work.path};
     inputs.paths.assign(inputs.names.begin(), inputs.names.end());
     const auto piped = std::ranges::find(inputs.paths, fs::path("-"));
-    if (tiles.has_others() && piped != inputs.paths.end())
-        throw failure(bad_usage, "usage", "several processes need a file, not standard input");
     if (tiles.has_others() && std::ranges::any_of(inputs.paths, is_read_once))
-        throw failure(bad_usage, "usage", "several processes need a file, not a pipe or device");
+        throw failure(bad_usage, "usage", "several processes read files only, no pipes");
     if (piped == inputs.paths.end()) return weld_files(work, request, tiles, inputs);
     if (o.memory == 0 && tiles.per_tile == 0) return weld_in_memory(work, request);
     std::optional<spooled_input> spooled;

@@ -111,7 +111,7 @@ void say_tiles(job& work) {
 bool is_read_once(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
-    return std::filesystem::exists(status) && std::filesystem::is_other(status);
+    return path == "-" || (std::filesystem::exists(status) && std::filesystem::is_other(status));
 }
 
 std::string remark_on_folder(const tile_options& tiles) {

@@ -80,7 +80,7 @@ void enter_tiles(job& work, std::size_t tiles, const std::filesystem::path& fold
                  const std::vector<std::size_t>& unfinished);
 /// Says the same of tiles that are made.
 void say_tiles(job& work);
-/// Whether a file can be read once only: a pipe, a device.
+/// Whether it can be read once only: standard input, a pipe, a device.
 [[nodiscard]] bool is_read_once(const std::filesystem::path& path);
 /// Where a folder for tiles was asked for, but there are none: that. Else empty.
 [[nodiscard]] std::string remark_on_folder(const tile_options& tiles);
