@@ -26,18 +26,17 @@ void copy_back(char* to, std::size_t back, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) to[i] = to[static_cast<std::ptrdiff_t>(i - back)];
 }
 
+/// A block at a time.
 class packer {
   public:
-    packer(std::string_view bytes, char* to) : bytes_(bytes), begin_(to), to_(to) {}
-
-    std::size_t pack(const lzf_progress& progress) {
-        std::size_t next_report = progress_step;
+    /// Returns where the packed bytes end.
+    char* pack(std::string_view block, char* to) {
+        bytes_ = block;
+        to_ = to;
+        at_ = literals_ = 0;
+        std::ranges::fill(last_, 0);
         while (at_ + 2 < bytes_.size()) {
-            if (progress && at_ >= next_report) {
-                progress(static_cast<std::size_t>(to_ - begin_), at_);
-                next_report = at_ + progress_step;
-            }
-            const std::size_t from = std::exchange(last_[hash()], at_ + 1);
+            const std::size_t from = std::exchange(last_[hash()], number(at_ + 1));
             const std::size_t count = from == 0 ? 0 : match(from - 1);
             if (count < 3) {
                 ++at_;
@@ -49,11 +48,15 @@ class packer {
         }
         at_ = bytes_.size();
         put_literals();
-        return static_cast<std::size_t>(to_ - begin_);
+        return to_;
     }
 
   private:
     static constexpr unsigned hash_bits = 16;
+
+    [[nodiscard]] static std::uint32_t number(std::size_t at) {
+        return static_cast<std::uint32_t>(at);
+    }
 
     [[nodiscard]] std::size_t hash() const {
         const char* const at = bytes_.data() + at_;
@@ -94,28 +97,25 @@ class packer {
     /// Goes on behind the copy; its last bytes can start another one.
     void remember(std::size_t count) {
         const std::size_t stop = at_ + count;
-        for (at_ = stop - 2; at_ < stop && at_ + 2 < bytes_.size(); ++at_) last_[hash()] = at_ + 1;
+        for (at_ = stop - 2; at_ < stop && at_ + 2 < bytes_.size(); ++at_)
+            last_[hash()] = number(at_ + 1);
         at_ = stop;
         literals_ = stop;
     }
 
-    std::string_view bytes_;
-    char* begin_;
-    char* to_;
+    std::string_view bytes_{};
+    char* to_ = nullptr;
     std::size_t at_ = 0;
     std::size_t literals_ = 0;  ///< first byte that is in no copy and not yet written
     /// One more than where three bytes of that hash stood last; zero for never.
-    std::vector<std::size_t> last_ = std::vector<std::size_t>(std::size_t{1} << hash_bits);
+    std::vector<std::uint32_t> last_ = std::vector<std::uint32_t>(std::size_t{1} << hash_bits);
 };
 
-}  // namespace
-
-bool lzf_unpack(std::string_view packed, char* to, std::size_t size, const lzf_progress& progress) {
-    const char* const begin = packed.data();
-    const char* const end = begin + packed.size();
-    std::size_t done = 0;
-    std::size_t next_report = progress_step;
-    for (const char* at = begin; at < end;) {
+/// Unpacks what begins ahead of `stop`, until there are `most` bytes or a few more: to bytes of which
+/// there are `done`. False when they would be more than `size`, or are damaged.
+[[nodiscard]] bool unpack_some(const char*& at, const char* stop, const char* end, char* to,
+                               std::size_t& done, std::size_t most, std::size_t size) {
+    while (at < stop && done < most) {
         const std::size_t control = byte_at(at++);
         const auto left = static_cast<std::size_t>(end - at);
         if (control < most_literals) {
@@ -134,16 +134,62 @@ bool lzf_unpack(std::string_view packed, char* to, std::size_t size, const lzf_p
             copy_back(to + done, back, count);
             done += count;
         }
-        if (progress && done >= next_report) {
-            progress(static_cast<std::size_t>(at - begin), done);
-            next_report = done + progress_step;
-        }
+    }
+    return true;
+}
+
+}  // namespace
+
+bool lzf_unpack(std::string_view packed, char* to, std::size_t size, const lzf_progress& progress) {
+    const char* const begin = packed.data();
+    const char* const end = begin + packed.size();
+    std::size_t done = 0;
+    for (const char* at = begin; at < end;) {
+        if (!unpack_some(at, end, end, to, done, done + progress_step, size)) return false;
+        if (progress) progress(static_cast<std::size_t>(at - begin), done);
     }
     return done == size;
 }
 
+bool lzf_unpack_on(std::string_view packed, lzf_place& place, std::size_t end, std::size_t size,
+                   const std::function<void(std::string_view bytes)>& put) {
+    constexpr std::size_t at_once = std::size_t{4} << 20;
+    if (place.packed > packed.size() || place.unpacked > size ||
+        place.last.size() != std::min(place.unpacked, most_back))
+        return false;
+    const char* at = packed.data() + place.packed;
+    const char* const stop = packed.data() + std::min(end, packed.size());
+    std::string held = std::move(place.last);
+    while (at < stop) {
+        const std::size_t known = held.size();
+        held.resize(known + at_once + most_copied);
+        std::size_t done = known;
+        if (!unpack_some(at, stop, packed.data() + packed.size(), held.data(), done,
+                         known + at_once, known + (size - place.unpacked)))
+            return false;
+        held.resize(done);
+        place.packed = static_cast<std::size_t>(at - packed.data());
+        put(std::string_view(held).substr(known));
+        place.unpacked += done - known;
+        held.erase(0, done - std::min(done, most_back));
+    }
+    place.last = std::move(held);
+    return true;
+}
+
 std::size_t lzf_pack(std::string_view bytes, char* to, const lzf_progress& progress) {
-    return packer(bytes, to).pack(progress);
+    packer blocks;
+    char* end = to;
+    std::size_t next_report = progress_step;
+    for (std::size_t done = 0; done < bytes.size();) {
+        const std::string_view block = bytes.substr(done, lzf_block);
+        end = blocks.pack(block, end);
+        done += block.size();
+        if (!progress || done < next_report) continue;
+        progress(static_cast<std::size_t>(end - to), done);
+        next_report = done + progress_step;
+    }
+    return static_cast<std::size_t>(end - to);
 }
 
 }  // namespace treeform::detail::io

@@ -16,7 +16,8 @@ namespace {
 
 [[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
                                    std::string_view format, std::uint64_t first, bool with_rows,
-                                   const text_index* known) {
+                                   const text_index* known,
+                                   const std::filesystem::path* unpacked) {
     switch (kind_of(in, path, format)) {
         case file_kind::ply:
             return open_ply_points(in, first, with_rows, known);
@@ -24,7 +25,7 @@ namespace {
             if (with_rows) return open_stl_points(in, first);
             fail_in_blocks(in, "corners of faces are no points that are read alone");
         case file_kind::pcd:
-            return open_pcd_points(in, first, known);
+            return open_pcd_points(in, first, known, unpacked);
         case file_kind::las:
             return open_las_points(in, first);
         case file_kind::xyz:

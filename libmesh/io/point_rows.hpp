@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -58,8 +59,10 @@ struct point_rows {
                                          bool with_rows = false, const text_index* known = nullptr);
 /// The corners of a binary STL, facets behind them.
 [[nodiscard]] point_rows open_stl_points(const source& in, std::uint64_t first = 0);
+/// `unpacked`: the file that holds the points of a compressed one, if there is one.
 [[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0,
-                                         const text_index* known = nullptr);
+                                         const text_index* known = nullptr,
+                                         const std::filesystem::path* unpacked = nullptr);
 [[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format,
                                          std::uint64_t first = 0,
