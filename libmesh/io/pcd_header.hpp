@@ -46,7 +46,7 @@ struct pcd_header {
 /// The points of a compressed file, field by field.
 struct packed_pcd {
     std::string_view bytes{};
-    std::size_t size = 0;        ///< unpacked
+    std::size_t size = 0;  ///< unpacked
     bool has_bytes_behind = false;
 
     [[noreturn]] void fail_damaged(const source& in) const {

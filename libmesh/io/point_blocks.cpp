@@ -16,8 +16,7 @@ namespace {
 
 [[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
                                    std::string_view format, std::uint64_t first, bool with_rows,
-                                   const text_index* known,
-                                   const std::filesystem::path* unpacked) {
+                                   const text_index* known, const std::filesystem::path* unpacked) {
     switch (kind_of(in, path, format)) {
         case file_kind::ply:
             return open_ply_points(in, first, with_rows, known);
@@ -42,9 +41,10 @@ namespace {
 }  // namespace
 
 point_blocks::point_blocks(const std::filesystem::path& path, std::string_view format,
-                           std::uint64_t first, bool with_rows, const text_index* known)
+                           std::uint64_t first, bool with_rows, const text_index* known,
+                           const std::filesystem::path* unpacked)
     : in_(source::open(path, scratch_place::file)),
-      rows_(open_rows(in_, path, format, first, with_rows, known)) {
+      rows_(open_rows(in_, path, format, first, with_rows, known, unpacked)) {
     point_block block;
     constexpr std::uint64_t some = std::uint64_t{1} << 15;
     for (std::uint64_t left = first - rows_.left_out;

@@ -178,7 +178,9 @@ bool point_writer::has_parts() const { return !state_->rows.finish || state_->ro
 
 std::uint64_t point_writer::points_together() const { return state_->rows.together; }
 
-bool point_writer::has_shared_values() const { return static_cast<bool>(state_->rows.share_values); }
+bool point_writer::has_shared_values() const {
+    return static_cast<bool>(state_->rows.share_values);
+}
 
 void point_writer::share_values(const shared_values& place) {
     state& s = *state_;

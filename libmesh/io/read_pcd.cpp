@@ -85,11 +85,11 @@ void look_behind(bool more, warnings& said) {
 [[nodiscard]] std::shared_ptr<scratch> unpack(const source& in, const packed_pcd& packed,
                                               scratch_place place) {
     auto bytes = std::make_shared<scratch>(packed.size, place, in.name());
-    const bool good = lzf_unpack(packed.bytes, bytes->data(), packed.size,
-                                 [&](std::size_t used, std::size_t) {
-                                     in.release_before(packed.bytes.data() + used);
-                                     bytes->give_back();
-                                 });
+    const bool good =
+        lzf_unpack(packed.bytes, bytes->data(), packed.size, [&](std::size_t used, std::size_t) {
+            in.release_before(packed.bytes.data() + used);
+            bytes->give_back();
+        });
     if (!good) packed.fail_damaged(in);
     return bytes;
 }
@@ -101,9 +101,9 @@ void look_behind(bool more, warnings& said) {
     std::shared_ptr<scratch> bytes;
     if (unpacked != nullptr) bytes = std::make_shared<scratch>(*unpacked, packed.size, in.name());
     return [&in, packed, place, bytes, count = std::size_t{header.vertices.rows},
-            offsets = header.places, first = static_cast<std::size_t>(first)](
-               std::vector<point3>& points, element& vertices, std::size_t most,
-               warnings& said) mutable {
+            offsets = header.places,
+            first = static_cast<std::size_t>(first)](std::vector<point3>& points, element& vertices,
+                                                     std::size_t most, warnings& said) mutable {
         if (!bytes) bytes = unpack(in, packed, place);
         const std::size_t rows = std::min(most, count - first);
         std::vector<value_place> places;

@@ -98,11 +98,11 @@ class pcd_writer {
         if (!is_packed()) return;
         scratch& all = blocks();
         const scratch packed(lzf_most_packed(all.size()), place(), "");
-        const std::size_t size = lzf_pack({all.data(), all.size()}, packed.data(),
-                                          [&](std::size_t, std::size_t) {
-                                              all.give_back();
-                                              packed.give_back();
-                                          });
+        const std::size_t size =
+            lzf_pack({all.data(), all.size()}, packed.data(), [&](std::size_t, std::size_t) {
+                all.give_back();
+                packed.give_back();
+            });
         job_.out.put(lengths(size, all.size()));
         job_.out.put({packed.data(), size});
     }
@@ -127,9 +127,9 @@ class pcd_writer {
             const std::span<std::byte> some = std::span(block).first(
                 static_cast<std::size_t>(std::min<std::uint64_t>(lzf_block, end - at)));
             shared_->get(at, some);
-            job_.out.put({packed.data(), lzf_pack({reinterpret_cast<const char*>(some.data()),
-                                                   some.size()},
-                                                  packed.data())});
+            job_.out.put(
+                {packed.data(), lzf_pack({reinterpret_cast<const char*>(some.data()), some.size()},
+                                         packed.data())});
             unpacked += some.size();
         }
         const auto written = static_cast<std::size_t>(job_.out.size() - head_size_);
@@ -322,10 +322,10 @@ class pcd_writer {
     std::vector<const column*> columns_{};  ///< of `declared_`: those that are written
     std::vector<field> fields_{};
     std::size_t row_size_ = 0;
-    std::optional<scratch> blocks_{};  ///< of a compressed file
+    std::optional<scratch> blocks_{};                      ///< of a compressed file
     std::optional<point_writer::shared_values> shared_{};  ///< instead, of one in parts
-    std::uint64_t kept_ = 0;                               ///< points in it, with those of parts ahead
-    std::uint64_t head_size_ = 0;                          ///< with the lengths
+    std::uint64_t kept_ = 0;       ///< points in it, with those of parts ahead
+    std::uint64_t head_size_ = 0;  ///< with the lengths
 };
 
 }  // namespace

@@ -60,15 +60,15 @@ void points_out::start_part(const work_folder& folder, const mesh_file& header,
 void points_out::share_values(const fs::path& file, std::uint64_t mine) {
     values_.emplace(*all_);
     values_->add(file);
-    writer_.share_values({.first_point = all_->sum_before(mine),
-                          .part = all_->rank(),
-                          .parts = all_->size(),
-                          .put = [file](std::uint64_t at, auto bytes) { write_to(file, at, bytes); },
-                          .get =
-                              [file](std::uint64_t at, auto bytes) {
-                                  if (read_from(file, at, bytes) != bytes.size())
-                                      fail_damaged(file);
-                              }});
+    writer_.share_values(
+        {.first_point = all_->sum_before(mine),
+         .part = all_->rank(),
+         .parts = all_->size(),
+         .put = [file](std::uint64_t at, auto bytes) { write_to(file, at, bytes); },
+         .get =
+             [file](std::uint64_t at, auto bytes) {
+                 if (read_from(file, at, bytes) != bytes.size()) fail_damaged(file);
+             }});
 }
 
 void points_out::write(tile_faces& faces, bool all) {
@@ -92,8 +92,7 @@ write_result points_out::commit() {
     const point_writer::part part = writer_.commit_part(result, parts);
     const std::string head = head_of_part(part);
     const bool is_last = all_->rank() + 1 == all_->size();
-    const std::uint64_t rows =
-        is_last ? fs::file_size(path_) - part.head - part.points : part.rows;
+    const std::uint64_t rows = is_last ? fs::file_size(path_) - part.head - part.points : part.rows;
     state_writer mine;
     mine.number(part.points);
     mine.number(rows);

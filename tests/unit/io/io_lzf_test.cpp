@@ -89,7 +89,8 @@ TEST_CASE("lzf: blocks packed alone, one after the other, are what all of them a
 
 TEST_CASE("lzf: one goes on where the one before has ended, wherever that is") {
     test::random random(2);
-    for (const std::size_t size : std::vector<std::size_t>{0, 1, 40, 8191, 8193, 100'000, 9'000'000})
+    for (const std::size_t size :
+         std::vector<std::size_t>{0, 1, 40, 8191, 8193, 100'000, 9'000'000})
         for (const letters kind : kinds) {
             CAPTURE(size);
             CAPTURE(kind);
@@ -97,7 +98,8 @@ TEST_CASE("lzf: one goes on where the one before has ended, wherever that is") {
             const std::string whole = packed(bytes);
             for (const std::size_t parts : {1U, 2U, 4U, 7U}) {
                 std::vector<std::size_t> ends(parts, whole.size());
-                for (std::size_t i = 0; i + 1 < parts; ++i) ends[i] = random.below(whole.size() + 1);
+                for (std::size_t i = 0; i + 1 < parts; ++i)
+                    ends[i] = random.below(whole.size() + 1);
                 std::ranges::sort(ends);
                 if (parts == 7) ends[1] = ends[0];  // one has nothing
                 CHECK(unpacked_by(ends, whole, size) == bytes);

@@ -57,8 +57,10 @@ tf::mesh_file cloud(std::size_t count, test::random& random) {
 std::string values_of(const tf::mesh_file& file) {
     std::string all;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        for (const tf::point3& p : file.mesh.points)
-            all.append(reinterpret_cast<const char*>(&p[axis]), sizeof(double));
+        for (const tf::point3& p : file.mesh.points) {
+            const double value = p[axis];
+            all.append(reinterpret_cast<const char*>(&value), sizeof value);
+        }
     const auto& shade = tf::find_element(file.attributes, "vertex")->columns.front().values;
     return all.append(reinterpret_cast<const char*>(shade.data()), shade.size());
 }
@@ -163,7 +165,8 @@ TEST_CASE("packed_pcd: where packed bytes are damaged, all say what one says") {
     CHECK(refused > 20);
 }
 
-TEST_CASE("packed_pcd: welded by any number of processes, and after a kill, it is what one writes") {
+TEST_CASE(
+    "packed_pcd: welded by any number of processes, and after a kill, it is what one writes") {
     test::random random(33);
     const test::own_folder folder("packed_pcd_weld_test");
     const fs::path& path = folder.path;
@@ -174,9 +177,10 @@ TEST_CASE("packed_pcd: welded by any number of processes, and after a kill, it i
         if (round % 2 == 1) work.inputs.paths.push_back(path / "b.pcd");
         if (round == 5) work.inputs.paths.push_back(path / "c.pcd");  // no points
         for (const fs::path& input : work.inputs.paths)
-            put(input, tf::write_to_memory(
-                           cloud(input.filename() == "c.pcd" ? 0 : 1500 + random.below(500), random),
-                           {.format = "pcd"}));
+            put(input,
+                tf::write_to_memory(
+                    cloud(input.filename() == "c.pcd" ? 0 : 1500 + random.below(500), random),
+                    {.format = "pcd"}));
         work.options.folder = path / "work";
         work.options.tolerance = 0.05;
         work.options.points_per_tile = 300;
