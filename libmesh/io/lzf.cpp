@@ -31,19 +31,19 @@ class packer {
   public:
     /// Returns where the packed bytes end.
     char* pack(std::string_view block, char* to) {
+        base_ += bytes_.size() + most_back + 1;  // what was seen before is out of reach
         bytes_ = block;
         to_ = to;
         at_ = literals_ = 0;
-        std::ranges::fill(last_, 0);
         while (at_ + 2 < bytes_.size()) {
-            const std::size_t from = std::exchange(last_[hash()], number(at_ + 1));
-            const std::size_t count = from == 0 ? 0 : match(from - 1);
+            const std::size_t back = base_ + at_ - std::exchange(last_[hash()], base_ + at_);
+            const std::size_t count = back > most_back ? 0 : match(back);
             if (count < 3) {
                 ++at_;
                 continue;
             }
             put_literals();
-            put_copy(at_ - (from - 1), count);
+            put_copy(back, count);
             remember(count);
         }
         at_ = bytes_.size();
@@ -54,10 +54,6 @@ class packer {
   private:
     static constexpr unsigned hash_bits = 16;
 
-    [[nodiscard]] static std::uint32_t number(std::size_t at) {
-        return static_cast<std::uint32_t>(at);
-    }
-
     [[nodiscard]] std::size_t hash() const {
         const char* const at = bytes_.data() + at_;
         const std::uint32_t three =
@@ -65,12 +61,11 @@ class packer {
         return (three * 2654435761U) >> (32 - hash_bits);
     }
 
-    /// How many bytes from here on stand at `from`, too.
-    [[nodiscard]] std::size_t match(std::size_t from) const {
-        if (at_ - from > most_back) return 0;
+    /// How many bytes from here on stand so far ahead, too.
+    [[nodiscard]] std::size_t match(std::size_t back) const {
         const std::size_t most = std::min(bytes_.size() - at_, most_copied);
         std::size_t count = 0;
-        while (count < most && bytes_[from + count] == bytes_[at_ + count]) ++count;
+        while (count < most && bytes_[at_ - back + count] == bytes_[at_ + count]) ++count;
         return count;
     }
 
@@ -98,17 +93,18 @@ class packer {
     void remember(std::size_t count) {
         const std::size_t stop = at_ + count;
         for (at_ = stop - 2; at_ < stop && at_ + 2 < bytes_.size(); ++at_)
-            last_[hash()] = number(at_ + 1);
+            last_[hash()] = base_ + at_;
         at_ = stop;
         literals_ = stop;
     }
 
     std::string_view bytes_{};
     char* to_ = nullptr;
+    std::size_t base_ = 0;  ///< what positions in the block are counted from
     std::size_t at_ = 0;
     std::size_t literals_ = 0;  ///< first byte that is in no copy and not yet written
-    /// One more than where three bytes of that hash stood last; zero for never.
-    std::vector<std::uint32_t> last_ = std::vector<std::uint32_t>(std::size_t{1} << hash_bits);
+    /// Where three bytes of that hash stood last.
+    std::vector<std::size_t> last_ = std::vector<std::size_t>(std::size_t{1} << hash_bits);
 };
 
 /// Unpacks what begins ahead of `stop`, until there are `most` bytes or a few more: to bytes of which
