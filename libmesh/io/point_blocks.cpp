@@ -16,7 +16,7 @@ namespace {
 
 [[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
                                    std::string_view format, std::uint64_t first, bool with_rows,
-                                   const text_index* known, const std::filesystem::path* unpacked) {
+                                   const text_index* known, const byte_getter* unpacked) {
     switch (kind_of(in, path, format)) {
         case file_kind::ply:
             return open_ply_points(in, first, with_rows, known);
@@ -42,7 +42,7 @@ namespace {
 
 point_blocks::point_blocks(const std::filesystem::path& path, std::string_view format,
                            std::uint64_t first, bool with_rows, const text_index* known,
-                           const std::filesystem::path* unpacked)
+                           const byte_getter* unpacked)
     : in_(source::open(path, scratch_place::file)),
       rows_(open_rows(in_, path, format, first, with_rows, known, unpacked)) {
     point_block block;

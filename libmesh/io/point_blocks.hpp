@@ -22,7 +22,7 @@ class point_blocks {
     /// As for `point_reader`; `known` as for `open_xyz_points`, `unpacked` for `open_pcd_points`.
     point_blocks(const std::filesystem::path& path, std::string_view format, std::uint64_t first,
                  bool with_rows, const text_index* known = nullptr,
-                 const std::filesystem::path* unpacked = nullptr);
+                 const byte_getter* unpacked = nullptr);
     point_blocks(const point_blocks&) = delete;
     point_blocks& operator=(const point_blocks&) = delete;
 

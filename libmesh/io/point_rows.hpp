@@ -12,14 +12,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace treeform::detail::io {
+
+/// Fills `bytes` with those from `at` on.
+using byte_getter = std::function<void(std::uint64_t at, std::span<std::byte> bytes)>;
 
 struct point_rows {
     /// Everything but the points; the element "vertex", if any, has columns without values.
@@ -59,10 +62,10 @@ struct point_rows {
                                          bool with_rows = false, const text_index* known = nullptr);
 /// The corners of a binary STL, facets behind them.
 [[nodiscard]] point_rows open_stl_points(const source& in, std::uint64_t first = 0);
-/// `unpacked`: the file that holds the points of a compressed one, if there is one.
+/// `unpacked` gives those of a compressed one, if others have unpacked them.
 [[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0,
                                          const text_index* known = nullptr,
-                                         const std::filesystem::path* unpacked = nullptr);
+                                         const byte_getter* unpacked = nullptr);
 [[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format,
                                          std::uint64_t first = 0,

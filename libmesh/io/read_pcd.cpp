@@ -8,7 +8,6 @@
 #include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -94,26 +93,32 @@ void look_behind(bool more, warnings& said) {
     return bytes;
 }
 
-/// Unpacked when the first of them are asked for; or in a file, as others have unpacked them.
+/// Unpacked when the first of them are asked for, or by others.
 [[nodiscard]] auto block_runs(const source& in, const pcd_header& header, scratch_place place,
-                              std::uint64_t first, const std::filesystem::path* unpacked) {
+                              std::uint64_t first, const byte_getter* unpacked) {
     const packed_pcd packed = find_packed_pcd(in, header);
-    std::shared_ptr<scratch> bytes;
-    if (unpacked != nullptr) bytes = std::make_shared<scratch>(*unpacked, packed.size, in.name());
-    return [&in, packed, place, bytes, count = std::size_t{header.vertices.rows},
-            offsets = header.places,
+    return [&in, packed, place, get = unpacked == nullptr ? byte_getter() : *unpacked,
+            bytes = std::shared_ptr<scratch>(), held = std::vector<std::byte>(),
+            count = std::size_t{header.vertices.rows}, offsets = header.places,
+            row_size = header.row_size,
             first = static_cast<std::size_t>(first)](std::vector<point3>& points, element& vertices,
                                                      std::size_t most, warnings& said) mutable {
-        if (!bytes) bytes = unpack(in, packed, place);
+        if (!get && !bytes) bytes = unpack(in, packed, place);
         const std::size_t rows = std::min(most, count - first);
+        if (get) held.resize(rows * row_size);
         std::vector<value_place> places;
         places.reserve(offsets.size());
-        for (const pcd_place& p : offsets)
+        for (const pcd_place& p : offsets) {
+            const std::size_t at = p.fields_ahead * count + first * p.field_size;
+            const std::span<std::byte> field =
+                get ? std::span(held).subspan(p.fields_ahead * rows, rows * p.field_size)
+                    : std::as_writable_bytes(std::span(bytes->data() + at, rows * p.field_size));
+            if (get && p.in_field == 0) get(at, field);
             places.push_back(
-                {bytes->data() + p.fields_ahead * count + first * p.field_size + p.in_field,
-                 p.field_size});
+                {reinterpret_cast<const char*>(field.data()) + p.in_field, p.field_size});
+        }
         append_fixed_rows(vertices, points, rows, places, std::endian::little);
-        bytes->give_back();
+        if (bytes) bytes->give_back();
         first += rows;
         if (rows == 0) look_behind(packed.has_bytes_behind, said);
         return rows;
@@ -122,7 +127,7 @@ void look_behind(bool more, warnings& said) {
 
 [[nodiscard]] point_rows open(const source& in, scratch_place place, std::uint64_t first = 0,
                               const text_index* known = nullptr,
-                              const std::filesystem::path* unpacked = nullptr) {
+                              const byte_getter* unpacked = nullptr) {
     pcd_header header = read_pcd_header(in);
     point_rows rows;
     rows.count = header.vertices.rows;
@@ -170,7 +175,7 @@ mesh_file read_pcd(const source& in) {
 }
 
 point_rows open_pcd_points(const source& in, std::uint64_t first, const text_index* known,
-                           const std::filesystem::path* unpacked) {
+                           const byte_getter* unpacked) {
     return open(in, scratch_place::file, first, known, unpacked);
 }
 

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -54,23 +53,6 @@ scratch::scratch(std::size_t size, scratch_place place, std::string_view name,
         ::close(fd);
         if (error != 0 || map == MAP_FAILED) fail(name, error != 0 ? error : mapped);
     }
-    data_ = static_cast<char*>(map);
-}
-
-scratch::scratch(const std::filesystem::path& file, std::size_t size, std::string_view name)
-    : size_(size), place_(scratch_place::file) {
-    const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) fail(name, errno);
-    struct stat status {};
-    void* map = nullptr;
-    int error = ::fstat(fd, &status) != 0 ? errno : 0;
-    if (error == 0 && static_cast<std::size_t>(status.st_size) != size) error = EIO;
-    if (error == 0 && size > 0) {
-        map = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, fd, 0);
-        if (map == MAP_FAILED) error = errno;
-    }
-    ::close(fd);
-    if (error != 0) fail(name, error);
     data_ = static_cast<char*>(map);
 }
 

@@ -20,8 +20,6 @@ class scratch {
     /// \throws io_error, std::bad_alloc
     scratch(std::size_t size, scratch_place place, std::string_view name,
             const std::filesystem::path& folder = {});
-    /// What is in a file of `size` bytes that is there, to be read only. \throws io_error
-    scratch(const std::filesystem::path& file, std::size_t size, std::string_view name);
     scratch(const scratch&) = delete;
     scratch& operator=(const scratch&) = delete;
     ~scratch();

@@ -84,7 +84,7 @@ point_block joined_points::read_first(std::uint64_t count) {
 void joined_points::open(std::size_t file, std::uint64_t first) {
     reader_.reset();
     const bool is_alone = inputs_.paths.size() == 1;
-    const bool is_unpacked = !unpacked_.empty() && !unpacked_[file].empty();
+    const bool is_unpacked = !unpacked_.empty() && unpacked_[file];
     reader_.emplace(inputs_.paths[file], inputs_.format, first, is_alone, text(file),
                     is_unpacked ? &unpacked_[file] : nullptr);
     file_ = file;

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -49,8 +48,8 @@ class joined_points {
 
     [[nodiscard]] std::size_t files() const { return formats_.size(); }
     [[nodiscard]] const std::string& format(std::size_t file) const { return formats_[file]; }
-    /// Compressed files are from now on read from these; others have none.
-    void read_unpacked(std::vector<std::filesystem::path> files) { unpacked_ = std::move(files); }
+    /// Points of compressed files are from now on read by these; others have none.
+    void read_unpacked(std::vector<io::byte_getter> files) { unpacked_ = std::move(files); }
     /// What is known of it where it is text, or null.
     [[nodiscard]] const io::text_index* text(std::size_t file) const {
         return texts_[file] ? &*texts_[file] : nullptr;
@@ -77,7 +76,7 @@ class joined_points {
     std::vector<std::uint64_t> counts_{};  ///< of files, where they are known
     std::vector<std::optional<io::text_index>>
         texts_{};  ///< of files that are text, if it is known
-    std::vector<std::filesystem::path> unpacked_{};
+    std::vector<io::byte_getter> unpacked_{};
     std::vector<io_warning> of_join_{};
     std::vector<io_warning> warnings_{};
     std::optional<io::point_blocks> reader_{};

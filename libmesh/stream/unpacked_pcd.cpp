@@ -5,6 +5,8 @@
 #include <libmesh/stream/unpacked_pcd.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -54,12 +56,15 @@ void unpack_in_turn(const fs::path& pcd, const fs::path& to, const team& all, pa
 unpacked_inputs::unpacked_inputs(const work_folder& folder, const team& all,
                                  const cloud_inputs& inputs, joined_points& source, pacer& pace)
     : files_(all) {
-    std::vector<fs::path> unpacked(inputs.paths.size());
+    std::vector<io::byte_getter> unpacked(inputs.paths.size());
     for (std::size_t i = 0; i < unpacked.size(); ++i) {
         if (source.format(i) != io::name_of(io::pcd_encoding::compressed)) continue;
-        unpacked[i] = folder.file("unpacked." + std::to_string(i));
-        files_.add(unpacked[i]);
-        unpack_in_turn(inputs.paths[i], unpacked[i], all, pace);
+        const fs::path to = folder.file("unpacked." + std::to_string(i));
+        files_.add(to);
+        unpack_in_turn(inputs.paths[i], to, all, pace);
+        unpacked[i] = [file = std::make_shared<open_file>(to)](std::uint64_t at, auto bytes) {
+            if (file->read(at, bytes) != bytes.size()) fail_damaged(file->path());
+        };
     }
     source.read_unpacked(std::move(unpacked));
 }
