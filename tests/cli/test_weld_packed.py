@@ -125,8 +125,9 @@ class Packed(WeldTest):
         self.write("few.pcd", pcd(self.points(3)))
         outputs = ["-o", "out.pcd", "--removed", "gone.pcd"]
         for given, options in ((["in.pcd"], ["-t", "0.01"]),
-                               (["in.pcd"], ["-t", "0.01", "--keep", "mean", "--order", "max:t"]),
-                               (["in.pcd"], ["-t", "0.01", "--rule", "chain", "--label", "group"]),
+                               (["in.pcd"], ["-t", "0.01", "--keep", "mean"]),
+                               (["in.pcd"], ["-t", "0.01", "--order", "max:t"]),
+                               (["in.pcd"], ["-t", "0.01", "--rule", "chain"]),
                                (["in.pcd"], ["-t", "0.01", "--precision", "float"]),
                                (["few.pcd", "in.pcd", "few.pcd", "--join"], ["-t", "0.01", "--same", "t"]),
                                (["few.pcd"], ["-t", "2"])):
@@ -182,7 +183,7 @@ class Packed(WeldTest):
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
         self.write("in.pcd", pcd(self.points(20000)))
         gives = ["-t", "0.01", "-o", "out.pcd", "--removed", "gone.pcd"]
-        for more in ([], ["--keep", "mean", "--order", "max:t"]):
+        for more in ([], ["--keep", "mean"], ["--order", "max:t"]):
             self.run_tool("in.pcd", *gives, *more, status=0)
             expected = self.written()
             work = ["in.pcd", *gives, *more, "--tile-points", 4000, "--work", "tiles"]
