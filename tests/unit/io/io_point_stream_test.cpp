@@ -244,7 +244,7 @@ TEST_CASE("point streams: parts written by several, put one after the other, are
 
 TEST_CASE("point streams: parts of a compressed PCD share their values, and pack a share each") {
     const scratch here;
-    // Values of 29 bytes a point: up to five blocks, which no field and no part begins with.
+    // Values of 33 bytes a point: up to six blocks, which no field and no part begins with.
     for (const std::size_t count : std::vector<std::size_t>{0, 1, 5, 36'000, 180'000}) {
         CAPTURE(count);
         tf::mesh_file file = cloud(count, false);
@@ -303,6 +303,26 @@ TEST_CASE("point streams: parts of a compressed PCD share their values, and pack
             }
             CHECK((tf::point_writer::join_heads(heads) + bytes == expected));
             if (count == 180'000 && parts == 3) CHECK(most < expected.size() / 2);
+        }
+    }
+}
+
+TEST_CASE("point streams: whether points are too many to be compressed, all of them say") {
+    const scratch here;
+    tf::mesh_file file = cloud(1, false);
+    file.format = "pcd-binary-compressed";
+    // 33 bytes a point; packed, at worst a byte more for each 32, and one.
+    constexpr std::uint64_t most = (std::uint64_t{1} << 32) / 33 * 32 / 33;
+    for (const std::uint64_t count : {most - 10, most + 10}) {
+        tf::point_writer writer(here.folder / "a.pcd", file, count, {});
+        CHECK(writer.has_parts());
+        CHECK(writer.has_shared_values() == (count < most));
+        if (!writer.has_shared_values()) {
+            tf::write_result result;
+            static_cast<void>(writer.commit_part(result));
+            CHECK(result.format == "pcd-binary");
+            REQUIRE(result.warnings.size() == 1);
+            CHECK(result.warnings[0].text == "too many points to be compressed");
         }
     }
 }
