@@ -105,6 +105,10 @@ void look_behind(bool more, warnings& said) {
                                                      std::size_t most, warnings& said) mutable {
         if (!get && !bytes) bytes = unpack(in, packed, place);
         const std::size_t rows = std::min(most, count - first);
+        if (rows == 0) {
+            look_behind(packed.has_bytes_behind, said);
+            return rows;
+        }
         if (get) held.resize(rows * row_size);
         std::vector<value_place> places;
         places.reserve(offsets.size());
@@ -120,7 +124,6 @@ void look_behind(bool more, warnings& said) {
         append_fixed_rows(vertices, points, rows, places, std::endian::little);
         if (bytes) bytes->give_back();
         first += rows;
-        if (rows == 0) look_behind(packed.has_bytes_behind, said);
         return rows;
     };
 }
