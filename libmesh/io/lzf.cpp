@@ -26,30 +26,29 @@ void copy_back(char* to, std::size_t back, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) to[i] = to[static_cast<std::ptrdiff_t>(i - back)];
 }
 
+/// A block at a time.
 class packer {
   public:
-    packer(std::string_view bytes, char* to) : bytes_(bytes), begin_(to), to_(to) {}
-
-    std::size_t pack(const lzf_progress& progress) {
-        std::size_t next_report = progress_step;
+    /// Returns where the packed bytes end.
+    char* pack(std::string_view block, char* to) {
+        base_ += bytes_.size() + most_back + 1;  // what was seen before is out of reach
+        bytes_ = block;
+        to_ = to;
+        at_ = literals_ = 0;
         while (at_ + 2 < bytes_.size()) {
-            if (progress && at_ >= next_report) {
-                progress(static_cast<std::size_t>(to_ - begin_), at_);
-                next_report = at_ + progress_step;
-            }
-            const std::size_t from = std::exchange(last_[hash()], at_ + 1);
-            const std::size_t count = from == 0 ? 0 : match(from - 1);
+            const std::size_t back = base_ + at_ - std::exchange(last_[hash()], base_ + at_);
+            const std::size_t count = back > most_back ? 0 : match(back);
             if (count < 3) {
                 ++at_;
                 continue;
             }
             put_literals();
-            put_copy(at_ - (from - 1), count);
+            put_copy(back, count);
             remember(count);
         }
         at_ = bytes_.size();
         put_literals();
-        return static_cast<std::size_t>(to_ - begin_);
+        return to_;
     }
 
   private:
@@ -62,12 +61,11 @@ class packer {
         return (three * 2654435761U) >> (32 - hash_bits);
     }
 
-    /// How many bytes from here on stand at `from`, too.
-    [[nodiscard]] std::size_t match(std::size_t from) const {
-        if (at_ - from > most_back) return 0;
+    /// How many bytes from here on stand so far ahead, too.
+    [[nodiscard]] std::size_t match(std::size_t back) const {
         const std::size_t most = std::min(bytes_.size() - at_, most_copied);
         std::size_t count = 0;
-        while (count < most && bytes_[from + count] == bytes_[at_ + count]) ++count;
+        while (count < most && bytes_[at_ - back + count] == bytes_[at_ + count]) ++count;
         return count;
     }
 
@@ -94,28 +92,28 @@ class packer {
     /// Goes on behind the copy; its last bytes can start another one.
     void remember(std::size_t count) {
         const std::size_t stop = at_ + count;
-        for (at_ = stop - 2; at_ < stop && at_ + 2 < bytes_.size(); ++at_) last_[hash()] = at_ + 1;
+        for (at_ = stop - 2; at_ < stop && at_ + 2 < bytes_.size(); ++at_)
+            last_[hash()] = base_ + at_;
         at_ = stop;
         literals_ = stop;
     }
 
-    std::string_view bytes_;
-    char* begin_;
-    char* to_;
+    std::string_view bytes_{};
+    char* to_ = nullptr;
+    std::size_t base_ = 0;  ///< what positions in the block are counted from
     std::size_t at_ = 0;
     std::size_t literals_ = 0;  ///< first byte that is in no copy and not yet written
-    /// One more than where three bytes of that hash stood last; zero for never.
+    /// Where three bytes of that hash stood last.
     std::vector<std::size_t> last_ = std::vector<std::size_t>(std::size_t{1} << hash_bits);
 };
 
-}  // namespace
-
-bool lzf_unpack(std::string_view packed, char* to, std::size_t size, const lzf_progress& progress) {
-    const char* const begin = packed.data();
-    const char* const end = begin + packed.size();
-    std::size_t done = 0;
-    std::size_t next_report = progress_step;
-    for (const char* at = begin; at < end;) {
+/// Unpacks until `most` bytes have been read and made, or a few more: to bytes of which there are
+/// `done`. False when they would be more than `size`, or are damaged.
+[[nodiscard]] bool unpack_some(const char*& at, const char* end, char* to, std::size_t& done,
+                               std::size_t most, std::size_t size) {
+    const char* const from = at;
+    const std::size_t known = done;
+    while (at < end && static_cast<std::size_t>(at - from) + (done - known) < most) {
         const std::size_t control = byte_at(at++);
         const auto left = static_cast<std::size_t>(end - at);
         if (control < most_literals) {
@@ -134,16 +132,62 @@ bool lzf_unpack(std::string_view packed, char* to, std::size_t size, const lzf_p
             copy_back(to + done, back, count);
             done += count;
         }
-        if (progress && done >= next_report) {
-            progress(static_cast<std::size_t>(at - begin), done);
-            next_report = done + progress_step;
-        }
+    }
+    return true;
+}
+
+}  // namespace
+
+bool lzf_unpack(std::string_view packed, char* to, std::size_t size, const lzf_progress& progress) {
+    const char* const begin = packed.data();
+    const char* const end = begin + packed.size();
+    std::size_t done = 0;
+    for (const char* at = begin; at < end;) {
+        if (!unpack_some(at, end, to, done, progress_step, size)) return false;
+        if (progress) progress(static_cast<std::size_t>(at - begin), done);
     }
     return done == size;
 }
 
+bool lzf_unpack_on(std::string_view packed, lzf_place& place, std::size_t end, std::size_t size,
+                   const std::function<void(std::string_view bytes)>& put) {
+    constexpr std::size_t at_once = std::size_t{4} << 20;
+    if (place.packed > packed.size() || place.unpacked > size ||
+        place.last.size() != std::min(place.unpacked, most_back))
+        return false;
+    const char* at = packed.data() + place.packed;
+    std::string held = std::move(place.last);
+    while (place.packed < packed.size() && place.packed + place.unpacked < end) {
+        const std::size_t known = held.size();
+        held.resize(known + at_once + most_copied);
+        std::size_t done = known;
+        const std::size_t most = std::min(at_once, end - place.packed - place.unpacked);
+        if (!unpack_some(at, packed.data() + packed.size(), held.data(), done, most,
+                         known + (size - place.unpacked)))
+            return false;
+        held.resize(done);
+        place.packed = static_cast<std::size_t>(at - packed.data());
+        put(std::string_view(held).substr(known));
+        place.unpacked += done - known;
+        held.erase(0, done - std::min(done, most_back));
+    }
+    place.last = std::move(held);
+    return true;
+}
+
 std::size_t lzf_pack(std::string_view bytes, char* to, const lzf_progress& progress) {
-    return packer(bytes, to).pack(progress);
+    packer blocks;
+    char* end = to;
+    std::size_t next_report = progress_step;
+    for (std::size_t done = 0; done < bytes.size();) {
+        const std::string_view block = bytes.substr(done, lzf_block);
+        end = blocks.pack(block, end);
+        done += block.size();
+        if (!progress || done < next_report) continue;
+        progress(static_cast<std::size_t>(end - to), done);
+        next_report = done + progress_step;
+    }
+    return static_cast<std::size_t>(end - to);
 }
 
 }  // namespace treeform::detail::io

@@ -1,3 +1,5 @@
+#include <libmesh/base/byte_order.hpp>
+#include <libmesh/io/lzf.hpp>
 #include <libmesh/io/pcd_header.hpp>
 #include <libmesh/io/text.hpp>
 #include <libmesh/io/vertex_columns.hpp>
@@ -243,5 +245,21 @@ std::string_view name_of(pcd_encoding encoding) {
 }
 
 pcd_header read_pcd_header(const source& in) { return pcd_header_reader(in).read(); }
+
+packed_pcd find_packed_pcd(const source& in, const pcd_header& header) {
+    const auto there = static_cast<std::size_t>(in.end() - header.body);
+    if (there < 8) in.fail_byte(header.body, "the file ends in the lengths of the data");
+    const std::size_t packed = base::load<std::uint32_t, std::endian::little>(header.body);
+    const std::size_t size = base::load<std::uint32_t, std::endian::little>(header.body + 4);
+    if (packed > there - 8)
+        in.fail_byte(header.body,
+                     "the file ends in the data: " + std::to_string(packed) + " bytes promised");
+    if (size / header.row_size != header.vertices.rows || size % header.row_size != 0)
+        in.fail_byte(header.body + 4, std::to_string(size) + " bytes of data are not those of " +
+                                          std::to_string(header.vertices.rows) + " points");
+    if (size / lzf_most_ratio > packed)
+        in.fail_byte(header.body, "the data cannot become as long as promised");
+    return {{header.body + 8, packed}, size, there - 8 > packed};
+}
 
 }  // namespace treeform::detail::io

@@ -43,4 +43,19 @@ struct pcd_header {
 /// \throws io_error
 [[nodiscard]] pcd_header read_pcd_header(const source& in);
 
+/// The points of a compressed file, field by field.
+struct packed_pcd {
+    std::string_view bytes{};
+    std::size_t size = 0;  ///< unpacked
+    bool has_bytes_behind = false;
+
+    [[noreturn]] void fail_damaged(const source& in) const {
+        in.fail_byte(bytes.data(), "the packed data are damaged");
+    }
+};
+
+/// \pre    a compressed file
+/// \throws io_error where the lengths are not those of the points, or of what is there
+[[nodiscard]] packed_pcd find_packed_pcd(const source& in, const pcd_header& header);
+
 }  // namespace treeform::detail::io

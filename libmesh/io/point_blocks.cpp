@@ -16,7 +16,7 @@ namespace {
 
 [[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
                                    std::string_view format, std::uint64_t first, row_use use,
-                                   const text_index* known) {
+                                   const text_index* known, const byte_getter* unpacked) {
     switch (kind_of(in, path, format)) {
         case file_kind::ply:
             return open_ply_points(in, first, use, known);
@@ -24,7 +24,7 @@ namespace {
             if (use != row_use::none) return open_stl_points(in, first);
             fail_in_blocks(in, "corners of faces are no points that are read alone");
         case file_kind::pcd:
-            return open_pcd_points(in, first, known);
+            return open_pcd_points(in, first, known, unpacked);
         case file_kind::las:
             return open_las_points(in, first);
         case file_kind::xyz:
@@ -41,9 +41,10 @@ namespace {
 }  // namespace
 
 point_blocks::point_blocks(const std::filesystem::path& path, std::string_view format,
-                           std::uint64_t first, row_use use, const text_index* known)
+                           std::uint64_t first, row_use use, const text_index* known,
+                           const byte_getter* unpacked)
     : in_(source::open(path, scratch_place::file)),
-      rows_(open_rows(in_, path, format, first, use, known)) {
+      rows_(open_rows(in_, path, format, first, use, known, unpacked)) {
     point_block block;
     constexpr std::uint64_t some = std::uint64_t{1} << 15;
     for (std::uint64_t left = first - rows_.left_out;

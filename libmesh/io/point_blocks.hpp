@@ -19,9 +19,10 @@ namespace treeform::detail::io {
 /// What `point_reader` is made of.
 class point_blocks {
   public:
-    /// As for `point_reader`; `known` as for `open_xyz_points`.
+    /// As for `point_reader`; `known` as for `open_xyz_points`, `unpacked` for `open_pcd_points`.
     point_blocks(const std::filesystem::path& path, std::string_view format, std::uint64_t first,
-                 row_use use, const text_index* known = nullptr);
+                 row_use use, const text_index* known = nullptr,
+                 const byte_getter* unpacked = nullptr);
     point_blocks(const point_blocks&) = delete;
     point_blocks& operator=(const point_blocks&) = delete;
 

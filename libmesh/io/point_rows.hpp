@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,9 @@ enum class row_use : std::uint8_t {
     copied,    ///< those behind the points are read; where they could not be written so, refused
     looked_at  ///< those behind the points are read, and what is ahead is passed over
 };
+
+/// Fills `bytes` with those from `at` on.
+using byte_getter = std::function<void(std::uint64_t at, std::span<std::byte> bytes)>;
 
 struct point_rows {
     /// Everything but the points; the element "vertex", if any, has columns without values.
@@ -69,8 +73,10 @@ struct point_rows {
 [[nodiscard]] bool has_rows_to_look_at(const source& ply);
 /// The corners of a binary STL, facets behind them.
 [[nodiscard]] point_rows open_stl_points(const source& in, std::uint64_t first = 0);
+/// `unpacked` gives those of a compressed one, if others have unpacked them.
 [[nodiscard]] point_rows open_pcd_points(const source& in, std::uint64_t first = 0,
-                                         const text_index* known = nullptr);
+                                         const text_index* known = nullptr,
+                                         const byte_getter* unpacked = nullptr);
 [[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format,
                                          std::uint64_t first = 0,

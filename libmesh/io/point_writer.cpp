@@ -178,6 +178,16 @@ bool point_writer::has_parts() const { return !state_->rows.finish || state_->ro
 
 std::uint64_t point_writer::points_together() const { return state_->rows.together; }
 
+bool point_writer::has_shared_values() const {
+    return static_cast<bool>(state_->rows.share_values);
+}
+
+void point_writer::share_values(const shared_values& place) {
+    state& s = *state_;
+    s.rows.share_values(place);
+    s.head_size = s.out->size();
+}
+
 std::uint64_t point_writer::end_part() {
     state& s = *state_;
     s.points_end = s.out->size();
@@ -204,7 +214,10 @@ point_writer::part point_writer::commit_part(write_result& result,
 }
 
 std::string point_writer::join_heads(const std::vector<std::string>& heads) {
-    return heads.front().starts_with("LASF") ? detail::io::join_las_heads(heads) : heads.front();
+    const std::string& first = heads.front();
+    if (first.starts_with("LASF")) return detail::io::join_las_heads(heads);
+    if (detail::io::is_packed_pcd_head(first)) return detail::io::join_packed_pcd_heads(heads);
+    return first;
 }
 
 }  // namespace treeform

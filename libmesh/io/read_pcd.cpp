@@ -1,4 +1,3 @@
-#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/lzf.hpp>
 #include <libmesh/io/pcd_header.hpp>
 #include <libmesh/io/point_rows.hpp>
@@ -82,56 +81,56 @@ void look_behind(bool more, warnings& said) {
 }
 
 /// The unpacked bytes: a block a field.
-[[nodiscard]] std::shared_ptr<scratch> unpack(const source& in, const pcd_header& header,
+[[nodiscard]] std::shared_ptr<scratch> unpack(const source& in, const packed_pcd& packed,
                                               scratch_place place) {
-    const std::size_t there = bytes_of_body(in, header);
-    if (there < 8) in.fail_byte(header.body, "the file ends in the lengths of the data");
-    const std::size_t packed = base::load<std::uint32_t, std::endian::little>(header.body);
-    const std::size_t size = base::load<std::uint32_t, std::endian::little>(header.body + 4);
-    if (packed > there - 8)
-        in.fail_byte(header.body,
-                     "the file ends in the data: " + std::to_string(packed) + " bytes promised");
-    if (size / header.row_size != header.vertices.rows || size % header.row_size != 0)
-        in.fail_byte(header.body + 4, std::to_string(size) + " bytes of data are not those of " +
-                                          std::to_string(header.vertices.rows) + " points");
-    if (size / lzf_most_ratio > packed)
-        in.fail_byte(header.body, "the data cannot become as long as promised");
-    auto bytes = std::make_shared<scratch>(size, place, in.name());
-    const char* const first = header.body + 8;
+    auto bytes = std::make_shared<scratch>(packed.size, place, in.name());
     const bool good =
-        lzf_unpack({first, packed}, bytes->data(), size, [&](std::size_t used, std::size_t) {
-            in.release_before(first + used);
+        lzf_unpack(packed.bytes, bytes->data(), packed.size, [&](std::size_t used, std::size_t) {
+            in.release_before(packed.bytes.data() + used);
             bytes->give_back();
         });
-    if (!good) in.fail_byte(header.body + 8, "the packed data are damaged");
+    if (!good) packed.fail_damaged(in);
     return bytes;
 }
 
-[[nodiscard]] auto block_runs(const source& in, const pcd_header& header, scratch_place place) {
-    const auto bytes = unpack(in, header, place);
-    const std::size_t count = header.vertices.rows;
-    const bool more =
-        bytes_of_body(in, header) - 8 > base::load<std::uint32_t, std::endian::little>(header.body);
-    return [bytes, count, more, offsets = header.places, first = std::size_t{0}](
-               std::vector<point3>& points, element& vertices, std::size_t most,
-               warnings& said) mutable {
+/// Unpacked when the first of them are asked for, or by others.
+[[nodiscard]] auto block_runs(const source& in, const pcd_header& header, scratch_place place,
+                              std::uint64_t first, const byte_getter* unpacked) {
+    const packed_pcd packed = find_packed_pcd(in, header);
+    return [&in, packed, place, get = unpacked == nullptr ? byte_getter() : *unpacked,
+            bytes = std::shared_ptr<scratch>(), held = std::vector<std::byte>(),
+            count = std::size_t{header.vertices.rows}, offsets = header.places,
+            row_size = header.row_size,
+            first = static_cast<std::size_t>(first)](std::vector<point3>& points, element& vertices,
+                                                     std::size_t most, warnings& said) mutable {
+        if (!get && !bytes) bytes = unpack(in, packed, place);
         const std::size_t rows = std::min(most, count - first);
+        if (rows == 0) {
+            look_behind(packed.has_bytes_behind, said);
+            return rows;
+        }
+        if (get) held.resize(rows * row_size);
         std::vector<value_place> places;
         places.reserve(offsets.size());
-        for (const pcd_place& p : offsets)
+        for (const pcd_place& p : offsets) {
+            const std::size_t at = p.fields_ahead * count + first * p.field_size;
+            const std::span<std::byte> field =
+                get ? std::span(held).subspan(p.fields_ahead * rows, rows * p.field_size)
+                    : std::as_writable_bytes(std::span(bytes->data() + at, rows * p.field_size));
+            if (get && p.in_field == 0) get(at, field);
             places.push_back(
-                {bytes->data() + p.fields_ahead * count + first * p.field_size + p.in_field,
-                 p.field_size});
+                {reinterpret_cast<const char*>(field.data()) + p.in_field, p.field_size});
+        }
         append_fixed_rows(vertices, points, rows, places, std::endian::little);
-        bytes->give_back();
+        if (bytes) bytes->give_back();
         first += rows;
-        if (rows == 0) look_behind(more, said);
         return rows;
     };
 }
 
 [[nodiscard]] point_rows open(const source& in, scratch_place place, std::uint64_t first = 0,
-                              const text_index* known = nullptr) {
+                              const text_index* known = nullptr,
+                              const byte_getter* unpacked = nullptr) {
     pcd_header header = read_pcd_header(in);
     point_rows rows;
     rows.count = header.vertices.rows;
@@ -147,7 +146,8 @@ void look_behind(bool more, warnings& said) {
             rows.left_out = first;
             break;
         case pcd_encoding::compressed:
-            rows.append = block_runs(in, header, place);
+            rows.append = block_runs(in, header, place, first, unpacked);
+            rows.left_out = first;
             break;
     }
     rows.head.format = name_of(header.encoding);
@@ -177,8 +177,9 @@ mesh_file read_pcd(const source& in) {
     return file;
 }
 
-point_rows open_pcd_points(const source& in, std::uint64_t first, const text_index* known) {
-    return open(in, scratch_place::file, first, known);
+point_rows open_pcd_points(const source& in, std::uint64_t first, const text_index* known,
+                           const byte_getter* unpacked) {
+    return open(in, scratch_place::file, first, known, unpacked);
 }
 
 std::optional<text_index> scan_pcd(const source& in, const file_part& part, std::size_t most) {

@@ -68,4 +68,11 @@ inline void start_columns(element& e, std::size_t rows) {
     }
 }
 
+/// Rows of zeros, to be filled in. \pre no lists
+inline void resize_columns(element& e, std::size_t rows) {
+    e.rows = rows;
+    for (column& c : e.columns)
+        if (c.role == column_role::data) c.values.resize(rows * size_of(c.type));
+}
+
 }  // namespace treeform::detail::io

@@ -1,4 +1,6 @@
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/declared_vertices.hpp>
+#include <libmesh/io/file_part.hpp>
 #include <libmesh/io/lzf.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/pcd_header.hpp>
@@ -10,7 +12,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +34,16 @@ struct field {
 [[nodiscard]] bool can_pack(std::uint64_t count, std::size_t row_size) {
     constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
     return count <= most / row_size && lzf_most_packed(count * row_size) <= most;
+}
+
+constexpr std::size_t bytes_of_lengths = 8;
+
+/// Ahead of packed points.
+[[nodiscard]] std::string lengths(std::size_t packed, std::size_t unpacked) {
+    std::string bytes(bytes_of_lengths, '\0');
+    base::store<std::endian::little>(bytes.data(), static_cast<std::uint32_t>(packed));
+    base::store<std::endian::little>(bytes.data() + 4, static_cast<std::uint32_t>(unpacked));
+    return bytes;
 }
 
 /// A color packed into a float is a whole number to those who read text, and stays one bit for
@@ -64,12 +79,11 @@ class pcd_writer {
         }
         job.result.format = name_of(encoding_);
         put_header();
-        if (encoding_ == pcd_encoding::compressed) blocks_.emplace(count_ * row_size_, place(), "");
     }
 
     void put_points(std::span<const point3> points, const element* source) {
         if (by_runs_) check_axes(job_, is_text(), declared_, points);
-        if (blocks_) return keep(points, source);
+        if (is_packed()) return keep(points, source);
         for (std::size_t row = 0; row < points.size(); ++row) {
             for (std::size_t i = 0; i < columns_.size(); ++i) {
                 if (is_text() && i > 0) job_.out.put(' ');
@@ -79,18 +93,47 @@ class pcd_writer {
         }
     }
 
-    [[nodiscard]] bool is_packed() const { return blocks_.has_value(); }
+    [[nodiscard]] bool is_packed() const { return encoding_ == pcd_encoding::compressed; }
     void finish() {
-        if (!blocks_) return;
-        const scratch packed(lzf_most_packed(blocks_->size()), place(), "");
-        const std::size_t size = lzf_pack({blocks_->data(), blocks_->size()}, packed.data(),
-                                          [&](std::size_t, std::size_t) {
-                                              blocks_->give_back();
-                                              packed.give_back();
-                                          });
-        job_.out.raw<std::endian::little>(static_cast<std::uint32_t>(size));
-        job_.out.raw<std::endian::little>(static_cast<std::uint32_t>(blocks_->size()));
+        if (!is_packed()) return;
+        scratch& all = blocks();
+        const scratch packed(lzf_most_packed(all.size()), place(), "");
+        const std::size_t size =
+            lzf_pack({all.data(), all.size()}, packed.data(), [&](std::size_t, std::size_t) {
+                all.give_back();
+                packed.give_back();
+            });
+        job_.out.put(lengths(size, all.size()));
         job_.out.put({packed.data(), size});
+    }
+
+    void share_values(const point_writer::shared_values& place) {
+        shared_ = place;
+        kept_ = place.first_point;
+        job_.out.put(lengths(0, 0));
+        head_size_ = job_.out.size();
+    }
+    /// Packs this part's blocks. \pre all parts have put their points
+    void finish_part() {
+        if (!shared_) throw std::logic_error("write_pcd: parts of values that are not shared");
+        const std::uint64_t size = count_ * row_size_;
+        const std::uint64_t blocks = (size + lzf_block - 1) / lzf_block;
+        const file_part mine{shared_->part, shared_->parts};
+        const std::uint64_t end = std::min(mine.last(blocks) * lzf_block, size);
+        std::vector<std::byte> block(lzf_block);
+        std::string packed(lzf_most_packed(lzf_block), '\0');
+        std::size_t unpacked = 0;
+        for (std::uint64_t at = mine.first(blocks) * lzf_block; at < end; at += lzf_block) {
+            const std::span<std::byte> some = std::span(block).first(
+                static_cast<std::size_t>(std::min<std::uint64_t>(lzf_block, end - at)));
+            shared_->get(at, some);
+            job_.out.put(
+                {packed.data(), lzf_pack({reinterpret_cast<const char*>(some.data()), some.size()},
+                                         packed.data())});
+            unpacked += some.size();
+        }
+        const auto written = static_cast<std::size_t>(job_.out.size() - head_size_);
+        job_.out.replace(head_size_ - bytes_of_lengths, lengths(written, unpacked));
     }
 
   private:
@@ -233,21 +276,30 @@ class pcd_writer {
         });
     }
 
+    [[nodiscard]] scratch& blocks() {
+        if (!blocks_) blocks_.emplace(count_ * row_size_, place(), "");
+        return *blocks_;
+    }
+
     /// Puts values where they will stand, all those of a field together.
     void keep(std::span<const point3> points, const element* source) {
         std::size_t ahead = 0;
+        std::vector<char> values;
         for (const field& f : fields_) {
             const std::size_t size = size_of(columns_[f.first]->type);
-            for (std::size_t i = 0; i < f.count; ++i) {
-                const column& c = *columns_[f.first + i];
-                char* const to = blocks_->data() + ahead * count_ + (kept_ * f.count + i) * size;
+            const std::uint64_t at = ahead * count_ + kept_ * f.count * size;
+            const std::size_t bytes = points.size() * f.count * size;
+            if (shared_) values.resize(bytes);
+            char* const to = shared_ ? values.data() : blocks().data() + at;
+            for (std::size_t i = 0; i < f.count; ++i)
                 for (std::size_t row = 0; row < points.size(); ++row)
-                    store_value(to + row * f.count * size, c, points, source, row);
-            }
+                    store_value(to + (row * f.count + i) * size, *columns_[f.first + i], points,
+                                source, row);
+            if (shared_) shared_->put(at, std::as_bytes(std::span(values)));
             ahead += f.count * size;
         }
         kept_ += points.size();
-        blocks_->give_back();
+        if (blocks_) blocks_->give_back();
     }
     void store_value(char* to, const column& c, std::span<const point3> points,
                      const element* source, std::size_t row) const {
@@ -270,11 +322,31 @@ class pcd_writer {
     std::vector<const column*> columns_{};  ///< of `declared_`: those that are written
     std::vector<field> fields_{};
     std::size_t row_size_ = 0;
-    std::optional<scratch> blocks_{};  ///< of a compressed file
-    std::size_t kept_ = 0;             ///< points in them
+    std::optional<scratch> blocks_{};                      ///< of a compressed file
+    std::optional<point_writer::shared_values> shared_{};  ///< instead, of one in parts
+    std::uint64_t kept_ = 0;       ///< points in it, with those of parts ahead
+    std::uint64_t head_size_ = 0;  ///< with the lengths
 };
 
 }  // namespace
+
+bool is_packed_pcd_head(std::string_view head) {
+    constexpr std::string_view end = "\nDATA binary_compressed\n";
+    return head.starts_with("# .PCD") && head.size() > end.size() + bytes_of_lengths &&
+           head.substr(0, head.size() - bytes_of_lengths).ends_with(end);
+}
+
+std::string join_packed_pcd_heads(const std::vector<std::string>& heads) {
+    std::size_t packed = 0;
+    std::size_t unpacked = 0;
+    for (const std::string& head : heads) {
+        const char* const at = head.data() + head.size() - bytes_of_lengths;
+        packed += base::load<std::uint32_t, std::endian::little>(at);
+        unpacked += base::load<std::uint32_t, std::endian::little>(at + 4);
+    }
+    const std::string& first = heads.front();
+    return first.substr(0, first.size() - bytes_of_lengths) + lengths(packed, unpacked);
+}
 
 void write_pcd(const write_job& job) {
     pcd_writer writer(job);
@@ -288,7 +360,15 @@ point_sink start_pcd_points(const write_job& job, std::uint64_t count) {
     point_sink sink{.rows = [writer](std::span<const point3> points, const element* vertices) {
         writer->put_points(points, vertices);
     }};
-    if (writer->is_packed()) sink.finish = [writer] { writer->finish(); };
+    if (!writer->is_packed()) return sink;
+    sink.finish = [writer] { writer->finish(); };
+    sink.share_values = [writer](const point_writer::shared_values& place) {
+        writer->share_values(place);
+    };
+    sink.finish_part = [writer](const std::vector<std::string>&) {
+        writer->finish_part();
+        return std::uint64_t{0};
+    };
     return sink;
 }
 

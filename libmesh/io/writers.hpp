@@ -16,6 +16,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -55,11 +56,17 @@ struct point_sink {
     /// `told` is what `tell_part` gave for each part.
     std::function<std::uint64_t(const std::vector<std::string>& told)> finish_part{};
     std::function<std::string()> tell_part{};  ///< none: nothing
+    /// Of values that do not stand point by point: they are put there from now on. None: others do.
+    std::function<void(const point_writer::shared_values& place)> share_values{};
     std::uint64_t together = 1;  ///< parts but the last have a multiple of so many points
 };
 
 /// The head of a LAS file from those of files with some of its points each, none without any.
 [[nodiscard]] std::string join_las_heads(const std::vector<std::string>& heads);
+
+/// Whether it is that of a part of a compressed PCD; and the head of the whole.
+[[nodiscard]] bool is_packed_pcd_head(std::string_view head);
+[[nodiscard]] std::string join_packed_pcd_heads(const std::vector<std::string>& heads);
 
 void write_stl_binary(const write_job& job);
 void write_stl_text(const write_job& job);

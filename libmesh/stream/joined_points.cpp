@@ -1,3 +1,4 @@
+#include <libmesh/io/pcd_header.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/stream/joined_points.hpp>
 #include <libmesh/stream/shared_text.hpp>
@@ -57,9 +58,7 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team
             return;
         }
         // With a point, where there is one: of files without any, no property is missed.
-        point_block first;
-        reader_->read(first, 1);
-        firsts.push_back(file_of(reader_->header(), std::move(first)));
+        firsts.push_back(file_of(reader_->header(), read_first(counts_.back())));
     }
     std::vector<std::string> names = inputs.names;
     head_ = join(std::move(firsts), names);
@@ -68,11 +67,27 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team
     rewind();
 }
 
+/// Of a file that is not unpacked yet, zeros in its place: what it is does not matter.
+point_block joined_points::read_first(std::uint64_t count) {
+    point_block first;
+    const element* const vertices = find_element(reader_->header().attributes, "vertex");
+    if (vertices == nullptr || formats_.back() != io::name_of(io::pcd_encoding::compressed)) {
+        reader_->read(first, 1);
+        return first;
+    }
+    first.points.resize(std::min<std::uint64_t>(count, 1));
+    first.properties = *vertices;
+    io::resize_columns(first.properties, first.points.size());
+    return first;
+}
+
 void joined_points::open(std::size_t file, std::uint64_t first) {
     reader_.reset();
     const bool is_alone = inputs_.paths.size() == 1;
+    const bool is_unpacked = !unpacked_.empty() && unpacked_[file];
     reader_.emplace(inputs_.paths[file], inputs_.format, first,
-                    is_alone ? io::row_use::copied : io::row_use::none, text(file));
+                    is_alone ? io::row_use::copied : io::row_use::none, text(file),
+                    is_unpacked ? &unpacked_[file] : nullptr);
     file_ = file;
     if (inputs_.paths.size() > 1) fits_ = same_columns(head_, reader_->header());
 }

@@ -48,6 +48,8 @@ class joined_points {
 
     [[nodiscard]] std::size_t files() const { return formats_.size(); }
     [[nodiscard]] const std::string& format(std::size_t file) const { return formats_[file]; }
+    /// Points of compressed files are from now on read by these; others have none.
+    void read_unpacked(std::vector<io::byte_getter> files) { unpacked_ = std::move(files); }
     /// What is known of it where it is text, or null.
     [[nodiscard]] const io::text_index* text(std::size_t file) const {
         return texts_[file] ? &*texts_[file] : nullptr;
@@ -60,6 +62,7 @@ class joined_points {
 
   private:
     void open(std::size_t file, std::uint64_t first = 0);
+    [[nodiscard]] point_block read_first(std::uint64_t count);
     [[nodiscard]] bool read_some(point_block& block, std::size_t most);
     void take_warnings();
     void fit(point_block& block);
@@ -73,6 +76,7 @@ class joined_points {
     std::vector<std::uint64_t> counts_{};  ///< of files, where they are known
     std::vector<std::optional<io::text_index>>
         texts_{};  ///< of files that are text, if it is known
+    std::vector<io::byte_getter> unpacked_{};
     std::vector<io_warning> of_join_{};
     std::vector<io_warning> warnings_{};
     std::optional<io::point_blocks> reader_{};

@@ -1,3 +1,4 @@
+#include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/stream/leading_points.hpp>
 
 #include <algorithm>
@@ -15,9 +16,7 @@ point_block block_like(const mesh_file& header, std::size_t points) {
     block.points.resize(points);
     if (const element* const vertices = find_element(header.attributes, "vertex"))
         block.properties = *vertices;
-    block.properties.rows = points;
-    for (column& c : block.properties.columns)
-        if (c.role == column_role::data) c.values.resize(points * size_of(c.type));
+    io::resize_columns(block.properties, points);
     return block;
 }
 

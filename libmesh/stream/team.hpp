@@ -74,6 +74,16 @@ class team {
         return all;
     }
 
+    /// Of what those tell that are ahead.
+    [[nodiscard]] std::uint64_t sum_before(std::uint64_t mine) const {
+        state_writer told;
+        told.number(mine);
+        std::vector<state_reader> all = exchange(told);
+        std::uint64_t sum = 0;
+        for (std::size_t r = 0; r < rank(); ++r) sum += all[r].number();
+        return sum;
+    }
+
   private:
     process_team all_;
 };

@@ -1,9 +1,8 @@
 #include <libmesh/io/las_plan.hpp>
 #include <libmesh/stream/joined_parts.hpp>
 #include <libmesh/stream/las_grid.hpp>
-#include <libmesh/stream/leading_points.hpp>
 #include <libmesh/stream/new_numbers.hpp>
-#include <libmesh/stream/record_file.hpp>
+#include <libmesh/stream/points_out.hpp>
 #include <libmesh/stream/tile_outputs.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
@@ -26,121 +25,6 @@ bool is_special(const fs::path& path) {
     const fs::file_status status = fs::status(path, error);
     return fs::exists(status) && !fs::is_regular_file(status);
 }
-
-/// Rows of a block on their way to a file of points.
-class points_out {
-  public:
-    /// `all` is the team whose members write a part each; none: the file is written here.
-    points_out(const weld_stream_outputs::file& to, const mesh_file& header, std::uint64_t count,
-               const team* all, const fs::path& part, std::size_t most_corners = 0)
-        : target_(to.path),
-          path_(all == nullptr
-                    ? to.path
-                    : (all->leads() ? fs::path(to.path.string() + ".unfinished") : part)),
-          all_(all),
-          writer_(path_, header, count, options_of(to), most_corners) {}
-
-    [[nodiscard]] static write_options options_of(const weld_stream_outputs::file& to) {
-        write_options options = to.options;
-        const std::string extension = to.path.extension().string();
-        if (options.format.empty() && !extension.empty()) options.format = extension.substr(1);
-        return options;
-    }
-
-    void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
-        if (rows.empty()) return;
-        some_.points.clear();
-        for (const std::uint32_t row : rows) some_.points.push_back(block.points[row]);
-        some_.properties = gather(block.properties, rows);
-        if (leading_) leading_->take_off(some_);
-        writer_.write(some_);
-    }
-    void write(const point_block& block) {
-        if (!leading_) return writer_.write(block);
-        some_ = block;
-        leading_->take_off(some_);
-        writer_.write(some_);
-    }
-    /// The process has `mine` of the points. All come here.
-    void start_part(const work_folder& folder, const mesh_file& header, const std::string& name,
-                    std::uint64_t mine) {
-        const std::uint64_t together = writer_.points_together();
-        if (all_ != nullptr && together > 1)
-            leading_.emplace(folder, *all_, "leading." + name, header, mine, together);
-    }
-    void write(tile_faces& faces, bool all) {
-        if (all_ != nullptr) {
-            const std::uint64_t mine = writer_.end_part();
-            const std::uint64_t points = all_->sum(mine);
-            // That of the first one becomes the whole: the points of others are ahead of its rows.
-            if (all_->leads()) writer_.leave_room(points - mine);
-        }
-        faces.give(writer_, all, all_ == nullptr);
-    }
-    write_result commit() {
-        if (all_ == nullptr) return writer_.commit();
-        if (leading_) leading_->give([&](const point_block& block) { writer_.write(block); });
-        state_writer chunks;
-        chunks.text(writer_.tell_part());
-        std::vector<std::string> parts;
-        for (state_reader& one : all_->exchange(chunks)) parts.push_back(one.text());
-        write_result result;
-        const point_writer::part part = writer_.commit_part(result, parts);
-        std::string head(static_cast<std::size_t>(part.head), '\0');
-        if (read_from(path_, 0, std::as_writable_bytes(std::span(head))) != head.size())
-            fail_damaged(path_);
-        const bool is_last = all_->rank() + 1 == all_->size();
-        const std::uint64_t rows =
-            is_last ? fs::file_size(path_) - part.head - part.points : part.rows;
-        state_writer mine;
-        mine.number(part.points);
-        mine.number(rows);
-        mine.real(result.max_displacement);
-        mine.text(path_.string());
-        mine.text(head);
-        std::vector<state_reader> told = all_->exchange(mine);
-        std::uint64_t at = part.head;
-        std::uint64_t rows_at = part.head;
-        fs::path whole;
-        std::vector<std::string> heads;
-        for (std::size_t r = 0; r < told.size(); ++r) {
-            const std::uint64_t bytes = told[r].number();
-            const std::uint64_t rows_of_one = told[r].number();
-            rows_at += bytes;
-            if (r < all_->rank()) {
-                at += bytes;
-                rows_at += rows_of_one;
-            }
-            result.max_displacement = std::max(result.max_displacement, told[r].real());
-            const std::string path = told[r].text();
-            if (r == 0) whole = path;
-            if (bytes > 0) heads.push_back(told[r].text());
-        }
-        if (heads.empty()) heads.push_back(head);
-        if (!all_->leads()) {
-            copy_bytes(path_, part.head, whole, at, part.points);
-            copy_bytes(path_, part.head + part.points, whole, rows_at, rows);
-        }
-        if (all_->leads()) {
-            const std::string joined = point_writer::join_heads(heads);
-            write_to(whole, 0, std::as_bytes(std::span(joined)));
-        }
-        all_->meet();
-        if (all_->leads())
-            fs::rename(whole, target_);
-        else
-            fs::remove(path_);
-        return result;
-    }
-
-  private:
-    fs::path target_;
-    fs::path path_;
-    const team* all_;
-    point_writer writer_;
-    std::optional<leading_points> leading_{};
-    point_block some_{};
-};
 
 /// Rows on their way to a file, of which something has to be known before it is begun.
 class output_look {

@@ -68,11 +68,14 @@ void tile_steps::look() {
     if (least > task_.memory) fail_for_memory(least);
     if (task_.options.shared && has_tiles()) {
         look_at_tiles();
-    } else if (task_.options.shared || !take_over()) {
+    } else if (!task_.options.shared && take_over()) {
+        unpack();
+    } else {
         const bool anew = has_plan();
         const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
         if (team_.leads()) folder_.clear();
         tiles_.clear();
+        unpack();
         if (source_.lacks_las_grid())
             source_.set_las_grid(las_grid_of(source_, team_, read_by(team_.rank()), pace_));
         const std::size_t most = std::bit_floor(
@@ -88,6 +91,10 @@ void tile_steps::look() {
         share_cuts();
     }
     say_plan();
+}
+
+void tile_steps::unpack() {
+    if (!unpacked_) unpacked_.emplace(folder_, team_, task_.inputs, source_, pace_);
 }
 
 /// As the first of a team has planned.

@@ -10,6 +10,7 @@
 #include <libmesh/stream/posted_rows.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/row_file.hpp>
+#include <libmesh/stream/unpacked_pcd.hpp>
 #include <libmesh/stream/work_folder.hpp>
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>
@@ -72,6 +73,8 @@ class tile_steps {
     /// Reads the cloud once; or knows it from an earlier run, whose work will then be continued.
     /// Then says where it will be cut.
     void look();
+    /// Unpacks the inputs that are read so, unless they are. All of a team come here.
+    void unpack();
     [[nodiscard]] const cloud_survey& survey() const { return survey_.cloud; }
     /// For what is known of other things than points.
     [[nodiscard]] cloud_survey& survey() { return survey_.cloud; }
@@ -216,6 +219,7 @@ class tile_steps {
     const team& team_;
     joined_points& source_;
     const point_keys& keys_;
+    std::optional<unpacked_inputs> unpacked_{};
     point_survey survey_{};
     double tolerance_ = 0.0;
     std::optional<tile_cuts> cuts_{};

@@ -241,6 +241,7 @@ status stream_weld::weld() {
             s.check_tiles();
             s.steps.check_finished();
             s.hold_alone();
+            s.steps.unpack();
         } else {
             s.steps.weld_tiles();
         }

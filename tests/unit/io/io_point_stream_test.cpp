@@ -15,6 +15,7 @@
 #include <fstream>
 #include <limits>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -222,7 +223,8 @@ TEST_CASE("point streams: parts written by several, put one after the other, are
             tf::point_writer writer(here.folder / "part", file, 700, options);
             writer.write(block);
             tf::write_result result;
-            if (!writer.has_parts()) {
+            REQUIRE(writer.has_parts());
+            if (writer.has_shared_values()) {
                 CHECK_THROWS_AS(writer.commit_part(result), std::logic_error);
                 break;
             }
@@ -237,6 +239,91 @@ TEST_CASE("point streams: parts written by several, put one after the other, are
         const bool is_packed = std::string_view(k.read_as) == "pcd-binary-compressed";
         if (!is_packed) bytes = tf::point_writer::join_heads(heads) + bytes;
         CHECK(bytes == (is_packed ? "" : tf::write_to_memory(file, options)));
+    }
+}
+
+TEST_CASE("point streams: parts of a compressed PCD share their values, and pack a share each") {
+    const scratch here;
+    // Values of 33 bytes a point: up to six blocks, which no field and no part begins with.
+    for (const std::size_t count : std::vector<std::size_t>{0, 1, 5, 36'000, 180'000}) {
+        CAPTURE(count);
+        tf::mesh_file file = cloud(count, false);
+        file.format = "pcd-binary-compressed";
+        const tf::write_options options{.format = "pcd"};
+        const std::string expected = tf::write_to_memory(file, options);
+        for (const std::size_t parts : {1U, 3U, 8U}) {
+            CAPTURE(parts);
+            std::string values;
+            std::vector<tf::point_writer> writers;
+            std::uint64_t first = 0;
+            for (std::size_t part = 0; part < parts; ++part) {
+                const auto number = std::to_string(part);
+                tf::point_writer& writer =
+                    writers.emplace_back(here.folder / number, file, count, options);
+                REQUIRE(writer.has_shared_values());
+                writer.share_values(
+                    {.first_point = first,
+                     .part = part,
+                     .parts = parts,
+                     .put =
+                         [&](std::uint64_t at, std::span<const std::byte> bytes) {
+                             values.resize(std::max(values.size(), at + bytes.size()));
+                             if (!bytes.empty())
+                                 std::memcpy(values.data() + at, bytes.data(), bytes.size());
+                         },
+                     .get =
+                         [&](std::uint64_t at, std::span<std::byte> bytes) {
+                             REQUIRE(at + bytes.size() <= values.size());
+                             std::memcpy(bytes.data(), values.data() + at, bytes.size());
+                         }});
+                const std::size_t end = part + 1 == parts ? count : count * part / (parts + 3);
+                while (first < end) {  // the first one has none, the last one many
+                    tf::point_block block;
+                    std::vector<std::uint32_t> rows;
+                    for (; first < end && rows.size() < 5000; ++first) {
+                        rows.push_back(static_cast<std::uint32_t>(first));
+                        block.points.push_back(file.mesh.points[first]);
+                    }
+                    block.properties = tf::gather(file.attributes.elements[0], rows);
+                    writer.write(block);
+                }
+            }
+            std::string bytes;
+            std::vector<std::string> heads;
+            std::size_t most = 0;
+            for (std::size_t part = 0; part < parts; ++part) {
+                tf::write_result result;
+                const auto [head, points, behind] = writers[part].commit_part(result);
+                CHECK(behind == 0);
+                const std::string written = bytes_of(here.folder / std::to_string(part));
+                REQUIRE(written.size() == head + points);
+                heads.push_back(written.substr(0, head));
+                bytes += written.substr(head);
+                most = std::max(most, written.size());
+            }
+            CHECK((tf::point_writer::join_heads(heads) + bytes == expected));
+            if (count == 180'000 && parts == 3) CHECK(most < expected.size() / 2);
+        }
+    }
+}
+
+TEST_CASE("point streams: whether points are too many to be compressed, all of them say") {
+    const scratch here;
+    tf::mesh_file file = cloud(1, false);
+    file.format = "pcd-binary-compressed";
+    // 33 bytes a point; packed, at worst a byte more for each 32, and one.
+    constexpr std::uint64_t most = (std::uint64_t{1} << 32) / 33 * 32 / 33;
+    for (const std::uint64_t count : {most - 10, most + 10}) {
+        tf::point_writer writer(here.folder / "a.pcd", file, count, {});
+        CHECK(writer.has_parts());
+        CHECK(writer.has_shared_values() == (count < most));
+        if (!writer.has_shared_values()) {
+            tf::write_result result;
+            static_cast<void>(writer.commit_part(result));
+            CHECK(result.format == "pcd-binary");
+            REQUIRE(result.warnings.size() == 1);
+            CHECK(result.warnings[0].text == "too many points to be compressed");
+        }
     }
 }
 

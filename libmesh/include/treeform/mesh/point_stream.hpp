@@ -11,8 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,9 +46,10 @@ struct row_block {
 class TREEFORM_API point_reader {
   public:
     /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
-    /// input, a pipe) is copied to an unnamed file in /var/tmp first, and so are the unpacked
-    /// points of a compressed PCD. The `first` points, no more than there are, are passed over:
-    /// unread in binary PLY without lists, binary PCD, LAS, and whole chunks of LAZ.
+    /// input, a pipe) is copied to an unnamed file in /var/tmp first; the points of a compressed PCD
+    /// are unpacked to one before the first of them is read. The `first` points, no more than there
+    /// are, are passed over: unread in binary PLY without lists, PCD but text, LAS, and whole chunks
+    /// of LAZ.
     ///
     /// With `with_rows`, a PLY may have faces and other elements behind its points, and a binary STL is
     /// read as the corners of its facets, with the facets behind them. The header says how many rows
@@ -86,7 +89,7 @@ class TREEFORM_API point_reader {
 };
 
 /// Writes the same file as `write` would for all blocks together. A compressed PCD (the input was
-/// one) is put together in an unnamed file in /var/tmp.
+/// one) is put together in an unnamed file in /var/tmp, or by parts where they say.
 class TREEFORM_API point_writer {
   public:
     /// `header` is that of `point_reader`, perhaps with columns added or removed. `count` is the
@@ -115,8 +118,22 @@ class TREEFORM_API point_writer {
     /// \throws io_error, also when fewer than `count` points, or other rows, were written
     write_result commit();
 
-    /// Whether others can write the rest of the points: not in compressed PCD.
+    /// Whether others can write the rest of the points.
     [[nodiscard]] bool has_parts() const;
+    /// Where parts put values that do not stand point by point in the file, and get those that they
+    /// pack: bytes that all parts see, as many as the points have.
+    struct shared_values {
+        std::uint64_t first_point = 0;  ///< of the part, by number in the whole
+        std::size_t part = 0;
+        std::size_t parts = 1;
+        std::function<void(std::uint64_t at, std::span<const std::byte> bytes)> put{};
+        std::function<void(std::uint64_t at, std::span<std::byte> bytes)> get{};
+    };
+    /// Whether parts need such a place: those of a compressed PCD, whose values stand field by field.
+    [[nodiscard]] bool has_shared_values() const;
+    /// Names it, before the first point. When all parts have their points, and not before,
+    /// `commit_part` gets a share of the bytes of all and packs them.
+    void share_values(const shared_values& place);
     /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else 1.
     [[nodiscard]] std::uint64_t points_together() const;
     /// No more points come: the others are in other parts. Rows that are behind the points of all

@@ -179,7 +179,7 @@ class TREEFORM_API stream_error : public std::runtime_error {
 ///         properties
 /// \cost   O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for
 ///         each condition, 48 for an order, and points as in memory for a choice of what is kept; of
-///         a mesh up to 56 more, and 48 a triangle
+///         a mesh up to 56 more, and 48 a triangle; the points of a compressed PCD also unpacked
 /// \same   on any number of threads, with any memory and any folder
 TREEFORM_API weld_stream_result weld_stream(const cloud_inputs& inputs,
                                             const weld_stream_outputs& outputs,

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Files that all of a team see for some time.
+
+#include <libmesh/stream/record_file.hpp>
+#include <libmesh/stream/team.hpp>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail::stream {
+
+/// The first of the team makes them, and removes them at the end, whatever that is.
+class passing_files {
+  public:
+    explicit passing_files(const team& all) : all_(all) {}
+    passing_files(const passing_files&) = delete;
+    passing_files& operator=(const passing_files&) = delete;
+    ~passing_files() {
+        std::error_code ignored;
+        for (const std::filesystem::path& file : files_) std::filesystem::remove(file, ignored);
+    }
+
+    /// Makes an empty one, in the place of what a killed run has left. Others see it when they have
+    /// been told of it. \throws stream_error
+    void add(std::filesystem::path file) {
+        if (!all_.leads()) return;
+        std::filesystem::remove(file);
+        files_.push_back(std::move(file));
+        append_to(files_.back(), {});
+    }
+
+  private:
+    const team& all_;
+    std::vector<std::filesystem::path> files_{};
+};
+
+}  // namespace treeform::detail::stream

@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// Compressed PCD files, unpacked once for all of a team.
+
+#include <libmesh/stream/joined_points.hpp>
+#include <libmesh/stream/pacer.hpp>
+#include <libmesh/stream/passing_files.hpp>
+#include <libmesh/stream/team.hpp>
+#include <libmesh/stream/work_folder.hpp>
+#include <treeform/mesh/point_stream.hpp>
+
+#include <filesystem>
+
+namespace treeform::detail::stream {
+
+/// Unpacks what is packed in `pcd` to an empty file that the first of the team has made. What a byte
+/// stands for is known when those ahead are, so each in turn unpacks its share, counted in bytes read and
+/// made, and tells the next one where it has come to. All come here.
+///
+/// \throws io_error, all of them the same where the packed bytes are damaged; stream_error, cancelled
+void unpack_in_turn(const std::filesystem::path& pcd, const std::filesystem::path& to,
+                    const team& all, pacer& pace);
+
+/// The unpacked inputs in a folder, from where they are read until the end.
+class unpacked_inputs {
+  public:
+    /// All come here. \throws as `unpack_in_turn`
+    unpacked_inputs(const work_folder& folder, const team& all, const cloud_inputs& inputs,
+                    joined_points& source, pacer& pace);
+
+  private:
+    passing_files files_;
+};
+
+}  // namespace treeform::detail::stream
