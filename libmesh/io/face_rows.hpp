@@ -4,8 +4,8 @@
 /// corners; for meshes larger than memory.
 
 #include <libmesh/io/file_part.hpp>
+#include <libmesh/io/record_index.hpp>
 #include <libmesh/io/source.hpp>
-#include <libmesh/io/text_index.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -59,7 +59,7 @@ struct face_rows {
 
 inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 
-/// What is read by runs. `in` must outlive what comes back, and so must what is `known` of text. An STL
+/// What is read by runs. `in` must outlive what comes back, and so must what is `known` of its records. An STL
 /// has the faces of the part. Of a PLY the points of the part are put into what `make_store` gives for
 /// so many of them.
 ///
@@ -67,6 +67,6 @@ inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 [[nodiscard]] face_rows open_stl_faces(const source& in, const file_part& part = {});
 [[nodiscard]] face_rows open_ply_faces(
     const source& in, const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,
-    const file_part& part = {}, const text_index* known = nullptr);
+    const file_part& part = {}, const record_index* known = nullptr);
 
 }  // namespace treeform::detail::io

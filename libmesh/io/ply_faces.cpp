@@ -101,7 +101,7 @@ class ply_faces {
 
 face_rows open_ply_faces(const source& in,
                          const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,
-                         const file_part& part, const text_index* known) {
+                         const file_part& part, const record_index* known) {
     ply_header header = read_ply_header(in);
     const element& vertices = vertices_of(in, header.elements);
     if (vertices.rows > most_numbers) in.fail("more vertices than 32-bit numbers can name");

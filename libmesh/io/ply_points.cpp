@@ -52,7 +52,7 @@ template <class Values>
 class ply_points {
   public:
     ply_points(const source& in, Values values, const elements_to_read& elements,
-               const text_index* known)
+               const record_index* known)
         : in_(in),
           values_(std::move(values)),
           left_(elements.points.rows),
@@ -74,7 +74,7 @@ class ply_points {
             }
         }
         const auto at =
-            known_ == nullptr ? text_index::mark{} : known_->before(lines_ahead_ + first);
+            known_ == nullptr ? record_index::mark{} : known_->before(lines_ahead_ + first);
         if (at.record <= lines_ahead_) return 0;
         go_to_byte(at.byte);
         left_ = columns_.rows - (at.record - lines_ahead_);
@@ -155,7 +155,7 @@ class ply_points {
     [[nodiscard]] std::vector<row_place> parts(std::size_t count) {
         std::vector<alike_rows> rows;
         if constexpr (has_bytes<Values>) {
-            if (left_ > 0 && fixed_row_size(columns_) == 0 && known_ == nullptr) return {};
+            if (fixed_row_size(columns_) == 0 && known_ == nullptr) return {};
             pass_points();
             Values values = values_;
             std::optional<std::size_t> corners;
@@ -201,7 +201,7 @@ class ply_points {
     /// Of a line, counted from the first point; by way of the last mark ahead of it.
     void go_to_line(std::uint64_t line) {
         line += lines_ahead_;
-        const text_index::mark at = known_->before(line);
+        const record_index::mark at = known_->before(line);
         go_to_byte(at.byte);
         for (std::uint64_t left = line - at.record; left > 0; --left) values_.pass_row();
     }
@@ -209,6 +209,12 @@ class ply_points {
     void pass_rows(const std::vector<element>& ahead) {
         for (const element& e : ahead) {
             check_room(values_, e);
+            if constexpr (has_bytes<Values>) {
+                if (const std::size_t size = fixed_row_size(e); size > 0) {
+                    static_cast<void>(values_.take_bytes(e.rows * size));
+                    continue;
+                }
+            }
             element row;
             restart(row, e);
             for (std::size_t left = e.rows; left > 0; --left) {
@@ -277,7 +283,7 @@ class ply_points {
     std::size_t at_ = 0;             ///< the one that is read
     std::size_t row_ = 0;            ///< the next of it
     std::uint64_t lines_ahead_ = 0;  ///< of the points, in text
-    const text_index* known_;
+    const record_index* known_;
     std::optional<std::size_t> length_{};  ///< of all faces, where they must be alike
 };
 
@@ -294,7 +300,7 @@ bool has_rows_to_look_at(const source& ply) {
 }
 
 point_rows open_ply_points(const source& in, std::uint64_t first, row_use use,
-                           const text_index* known) {
+                           const record_index* known) {
     ply_header header = read_ply_header(in);
     const elements_to_read elements = sort_elements(in, header.elements, use);
     point_rows rows;
@@ -341,7 +347,7 @@ listed_points scan_listed_points(const source& ply, const row_place& first, std:
     return seen;
 }
 
-std::optional<text_index> scan_ply(const source& in, const file_part& part, std::size_t most) {
+std::optional<record_index> scan_ply(const source& in, const file_part& part, std::size_t most) {
     const ply_header header = read_ply_header(in);
     if (header.encoding != ply_encoding::ascii) return std::nullopt;
     return scan_rows(in, header.body, part, most);

@@ -16,7 +16,7 @@ namespace {
 
 [[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
                                    std::string_view format, std::uint64_t first, row_use use,
-                                   const text_index* known, const byte_getter* unpacked) {
+                                   const record_index* known, const byte_getter* unpacked) {
     switch (kind_of(in, path, format)) {
         case file_kind::ply:
             return open_ply_points(in, first, use, known);
@@ -41,7 +41,7 @@ namespace {
 }  // namespace
 
 point_blocks::point_blocks(const std::filesystem::path& path, std::string_view format,
-                           std::uint64_t first, row_use use, const text_index* known,
+                           std::uint64_t first, row_use use, const record_index* known,
                            const byte_getter* unpacked)
     : in_(source::open(path, scratch_place::file)),
       rows_(open_rows(in_, path, format, first, use, known, unpacked)) {
@@ -60,8 +60,8 @@ bool point_blocks::read(point_block& block, std::size_t most) {
     return block.properties.rows > 0;
 }
 
-std::optional<text_index> scan_points(const std::filesystem::path& path, std::string_view format,
-                                      const file_part& part, std::size_t most, bool even) {
+std::optional<record_index> scan_points(const std::filesystem::path& path, std::string_view format,
+                                        const file_part& part, std::size_t most, bool even) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // it is read once
     try {

@@ -184,7 +184,12 @@ bool point_writer::has_shared_values() const {
 
 void point_writer::share_values(const shared_values& place) {
     state& s = *state_;
+    if (!has_shared_values() || s.written > 0)
+        throw std::logic_error(s.file->name() + ": its values are not put in a shared place");
     s.rows.share_values(place);
+    s.rows.finish = [name = s.file->name()] {
+        throw std::logic_error(name + ": is finished by commit_part");
+    };
     s.head_size = s.out->size();
 }
 

@@ -34,8 +34,8 @@ void look_behind(bool more, warnings& said) {
 }
 
 /// A row a line.
-[[nodiscard]] auto text_runs(const source& in, const pcd_header& header, const text_index::mark& at,
-                             const text_index* known) {
+[[nodiscard]] auto text_runs(const source& in, const pcd_header& header,
+                             const record_index::mark& at, const record_index* known) {
     if (!text_values::can_hold(bytes_of_body(in, header), header.vertices.rows, header.vertices))
         fail_short(in, header);
     const std::uint64_t byte = std::min<std::uint64_t>(at.byte, in.size());
@@ -97,10 +97,11 @@ void look_behind(bool more, warnings& said) {
 [[nodiscard]] auto block_runs(const source& in, const pcd_header& header, scratch_place place,
                               std::uint64_t first, const byte_getter* unpacked) {
     const packed_pcd packed = find_packed_pcd(in, header);
-    return [&in, packed, place, get = unpacked == nullptr ? byte_getter() : *unpacked,
+    std::size_t read_size = 0;  // of a row, without padding
+    for (const pcd_place& p : header.places) read_size += p.in_field == 0 ? p.field_size : 0;
+    return [&in, packed, place, read_size, get = unpacked == nullptr ? byte_getter() : *unpacked,
             bytes = std::shared_ptr<scratch>(), held = std::vector<std::byte>(),
             count = std::size_t{header.vertices.rows}, offsets = header.places,
-            row_size = header.row_size,
             first = static_cast<std::size_t>(first)](std::vector<point3>& points, element& vertices,
                                                      std::size_t most, warnings& said) mutable {
         if (!get && !bytes) bytes = unpack(in, packed, place);
@@ -109,17 +110,20 @@ void look_behind(bool more, warnings& said) {
             look_behind(packed.has_bytes_behind, said);
             return rows;
         }
-        if (get) held.resize(rows * row_size);
+        if (get) held.resize(rows * read_size);
+        std::size_t begin = 0;  // of the field, among those that are read
+        std::size_t end = 0;
         std::vector<value_place> places;
         places.reserve(offsets.size());
         for (const pcd_place& p : offsets) {
             const std::size_t at = p.fields_ahead * count + first * p.field_size;
-            const std::span<std::byte> field =
-                get ? std::span(held).subspan(p.fields_ahead * rows, rows * p.field_size)
-                    : std::as_writable_bytes(std::span(bytes->data() + at, rows * p.field_size));
-            if (get && p.in_field == 0) get(at, field);
-            places.push_back(
-                {reinterpret_cast<const char*>(field.data()) + p.in_field, p.field_size});
+            if (get && p.in_field == 0) {
+                begin = std::exchange(end, end + rows * p.field_size);
+                get(at, std::span(held).subspan(begin, rows * p.field_size));
+            }
+            const char* const field =
+                get ? reinterpret_cast<const char*>(held.data() + begin) : bytes->data() + at;
+            places.push_back({field + p.in_field, p.field_size});
         }
         append_fixed_rows(vertices, points, rows, places, std::endian::little);
         if (bytes) bytes->give_back();
@@ -129,14 +133,14 @@ void look_behind(bool more, warnings& said) {
 }
 
 [[nodiscard]] point_rows open(const source& in, scratch_place place, std::uint64_t first = 0,
-                              const text_index* known = nullptr,
+                              const record_index* known = nullptr,
                               const byte_getter* unpacked = nullptr) {
     pcd_header header = read_pcd_header(in);
     point_rows rows;
     rows.count = header.vertices.rows;
     switch (header.encoding) {
         case pcd_encoding::ascii: {
-            const auto at = known == nullptr ? text_index::mark{} : known->before(first);
+            const auto at = known == nullptr ? record_index::mark{} : known->before(first);
             rows.append = text_runs(in, header, at, known);
             rows.left_out = at.record;
             break;
@@ -177,12 +181,12 @@ mesh_file read_pcd(const source& in) {
     return file;
 }
 
-point_rows open_pcd_points(const source& in, std::uint64_t first, const text_index* known,
+point_rows open_pcd_points(const source& in, std::uint64_t first, const record_index* known,
                            const byte_getter* unpacked) {
     return open(in, scratch_place::file, first, known, unpacked);
 }
 
-std::optional<text_index> scan_pcd(const source& in, const file_part& part, std::size_t most) {
+std::optional<record_index> scan_pcd(const source& in, const file_part& part, std::size_t most) {
     const pcd_header header = read_pcd_header(in);
     if (header.encoding != pcd_encoding::ascii) return std::nullopt;
     return scan_rows(in, header.body, part, most);

@@ -1,8 +1,8 @@
 #include <libmesh/io/heading.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
+#include <libmesh/io/record_index.hpp>
 #include <libmesh/io/text.hpp>
-#include <libmesh/io/text_index.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class xyz_reader {
     [[nodiscard]] bool even() const { return keep_more_; }
 
     /// Goes through the lines that begin in a part.
-    [[nodiscard]] text_index scan(const file_part& part, std::size_t most_marks, bool even) {
+    [[nodiscard]] record_index scan(const file_part& part, std::size_t most_marks, bool even) {
         keep_more_ = keep_more_ && even;
         text_scan lines(text_, part, most_marks);
         for (point3 p; !done() && lines.is_in_part();) {
@@ -53,14 +53,14 @@ class xyz_reader {
             more_.clear();
             text_.file.release_before(text_.at);
         }
-        text_index found = std::move(lines).found();
+        record_index found = std::move(lines).found();
         found.even = keep_more_;
         found.hexadecimal = text_.hexadecimal;
         return found;
     }
 
     /// What was found in all lines. The next one is that of the mark.
-    void start(const text_index& all, const text_index::mark& at) {
+    void start(const record_index& all, const record_index::mark& at) {
         text_.at = text_.end;
         check_count(all.records);
         text_.hexadecimal = all.hexadecimal;
@@ -299,18 +299,19 @@ mesh_file read_xyz(const source& in, std::string_view format) {
     return file;
 }
 
-text_index scan_xyz(const source& in, std::string_view format, const file_part& part,
-                    std::size_t most, bool even) {
+record_index scan_xyz(const source& in, std::string_view format, const file_part& part,
+                      std::size_t most, bool even) {
     return xyz_reader(in, format).scan(part, most, even);
 }
 
 point_rows open_xyz_points(const source& in, std::string_view format, std::uint64_t first,
-                           const text_index* known) {
+                           const record_index* known) {
     auto reader = std::make_shared<xyz_reader>(in, format);
-    const text_index found = known == nullptr ? reader->scan({}, most_marks, true) : text_index();
-    const text_index& all = known == nullptr ? found : *known;
+    const record_index found =
+        known == nullptr ? reader->scan({}, most_marks, true) : record_index();
+    const record_index& all = known == nullptr ? found : *known;
     point_rows rows;
-    const text_index::mark at = all.before(first);
+    const record_index::mark at = all.before(first);
     reader->start(all, at);
     rows.count = all.records;
     rows.left_out = at.record;

@@ -5,8 +5,8 @@
 
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/is_value_of.hpp>
+#include <libmesh/io/record_index.hpp>
 #include <libmesh/io/text.hpp>
-#include <libmesh/io/text_index.hpp>
 #include <treeform/mesh/attributes.hpp>
 
 #include <cmath>
@@ -37,7 +37,7 @@ class text_values {
     }
 
     /// What is known of all of the text: of rows that others read, it counts as read here.
-    void expect(const text_index& all) { text_.hexadecimal = all.hexadecimal; }
+    void expect(const record_index& all) { text_.hexadecimal = all.hexadecimal; }
     /// Goes on from a row that begins there.
     void go_to(const char* row) { text_.at = row; }
     /// Passes over a row without a look at its values.
@@ -134,7 +134,7 @@ class byte_values {
         return row == 0 || rows <= bytes / row;
     }
 
-    void expect(const text_index&) {}
+    void expect(const record_index&) {}
     void begin_row() {}
     [[nodiscard]] const char* at() const { return at_; }
     void go_to(const char* at) { at_ = at; }

@@ -1,11 +1,13 @@
 #include <libmesh/io/pcd_header.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/stream/joined_points.hpp>
-#include <libmesh/stream/shared_text.hpp>
+#include <libmesh/stream/record_file.hpp>
+#include <libmesh/stream/shared_records.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -45,7 +47,7 @@ void clear_rows(mesh_file& file) {
 }  // namespace
 
 joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team& all)
-    : inputs_(inputs), as_las_(as_las), texts_(look_at_texts(inputs.paths, inputs.format, all)) {
+    : inputs_(inputs), as_las_(as_las), known_(look_at_records(inputs.paths, inputs.format, all)) {
     std::vector<mesh_file> firsts;
     for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
         open(i);
@@ -84,10 +86,15 @@ point_block joined_points::read_first(std::uint64_t count) {
 void joined_points::open(std::size_t file, std::uint64_t first) {
     reader_.reset();
     const bool is_alone = inputs_.paths.size() == 1;
-    const bool is_unpacked = !unpacked_.empty() && unpacked_[file];
+    io::byte_getter unpacked;
+    if (!unpacked_.empty() && !unpacked_[file].empty())
+        unpacked = [from = std::make_shared<open_file>(unpacked_[file])](std::uint64_t at,
+                                                                         auto some) {
+            if (from->read(at, some) != some.size()) fail_damaged(from->path());
+        };
     reader_.emplace(inputs_.paths[file], inputs_.format, first,
-                    is_alone ? io::row_use::copied : io::row_use::none, text(file),
-                    is_unpacked ? &unpacked_[file] : nullptr);
+                    is_alone ? io::row_use::copied : io::row_use::none, known(file),
+                    unpacked ? &unpacked : nullptr);
     file_ = file;
     if (inputs_.paths.size() > 1) fits_ = same_columns(head_, reader_->header());
 }

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,7 +21,7 @@ namespace treeform::detail::stream {
 class joined_points {
   public:
     /// Reads what precedes the points of each file, and text once, of which each of `all` reads its
-    /// share of the bytes; all come here. With `as_las`, coordinates become those that a LAS file with
+    /// share of the bytes; of several also points with lists. All come here. With `as_las`, coordinates become those that a LAS file with
     /// the first one's scale and offset holds, or with those that are set.
     ///
     /// \throws io_error, std::invalid_argument as `join`
@@ -48,11 +49,11 @@ class joined_points {
 
     [[nodiscard]] std::size_t files() const { return formats_.size(); }
     [[nodiscard]] const std::string& format(std::size_t file) const { return formats_[file]; }
-    /// Points of compressed files are from now on read by these; others have none.
-    void read_unpacked(std::vector<io::byte_getter> files) { unpacked_ = std::move(files); }
-    /// What is known of it where it is text, or null.
-    [[nodiscard]] const io::text_index* text(std::size_t file) const {
-        return texts_[file] ? &*texts_[file] : nullptr;
+    /// Points of compressed files are from now on read from these; of others they are empty.
+    void read_unpacked(std::vector<std::filesystem::path> files) { unpacked_ = std::move(files); }
+    /// What is known of its records where these have been looked at, or null.
+    [[nodiscard]] const io::record_index* known(std::size_t file) const {
+        return known_[file] ? &*known_[file] : nullptr;
     }
 
     /// Of files that were read to their ends.
@@ -74,9 +75,9 @@ class joined_points {
     std::optional<std::uint64_t> count_{0};
     std::vector<std::string> formats_{};
     std::vector<std::uint64_t> counts_{};  ///< of files, where they are known
-    std::vector<std::optional<io::text_index>>
-        texts_{};  ///< of files that are text, if it is known
-    std::vector<io::byte_getter> unpacked_{};
+    std::vector<std::optional<io::record_index>>
+        known_{};  ///< of files whose records were looked at
+    std::vector<std::filesystem::path> unpacked_{};
     std::vector<io_warning> of_join_{};
     std::vector<io_warning> warnings_{};
     std::optional<io::point_blocks> reader_{};

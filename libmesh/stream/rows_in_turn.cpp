@@ -24,12 +24,11 @@ class turns {
         const std::function<void(const row_block&)>& take_block,
         const std::function<void(const io::point_blocks&)>& done) {
         row_range last;
-        while (places_.size() < all_.size()) {
-            state_writer mine;
-            if (places_.size() == all_.rank()) tell(mine, last.last, take_block, done);
-            last = hear(all_.exchange(mine)[places_.size()]);
-            places_.push_back(last.first);
-        }
+        all_.take_turns([&](state_writer& mine) { tell(mine, last.last, take_block, done); },
+                        [&](state_reader told) {
+                            last = hear(told);
+                            places_.push_back(last.first);
+                        });
         places_.push_back(last.last);
         return std::move(places_);
     }
@@ -52,7 +51,7 @@ class turns {
         }
     }
 
-    [[nodiscard]] static row_range hear(state_reader one) {
+    [[nodiscard]] static row_range hear(state_reader& one) {
         if (const std::string failure = one.text(); !failure.empty()) throw io_error(failure);
         row_range told;
         for (io::row_place* place : {&told.first, &told.last}) {
@@ -83,10 +82,10 @@ class turns {
     [[nodiscard]] std::uint64_t end_of_share(std::uint64_t first) const {
         std::error_code unknown;
         const std::uint64_t bytes = std::filesystem::file_size(of_.path, unknown);
-        if (unknown || places_.size() + 1 == all_.size())
-            return std::numeric_limits<std::uint64_t>::max();
+        if (unknown) return std::numeric_limits<std::uint64_t>::max();
         const std::uint64_t begin = places_.empty() ? first : places_.front().byte;
-        return begin + all_.share_of(bytes - begin, places_.size()).last;
+        const std::uint64_t end = all_.end_of_turn(bytes - begin);
+        return end == std::numeric_limits<std::uint64_t>::max() ? end : begin + end;
     }
 
     /// Few enough that shares are alike.

@@ -17,7 +17,7 @@ struct file_of_rows {
     const std::filesystem::path& path;
     std::string_view format{};
     io::row_use use = io::row_use::copied;
-    const io::text_index* known = nullptr;
+    const io::record_index* known = nullptr;
 };
 
 /// Each of a team in turn reads on where the one before has ended, up to the end of its share of the

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::stream {
@@ -57,6 +58,22 @@ class team {
         else
             for (std::string& bytes : all_.exchange(mine.bytes())) told.emplace_back(bytes);
         return told;
+    }
+    /// Each in turn tells something, `tell(mine)`, which all hear before the next one does,
+    /// `hear(told)`. All come here, and none goes on alone.
+    template <class Tell, class Hear>
+    void take_turns(const Tell& tell, const Hear& hear) const {
+        for (std::size_t turn = 0; turn < size(); ++turn) {
+            state_writer mine;
+            if (turn == rank()) tell(mine);
+            hear(std::move(exchange(mine)[turn]));
+        }
+    }
+    /// Where this one stops in its turn, of so many bytes: at the end of its share; the last one goes to
+    /// the end, wherever that is.
+    [[nodiscard]] std::uint64_t end_of_turn(std::uint64_t bytes) const {
+        return rank() + 1 == size() ? std::numeric_limits<std::uint64_t>::max()
+                                    : share_of(bytes, rank()).last;
     }
     /// Goes on when all are here.
     void meet() const { static_cast<void>(exchange({})); }

@@ -34,7 +34,7 @@ bool has_rows_behind(const mesh_file& header) {
 file_of_rows tile_faces::file() const {
     const cloud_inputs& inputs = task_.inputs;
     return {
-        .path = inputs.paths.front(), .format = inputs.format, .known = steps_.source().text(0)};
+        .path = inputs.paths.front(), .format = inputs.format, .known = steps_.source().known(0)};
 }
 
 io::point_blocks tile_faces::open() const {

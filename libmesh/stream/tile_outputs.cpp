@@ -7,7 +7,6 @@
 #include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>
-#include <span>
 #include <stdexcept>
 #include <system_error>
 #include <utility>

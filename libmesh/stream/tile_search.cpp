@@ -3,7 +3,7 @@
 #include <libmesh/io/extension.hpp>
 #include <libmesh/stream/point_places.hpp>
 #include <libmesh/stream/rows_in_turn.hpp>
-#include <libmesh/stream/shared_text.hpp>
+#include <libmesh/stream/shared_records.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -28,7 +28,7 @@ constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 io::face_rows open_faces(
     const io::source& in, const std::filesystem::path& path, const std::string& format,
     const std::function<std::unique_ptr<io::point_store>(std::size_t)>& make_store,
-    const io::file_part& part, const io::text_index* known) {
+    const io::file_part& part, const io::record_index* known) {
     const auto found = io::detect(in, io::plain_extension(format), io::extension_of(path));
     if (found.kind == io::file_kind::stl_binary) return io::open_stl_faces(in, part);
     if (found.kind == io::file_kind::ply) return io::open_ply_faces(in, make_store, part, known);
@@ -193,9 +193,9 @@ bool tile_search::give_tiles(bool in_turn) {
         if (all_.is_alone()) return place_for(points, in, folder_, memory_ / 4);
         return std::make_unique<shared_points>(folder_, all_, points, memory_ / 4);
     };
-    std::optional<io::text_index> text;
-    if (!all_.is_alone()) text = look_at_texts({input_}, options_.format, all_).front();
-    const io::text_index* const known = text ? &*text : nullptr;
+    std::optional<io::record_index> text;
+    if (!all_.is_alone()) text = look_at_records({input_}, options_.format, all_).front();
+    const io::record_index* const known = text ? &*text : nullptr;
     io::face_rows rows =
         open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size()}, known);
     share_head(rows);
@@ -234,7 +234,7 @@ bool tile_search::give_tiles(bool in_turn) {
 /// like the others, any error from then on may come from one that is not. Returns whether all have been
 /// read in turn, so that none can come.
 bool tile_search::share_rows(const io::face_rows& rows, bool in_turn,
-                             const io::text_index* known) const {
+                             const io::record_index* known) const {
     if (all_.is_alone() || !rows.go_to) return true;
     std::vector<io::row_place> parts;
     try {

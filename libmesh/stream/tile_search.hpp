@@ -93,7 +93,7 @@ class tile_search {
     /// throw then.
     [[nodiscard]] bool give_tiles(bool in_turn);
     [[nodiscard]] bool share_rows(const io::face_rows& rows, bool in_turn,
-                                  const io::text_index* known) const;
+                                  const io::record_index* known) const;
     template <class Real>
     void give_all(io::face_rows& rows);
     void share_head(io::face_rows& rows) const;

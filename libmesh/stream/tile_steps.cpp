@@ -154,9 +154,11 @@ void tile_steps::say_plan() {
     // Tiles' points are removed as their drops are written, which take half as much at most.
     // Members, few mostly, are not counted.
     cloud.disk_bytes = cloud.points * (8 * point_width() + 2 + (has_order() ? 48 : 0));
+    const std::uint64_t there = unpacked_ ? unpacked_->bytes() : 0;
+    cloud.disk_bytes += there;
     std::error_code unknown;
     const auto space = std::filesystem::space(folder_.path(), unknown);
-    if (!unknown) cloud.disk_bytes_free = space.available;
+    if (!unknown) cloud.disk_bytes_free = space.available + there;
 }
 
 void tile_steps::scatter() {

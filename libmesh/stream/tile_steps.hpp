@@ -73,7 +73,7 @@ class tile_steps {
     /// Reads the cloud once; or knows it from an earlier run, whose work will then be continued.
     /// Then says where it will be cut.
     void look();
-    /// Unpacks the inputs that are read so, unless they are. All of a team come here.
+    /// Unpacks compressed PCD inputs, once. All of a team come here.
     void unpack();
     [[nodiscard]] const cloud_survey& survey() const { return survey_.cloud; }
     /// For what is known of other things than points.

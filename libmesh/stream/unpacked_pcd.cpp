@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,7 +26,8 @@ void tell(const io::lzf_place& at, bool good, state_writer& to) {
 
 }  // namespace
 
-void unpack_in_turn(const fs::path& pcd, const fs::path& to, const team& all, pacer& pace) {
+std::uint64_t unpack_in_turn(const fs::path& pcd, const fs::path& to, const team& all,
+                             pacer& pace) {
     const io::source in = io::source::open(pcd, io::scratch_place::file);
     const io::packed_pcd packed = io::find_packed_pcd(in, io::read_pcd_header(in));
     io::lzf_place at;
@@ -36,36 +36,33 @@ void unpack_in_turn(const fs::path& pcd, const fs::path& to, const team& all, pa
         in.release_before(packed.bytes.data() + at.packed);
         pace.check();
     };
-    for (std::size_t turn = 0; turn < all.size(); ++turn) {
-        state_writer mine;
-        if (turn == all.rank()) {
-            // What is read and written: where little is packed, much is made.
-            const std::uint64_t end = all.share_of(packed.bytes.size() + packed.size, turn).last;
+    all.take_turns(
+        [&](state_writer& mine) {
+            // What is read and made: where little is packed, much is made.
+            const std::uint64_t end = all.end_of_turn(packed.bytes.size() + packed.size);
             const bool good = io::lzf_unpack_on(packed.bytes, at, static_cast<std::size_t>(end),
                                                 packed.size, put);
             tell(at, good, mine);
-        }
-        state_reader told = std::move(all.exchange(mine)[turn]);
-        if (told.number() == 0) packed.fail_damaged(in);
-        at.packed = static_cast<std::size_t>(told.number());
-        at.unpacked = static_cast<std::size_t>(told.number());
-        at.last = told.text();
-    }
+        },
+        [&](state_reader told) {
+            if (told.number() == 0) packed.fail_damaged(in);
+            at.packed = static_cast<std::size_t>(told.number());
+            at.unpacked = static_cast<std::size_t>(told.number());
+            at.last = told.text();
+        });
     if (at.packed != packed.bytes.size() || at.unpacked != packed.size) packed.fail_damaged(in);
+    return packed.size;
 }
 
 unpacked_inputs::unpacked_inputs(const work_folder& folder, const team& all,
                                  const cloud_inputs& inputs, joined_points& source, pacer& pace)
     : files_(all) {
-    std::vector<io::byte_getter> unpacked(inputs.paths.size());
+    std::vector<fs::path> unpacked(inputs.paths.size());
     for (std::size_t i = 0; i < unpacked.size(); ++i) {
         if (source.format(i) != io::name_of(io::pcd_encoding::compressed)) continue;
-        const fs::path to = folder.file("unpacked." + std::to_string(i));
-        files_.add(to);
-        unpack_in_turn(inputs.paths[i], to, all, pace);
-        unpacked[i] = [file = std::make_shared<open_file>(to)](std::uint64_t at, auto bytes) {
-            if (file->read(at, bytes) != bytes.size()) fail_damaged(file->path());
-        };
+        unpacked[i] = folder.file("unpacked." + std::to_string(i));
+        files_.add(unpacked[i]);
+        bytes_ += unpack_in_turn(inputs.paths[i], unpacked[i], all, pace);
     }
     source.read_unpacked(std::move(unpacked));
 }

@@ -9,17 +9,18 @@
 #include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
+#include <cstdint>
 #include <filesystem>
 
 namespace treeform::detail::stream {
 
 /// Unpacks what is packed in `pcd` to an empty file that the first of the team has made. What a byte
 /// stands for is known when those ahead are, so each in turn unpacks its share, counted in bytes read and
-/// made, and tells the next one where it has come to. All come here.
+/// made, and tells the next one where it has come to. All come here. Returns how many bytes it became.
 ///
 /// \throws io_error, all of them the same where the packed bytes are damaged; stream_error, cancelled
-void unpack_in_turn(const std::filesystem::path& pcd, const std::filesystem::path& to,
-                    const team& all, pacer& pace);
+std::uint64_t unpack_in_turn(const std::filesystem::path& pcd, const std::filesystem::path& to,
+                             const team& all, pacer& pace);
 
 /// The unpacked inputs in a folder, from where they are read until the end.
 class unpacked_inputs {
@@ -28,8 +29,12 @@ class unpacked_inputs {
     unpacked_inputs(const work_folder& folder, const team& all, const cloud_inputs& inputs,
                     joined_points& source, pacer& pace);
 
+    /// That they take in the folder.
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
   private:
     passing_files files_;
+    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace treeform::detail::stream

@@ -351,6 +351,7 @@ class Tiles(ToolTest):
                                 (["in.fifo"], "a pipe")):
             run = self.run_tool(*arguments, "--tile-faces", 10, status=2)
             self.assertIn(word + " needs the whole mesh in memory", run.err)
+            self.assertEqual(word in ("standard input", "a pipe"), "MB" not in run.err, run.err)
         self.put("foreign/file.txt", "mine")
         run = self.run_tool("in.stl", "--tile-faces", 10, "--work", "foreign", status=4)
         self.assertIn("holds files that this tool has not put there", run.err)

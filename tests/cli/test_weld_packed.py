@@ -4,6 +4,7 @@ from weld_support import *
 
 import hashlib
 import random
+import resource
 import signal
 
 FIELDS = "x y z t"  # doubles, and a float
@@ -121,6 +122,34 @@ class Packed(WeldTest):
             self.assertGreater(len(gone), 1000)
             self.assertEqual(sorted(kept + gone), sorted(points))
             self.assertEqual(self.listing(), ["in.pcd"])
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_padding_is_not_held(self):
+        count, width = 9000, 20000
+        zeros = count * width
+        axes = struct.pack(f"<{3 * count}f", *(self.rng.random() for _ in range(3 * count)))
+        packed = (lzf_packed(axes) + b"\0\0" + b"\xe0\xff\0" * (zeros // 264 - 1) +
+                  b"\0\0" * (zeros % 264 + 263))
+        self.write("in.pcd", (
+            f"# .PCD v0.7\nVERSION 0.7\nFIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\n"
+            f"COUNT 1 1 1 {width}\nWIDTH {count}\nHEIGHT 1\nPOINTS {count}\nDATA binary_compressed\n"
+        ).encode() + struct.pack("<II", len(packed), len(axes) + zeros) + packed)
+        run = self.run_tool("in.pcd", "-t", "0.01", "-o", "out.ply", "--tile-points", 2000, "--memory",
+                            "64M", "-f", status=0)
+        self.assertIn(f"{count:,} points", run.text)
+
+    def test_few_of_many_files_are_open(self):
+        names = [f"{i}.pcd" for i in range(60)]
+        for name in names:
+            self.write(name, pcd(self.points(5)))
+        given = [WELD, *names, "--join", "-t", "0.01", "-o", "out.pcd", "-f"]
+        found = []
+        for more in ([], ["--tile-points", "50"]):
+            run = subprocess.run([*given, *more], cwd=self.folder, capture_output=True, preexec_fn=lambda:
+                                 resource.setrlimit(resource.RLIMIT_NOFILE, (40, 40)))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            found.append(self.read_bytes("out.pcd"))
+        self.assertEqual(found[0], found[1])
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_ranks_of_mpi_give_what_one_gives(self):

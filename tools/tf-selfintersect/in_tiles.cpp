@@ -61,8 +61,8 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
     }
     const std::string why = what_needs_memory(work, settings, changes_mesh);
     if (why.empty()) return true;
-    const std::string text = why + " needs the whole mesh in memory, about " +
-                             grouped(size * bytes_per_byte / 1000000 + 1) + " MB";
+    std::string text = why + " needs the whole mesh in memory";
+    if (!error) text += ", about " + grouped(size * bytes_per_byte / 1000000 + 1) + " MB";
     if (asked) throw failure(bad_usage, "usage", text);
     if (work.options.memory > 0) work.warn("in-memory", text + "; --memory may not be enough");
     return false;

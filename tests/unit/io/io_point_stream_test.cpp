@@ -307,6 +307,25 @@ TEST_CASE("point streams: parts of a compressed PCD share their values, and pack
     }
 }
 
+TEST_CASE("point streams: a shared place is refused where it is of no use, and has its own end") {
+    const scratch here;
+    tf::mesh_file file = cloud(3, false);
+    const tf::point_block all{.points = file.mesh.points,
+                              .properties = file.attributes.elements[0]};
+    tf::point_writer plain(here.folder / "a.pcd", file, 3);
+    CHECK_FALSE(plain.has_shared_values());
+    CHECK_THROWS_AS(plain.share_values({}), std::logic_error);
+    file.format = "pcd-binary-compressed";
+    tf::point_writer late(here.folder / "b.pcd", file, 3);
+    late.write(all);
+    CHECK_THROWS_AS(late.share_values({}), std::logic_error);
+    tf::point_writer part(here.folder / "c.pcd", file, 3);
+    part.share_values({.put = [](std::uint64_t, auto) {}, .get = [](std::uint64_t, auto) {}});
+    part.write(all);
+    CHECK_THROWS_AS(static_cast<void>(part.commit()), std::logic_error);
+    CHECK_FALSE(fs::exists(here.folder / "c.pcd"));
+}
+
 TEST_CASE("point streams: whether points are too many to be compressed, all of them say") {
     const scratch here;
     tf::mesh_file file = cloud(1, false);
@@ -511,6 +530,9 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
         }
         CHECK(heads + points_of[0] + points_of[1] + rows_of[0] + rows_of[1] == whole);
     }
+    const tf::point_writer ply(here.folder / "b.ply", tf::point_reader(text, {}, 0, true).header(),
+                               5, {}, 5);
+    CHECK_FALSE(ply.has_shared_values());
     // A part may begin with rows of a later element.
     tf::point_reader reader(text, {}, 5, true);
     tf::point_writer writer(here.folder / "part.ply", reader.header(), 5, {}, 5);

@@ -48,7 +48,7 @@ class TREEFORM_API point_reader {
     /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
     /// input, a pipe) is copied to an unnamed file in /var/tmp first; the points of a compressed PCD
     /// are unpacked to one before the first of them is read. The `first` points, no more than there
-    /// are, are passed over: unread in binary PLY without lists, PCD but text, LAS, and whole chunks
+    /// are, are passed over: unread in binary PLY without lists, PCD except for text, LAS, and whole chunks
     /// of LAZ.
     ///
     /// With `with_rows`, a PLY may have faces and other elements behind its points, and a binary STL is
@@ -120,8 +120,8 @@ class TREEFORM_API point_writer {
 
     /// Whether others can write the rest of the points.
     [[nodiscard]] bool has_parts() const;
-    /// Where parts put values that do not stand point by point in the file, and get those that they
-    /// pack: bytes that all parts see, as many as the points have.
+    /// A place that all parts see, as large as all values together. Parts put the values of their points
+    /// there, field by field, and later get the bytes that they pack.
     struct shared_values {
         std::uint64_t first_point = 0;  ///< of the part, by number in the whole
         std::size_t part = 0;
@@ -133,6 +133,7 @@ class TREEFORM_API point_writer {
     [[nodiscard]] bool has_shared_values() const;
     /// Names it, before the first point. When all parts have their points, and not before,
     /// `commit_part` gets a share of the bytes of all and packs them.
+    /// \throws std::logic_error where there is no such place, or points were written
     void share_values(const shared_values& place);
     /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else 1.
     [[nodiscard]] std::uint64_t points_together() const;

@@ -2,7 +2,7 @@
 /// Texts that a team looks at: all know of them what one knows who reads them alone.
 
 #include <libmesh/io/point_blocks.hpp>
-#include <libmesh/stream/shared_text.hpp>
+#include <libmesh/stream/shared_records.hpp>
 
 #include <doctest/doctest.h>
 #include <support/own_folder.hpp>
@@ -36,14 +36,14 @@ std::string odd_lines(std::size_t count, test::random& random) {
     return text;
 }
 
-std::vector<std::optional<io::text_index>> look(const std::vector<fs::path>& paths,
-                                                const tf::process_team& team) {
+std::vector<std::optional<io::record_index>> look(const std::vector<fs::path>& paths,
+                                                  const tf::process_team& team) {
     const stream::team all(team);
-    return stream::look_at_texts(paths, {}, all);
+    return stream::look_at_records(paths, {}, all);
 }
 
 /// All that a reader gives from a point on.
-std::string read_from(const fs::path& path, std::uint64_t first, const io::text_index* known) {
+std::string read_from(const fs::path& path, std::uint64_t first, const io::record_index* known) {
     io::point_blocks reader(path, {}, first, io::row_use::none, known);
     std::string all = std::to_string(reader.count().value_or(0));
     tf::point_block block;
@@ -60,8 +60,8 @@ std::string read_from(const fs::path& path, std::uint64_t first, const io::text_
 
 }  // namespace
 
-TEST_CASE("shared text: many know of lines what one knows") {
-    const test::own_folder own{"io_shared_text"};
+TEST_CASE("shared records: many know of lines what one knows") {
+    const test::own_folder own{"io_shared_records"};
     test::random random(3);
     std::size_t uneven = 0;
     std::size_t hexadecimal = 0;
@@ -99,8 +99,9 @@ TEST_CASE("shared text: many know of lines what one knows") {
     CHECK(plain > 5);
 }
 
-TEST_CASE("shared text: behind an uneven line, what is no number is a fault of a coordinate only") {
-    const test::own_folder own{"io_shared_text"};
+TEST_CASE(
+    "shared records: behind an uneven line, what is no number is a fault of a coordinate only") {
+    const test::own_folder own{"io_shared_records"};
     const fs::path path = own.path / "a.xyz";
     const auto write = [&](const std::string& last) {
         std::string text = "1 2 3 4\n1 2 3\n";
@@ -119,8 +120,8 @@ TEST_CASE("shared text: behind an uneven line, what is no number is a fault of a
         }));
 }
 
-TEST_CASE("shared text: points with lists are found by many, each at its share") {
-    const test::own_folder own{"io_shared_text"};
+TEST_CASE("shared records: points with lists are found by many, each at its share") {
+    const test::own_folder own{"io_shared_records"};
     test::random random(8);
     for (const std::size_t count : {0U, 1U, 700U, 9000U}) {
         std::string bytes =
@@ -152,7 +153,7 @@ TEST_CASE("shared text: points with lists are found by many, each at its share")
                 CHECK(known->marks.back().byte == points_end);
                 const std::uint64_t first = count * team.rank / size;
                 CHECK(first - known->before(first).record < 20);
-                const auto from = [&](const io::text_index* index) {
+                const auto from = [&](const io::record_index* index) {
                     io::point_blocks reader(path, {}, first, io::row_use::copied, index);
                     std::string all;
                     tf::point_block block;

@@ -1,10 +1,11 @@
-#include <libmesh/io/text_index.hpp>
+#include <libmesh/io/record_index.hpp>
 
 #include <utility>
 
 namespace treeform::detail::io {
 
-text_index scan_rows(const source& in, const char* body, const file_part& part, std::size_t most) {
+record_index scan_rows(const source& in, const char* body, const file_part& part,
+                       std::size_t most) {
     text rows(in);
     rows.at = body;
     text_scan scan(rows, part, most);
@@ -15,7 +16,7 @@ text_index scan_rows(const source& in, const char* body, const file_part& part, 
             hexadecimal = hexadecimal || to_lower(*rows.at) == 'x';  // as 0x1.8p1
         in.release_before(rows.at);
     }
-    text_index found = std::move(scan).found();
+    record_index found = std::move(scan).found();
     found.hexadecimal = hexadecimal;
     return found;
 }

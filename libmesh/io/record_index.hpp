@@ -18,7 +18,7 @@ inline constexpr std::size_t most_marks = 1024;
 
 /// A record is a line with the values of a point, or in a PLY of a row; in binary a point with lists,
 /// where the last mark is the end of all points.
-struct text_index {
+struct record_index {
     struct mark {
         std::uint64_t record = 0;
         std::uint64_t byte = 0;  ///< of the file, where it begins
@@ -34,7 +34,7 @@ struct text_index {
         return behind == marks.begin() ? mark{} : behind[-1];
     }
     /// Adds what was found in the next part.
-    void add(const text_index& next) {
+    void add(const record_index& next) {
         for (const mark& m : next.marks) marks.push_back({records + m.record, m.byte});
         records += next.records;
         even = even && next.even;
@@ -51,10 +51,10 @@ class spread_marks {
     /// Of each record, or each some-th one. \pre it is behind those before
     void add(std::uint64_t record, std::uint64_t byte) {
         if (record % spacing_ != 0) return;
-        if (marks_.size() == most_) thin_out();
+        while (record % spacing_ == 0 && marks_.size() == most_) thin_out();
         if (record % spacing_ == 0) marks_.push_back({record, byte});
     }
-    [[nodiscard]] std::vector<text_index::mark> all() && { return std::move(marks_); }
+    [[nodiscard]] std::vector<record_index::mark> all() && { return std::move(marks_); }
 
   private:
     /// Leaves every other one.
@@ -65,7 +65,7 @@ class spread_marks {
 
     std::size_t most_;
     std::uint64_t spacing_ = 1;
-    std::vector<text_index::mark> marks_{};
+    std::vector<record_index::mark> marks_{};
 };
 
 /// Counts the records whose lines begin in one part of a text, and marks some, evenly spread.
@@ -91,7 +91,7 @@ class text_scan {
         marks_.add(found_.records, static_cast<std::uint64_t>(text_.at - text_.file.begin()));
         ++found_.records;
     }
-    [[nodiscard]] text_index found() && {
+    [[nodiscard]] record_index found() && {
         found_.marks = std::move(marks_).all();
         return std::move(found_);
     }
@@ -101,11 +101,11 @@ class text_scan {
     const char* body_;
     const char* last_;
     spread_marks marks_;
-    text_index found_{};
+    record_index found_{};
 };
 
 /// Of rows that are lines which are not blank, from `body` on.
-[[nodiscard]] text_index scan_rows(const source& in, const char* body, const file_part& part,
-                                   std::size_t most);
+[[nodiscard]] record_index scan_rows(const source& in, const char* body, const file_part& part,
+                                     std::size_t most);
 
 }  // namespace treeform::detail::io

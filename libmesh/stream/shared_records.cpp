@@ -1,31 +1,30 @@
 #include <libmesh/io/point_blocks.hpp>
-#include <libmesh/stream/shared_text.hpp>
+#include <libmesh/stream/shared_records.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 namespace treeform::detail::stream {
 namespace {
 
-void store_text(const std::optional<io::text_index>& text, state_writer& state) {
+void store_text(const std::optional<io::record_index>& text, state_writer& state) {
     state.number(text ? 1 : 0);
     if (!text) return;
     for (const std::uint64_t n :
          {text->records, std::uint64_t{text->even}, std::uint64_t{text->hexadecimal}})
         state.number(n);
     state.number(text->marks.size());
-    for (const io::text_index::mark& m : text->marks) {
+    for (const io::record_index::mark& m : text->marks) {
         state.number(m.record);
         state.number(m.byte);
     }
 }
 
-std::optional<io::text_index> load_text(state_reader& state) {
+std::optional<io::record_index> load_text(state_reader& state) {
     if (state.number() == 0) return std::nullopt;
-    io::text_index text{.records = state.number()};
+    io::record_index text{.records = state.number()};
     text.even = state.number() != 0;
     text.hexadecimal = state.number() != 0;
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
@@ -35,26 +34,26 @@ std::optional<io::text_index> load_text(state_reader& state) {
     return text;
 }
 
-using parts_of_text = std::vector<std::optional<io::text_index>>;
+using parts_of_file = std::vector<std::optional<io::record_index>>;
 
 /// How many parts from the first one on are as one that knows what is ahead has seen them: those up to
 /// the first line that is uneven. Behind it less of a line is looked at.
-std::size_t seen_as_one(const parts_of_text& parts) {
+std::size_t seen_as_one(const parts_of_file& parts) {
     const auto uneven =
         std::ranges::find_if(parts, [](const auto& part) { return !part || !part->even; });
     return std::min(parts.size(), static_cast<std::size_t>(uneven - parts.begin()) + 1);
 }
 
 /// Whether parts behind an uneven line may have been taken for what they are not.
-bool is_misread(const parts_of_text& parts) {
+bool is_misread(const parts_of_file& parts) {
     const std::size_t seen = seen_as_one(parts);
     return parts[seen - 1] &&
            std::any_of(parts.begin() + static_cast<std::ptrdiff_t>(seen), parts.end(),
                        [](const auto& part) { return !part || part->hexadecimal; });
 }
 
-std::optional<io::text_index> joined_text(const parts_of_text& parts) {
-    io::text_index all;
+std::optional<io::record_index> joined_text(const parts_of_file& parts) {
+    io::record_index all;
     for (const auto& part : parts) {
         if (!part) return std::nullopt;
         all.add(*part);
@@ -63,50 +62,47 @@ std::optional<io::text_index> joined_text(const parts_of_text& parts) {
 }
 
 /// Points with lists: each of a team in turn reads on where the one before has ended.
-std::optional<io::text_index> look_in_turn(const std::filesystem::path& path, const team& all,
-                                           std::size_t marks) {
-    parts_of_text parts;
+std::optional<io::record_index> look_in_turn(const std::filesystem::path& path, const team& all,
+                                             std::size_t marks) {
+    parts_of_file parts;
     io::row_place next;
-    for (std::size_t turn = 0; turn < all.size(); ++turn) {
-        state_writer mine;
-        if (turn == all.rank()) {
+    bool good = true;
+    all.take_turns(
+        [&](state_writer& mine) {
             io::listed_points seen;
-            bool good = true;
             try {
                 const io::source in = io::source::open(path);
-                const std::uint64_t end = turn + 1 == all.size()
-                                              ? std::numeric_limits<std::uint64_t>::max()
-                                              : all.share_of(in.size(), turn).last;
-                seen = io::scan_listed_points(in, next, end, marks);
+                if (good)
+                    seen = io::scan_listed_points(in, next, all.end_of_turn(in.size()), marks);
             } catch (const io_error&) {  // it is said where the point is read
                 good = false;
             }
             store_text(good ? std::optional(std::move(seen.found)) : std::nullopt, mine);
             for (const std::uint64_t n : {seen.next.row, seen.next.byte}) mine.number(n);
-        }
-        state_reader told = std::move(all.exchange(mine)[turn]);
-        parts.push_back(load_text(told));
-        next.row = told.number();
-        next.byte = told.number();
-        if (!parts.back()) return std::nullopt;
-    }
+        },
+        [&](state_reader told) {
+            parts.push_back(load_text(told));
+            good = good && parts.back();
+            next.row = told.number();
+            next.byte = told.number();
+        });
     return joined_text(parts);
 }
 
 }  // namespace
 
-std::vector<std::optional<io::text_index>> look_at_texts(
+std::vector<std::optional<io::record_index>> look_at_records(
     const std::vector<std::filesystem::path>& paths, std::string_view format, const team& all) {
     const std::size_t marks =
         std::clamp<std::size_t>(4 * io::most_marks / paths.size(), 2, io::most_marks);
     const io::file_part part{all.rank(), all.size()};
-    std::vector<parts_of_text> texts(paths.size());
+    std::vector<parts_of_file> texts(paths.size());
     const auto share = [&](const auto& scan) {
         state_writer mine;
         for (std::size_t i = 0; i < paths.size(); ++i) store_text(scan(i), mine);
         texts.assign(paths.size(), {});
         for (state_reader& one : all.exchange(mine))
-            for (parts_of_text& parts : texts) parts.push_back(load_text(one));
+            for (parts_of_file& parts : texts) parts.push_back(load_text(one));
     };
     share([&](std::size_t i) { return io::scan_points(paths[i], format, part, marks); });
     if (std::ranges::any_of(texts, is_misread))
@@ -115,7 +111,7 @@ std::vector<std::optional<io::text_index>> look_at_texts(
             return again ? io::scan_points(paths[i], format, part, marks, false)
                          : texts[i][all.rank()];
         });
-    std::vector<std::optional<io::text_index>> joined;
+    std::vector<std::optional<io::record_index>> joined;
     for (std::size_t i = 0; i < paths.size(); ++i)
         joined.push_back(!all.is_alone() && io::has_listed_points_at(paths[i], format)
                              ? look_in_turn(paths[i], all, marks)

@@ -3,8 +3,8 @@
 /// from any point on.
 
 #include <libmesh/io/point_rows.hpp>
+#include <libmesh/io/record_index.hpp>
 #include <libmesh/io/source.hpp>
-#include <libmesh/io/text_index.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/tf.hpp>
 
@@ -31,8 +31,8 @@ io::source source_of(const std::string& text) { return {std::as_bytes(std::span(
 struct kind {
     std::string name;
     std::string head;
-    std::function<io::text_index(const io::source&, const io::file_part&, std::size_t)> scan;
-    std::function<io::point_rows(const io::source&, std::uint64_t, const io::text_index*)> open;
+    std::function<io::record_index(const io::source&, const io::file_part&, std::size_t)> scan;
+    std::function<io::point_rows(const io::source&, std::uint64_t, const io::record_index*)> open;
 };
 
 /// With a head for so many points.
@@ -72,9 +72,9 @@ std::vector<kind> kinds(std::size_t points) {
     return all;
 }
 
-io::text_index scan_in_parts(const kind& k, const io::source& in, std::uint64_t parts,
-                             std::size_t most) {
-    io::text_index all;
+io::record_index scan_in_parts(const kind& k, const io::source& in, std::uint64_t parts,
+                               std::size_t most) {
+    io::record_index all;
     for (std::uint64_t rank = 0; rank < parts; ++rank) all.add(k.scan(in, {rank, parts}, most));
     return all;
 }
@@ -88,7 +88,7 @@ struct values {
 
 /// What is read from a point on, in blocks.
 values read_from(const kind& k, const io::source& in, std::uint64_t first,
-                 const io::text_index* known) {
+                 const io::record_index* known) {
     io::point_rows rows = k.open(in, first, known);
     values all;
     tf::element vertices{.name = "vertex"};
@@ -128,7 +128,7 @@ std::string lines(const std::string& name, std::size_t count, test::random& rand
 
 }  // namespace
 
-TEST_CASE("text index: any number of parts find the records that one finds") {
+TEST_CASE("record index: any number of parts find the records that one finds") {
     test::random random(1);
     for (std::size_t round = 0; round < 60; ++round) {
         const std::size_t points = 1 + random.below(round % 3 == 0 ? 4 : 300);
@@ -137,11 +137,11 @@ TEST_CASE("text index: any number of parts find the records that one finds") {
             CAPTURE(k.name);
             CAPTURE(text);
             const io::source in = source_of(text);
-            const io::text_index one = k.scan(in, {}, 1 << 20);
+            const io::record_index one = k.scan(in, {}, 1 << 20);
             REQUIRE(one.records == points);
             REQUIRE(one.marks.size() == points);
             for (const std::uint64_t parts : {1U, 2U, 3U, 7U, 50U}) {
-                const io::text_index all = scan_in_parts(k, in, parts, 2 + random.below(20));
+                const io::record_index all = scan_in_parts(k, in, parts, 2 + random.below(20));
                 CHECK(all.records == points);
                 CHECK(all.even == one.even);
                 CHECK(all.hexadecimal == one.hexadecimal);
@@ -156,11 +156,11 @@ TEST_CASE("text index: any number of parts find the records that one finds") {
     }
 }
 
-TEST_CASE("text index: marks are spread evenly, however many records there are") {
+TEST_CASE("record index: marks are spread evenly, however many records there are") {
     for (const std::size_t count : {1U, 2U, 15U, 16U, 17U, 1000U, 4095U}) {
         std::string text;
         for (std::size_t i = 0; i < count; ++i) text += "1 2 3\n";
-        const io::text_index all = io::scan_xyz(source_of(text), "xyz", {}, 16);
+        const io::record_index all = io::scan_xyz(source_of(text), "xyz", {}, 16);
         CHECK(all.records == count);
         CHECK(all.marks.size() <= 16);
         for (std::size_t i = 0; i < all.marks.size(); ++i) {
@@ -172,14 +172,29 @@ TEST_CASE("text index: marks are spread evenly, however many records there are")
     }
 }
 
-TEST_CASE("text index: what is unusual anywhere is known wherever the text is read") {
+TEST_CASE("record index: marks of every some-th record are as few as others") {
+    for (const std::size_t most : {2U, 5U, 8U})
+        for (const std::uint64_t each : {1U, 3U, 16U, 1000U}) {
+            CAPTURE(each);
+            io::spread_marks marks(most);
+            for (std::uint64_t record = 0; record < 100'000 * each; record += each)
+                marks.add(record, 7 * record);
+            const auto all = std::move(marks).all();
+            CHECK(all.size() <= most);
+            CHECK(all.size() >= (most + 1) / 2 - 1);
+            CHECK(all.front().record == 0);
+            for (const auto& m : all) CHECK(m.byte == 7 * m.record);
+        }
+}
+
+TEST_CASE("record index: what is unusual anywhere is known wherever the text is read") {
     const std::string plain = "1 2 3 4\n1 2 3 4\n1 2 3 4\n";
     for (const kind& k : kinds(9)) {
         if (k.name == "csv") continue;
         const std::string text = k.head + plain + "1 2 0x1p1 4\n" + plain + "5 6 7 8\n9 9 9 9\n";
         CAPTURE(k.name);
         const io::source in = source_of(text);
-        const io::text_index all = scan_in_parts(k, in, 4, 4);
+        const io::record_index all = scan_in_parts(k, in, 4, 4);
         CHECK(all.hexadecimal);
         CHECK(read_from(k, in, 8, &all) == read_from(k, in, 8, nullptr));
         CHECK(read_from(k, in, 8, &all).warnings.size() == 1);
@@ -188,7 +203,7 @@ TEST_CASE("text index: what is unusual anywhere is known wherever the text is re
         const kind k = kinds(9).front();
         const std::string text = plain + plain + odd + plain;
         const io::source in = source_of(text);
-        const io::text_index all = scan_in_parts(k, in, 5, 4);
+        const io::record_index all = scan_in_parts(k, in, 5, 4);
         CHECK_FALSE(all.even);
         const values rest = read_from(k, in, 1, &all);
         CHECK(rest == read_from(k, in, 1, nullptr));
@@ -197,7 +212,7 @@ TEST_CASE("text index: what is unusual anywhere is known wherever the text is re
     }
 }
 
-TEST_CASE("text index: a part is looked at, and read, without a look at the others") {
+TEST_CASE("record index: a part is looked at, and read, without a look at the others") {
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     constexpr std::size_t points = 20'000;
     constexpr std::uint64_t parts = 4;
@@ -221,7 +236,7 @@ TEST_CASE("text index: a part is looked at, and read, without a look at the othe
             first = first / page * page;
             ::mprotect(bytes + first, std::min(last, size) - first, PROT_READ);
         };
-        io::text_index all;
+        io::record_index all;
         for (std::uint64_t rank = 0; rank < parts; ++rank) {
             const io::file_part part{rank, parts};
             show(body + part.first(size - body) - 1, body + part.last(size - body) + line.size());
