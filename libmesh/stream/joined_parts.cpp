@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t bytes_at_once = std::size_t{1} << 20;
 
-fs::path path_of(const fs::path& to, const team* all, const fs::path& part) {
+}  // namespace
+
+fs::path part_path(const fs::path& to, const team* all, const fs::path& part) {
     return all == nullptr || all->leads() ? fs::path(to.string() + ".unfinished") : part;
 }
-
-}  // namespace
 
 void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, std::uint64_t at,
                 std::uint64_t count) {
@@ -34,7 +34,7 @@ void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, s
 }
 
 text_out::text_out(fs::path to, const team* all, const fs::path& part)
-    : target_(std::move(to)), path_(path_of(target_, all, part)), all_(all) {
+    : target_(std::move(to)), path_(part_path(target_, all, part)), all_(all) {
     fs::remove(path_);
 }
 

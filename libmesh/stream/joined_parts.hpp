@@ -15,6 +15,10 @@ namespace treeform::detail::stream {
 void copy_bytes(const std::filesystem::path& from, std::uint64_t first,
                 const std::filesystem::path& to, std::uint64_t at, std::uint64_t count);
 
+/// Where one writes its part of a file, the first of a team the whole: `part` is that of another.
+[[nodiscard]] std::filesystem::path part_path(const std::filesystem::path& to, const team* all,
+                                              const std::filesystem::path& part);
+
 /// Text on its way to a file.
 class text_out {
   public:

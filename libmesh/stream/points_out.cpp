@@ -6,22 +6,14 @@
 #include <span>
 
 namespace treeform::detail::stream {
-namespace {
 
 namespace fs = std::filesystem;
-
-fs::path path_of(const fs::path& to, const team* all, const fs::path& part) {
-    if (all == nullptr) return to;
-    return all->leads() ? fs::path(to.string() + ".unfinished") : part;
-}
-
-}  // namespace
 
 points_out::points_out(const weld_stream_outputs::file& to, const mesh_file& header,
                        std::uint64_t count, const team* all, const fs::path& part,
                        std::size_t most_corners)
     : target_(to.path),
-      path_(path_of(to.path, all, part)),
+      path_(all == nullptr ? to.path : part_path(to.path, all, part)),
       all_(all),
       writer_(path_, header, count, options_of(to), most_corners) {}
 

@@ -25,7 +25,7 @@ shift $((OPTIND - 1))
 targets=("$@")
 ((${#targets[@]})) || targets=(
     read_stl read_obj read_ply read_off read_pcd read_las read_xyz read_csv read_glb read_3mf
-    read_urdf predicates implicit_points triangle_triangle self_intersections boolean repair weld
+    read_urdf read_blocks predicates implicit_points triangle_triangle self_intersections boolean repair weld
     tool_selfintersect tool_weld tool_boolean tool_place tool_repair)
 
 build=build/fuzz
@@ -42,6 +42,7 @@ printf '%-20s %12s %9s %8s  %s\n' target runs runs/s inputs outcome
 for target in "${targets[@]}"; do
     formats=()
     [[ $target == read_* ]] && formats=("${target#read_}")
+    [[ $target == read_blocks ]] && formats=(ply pcd)
     [[ $target == tool_* ]] && formats=(stl obj ply off pcd las laz xyz csv glb 3mf)
     more=()
     for format in "${formats[@]}"; do
@@ -51,7 +52,8 @@ for target in "${targets[@]}"; do
             ${TREEFORM_CLOUDS_DIR:+"$TREEFORM_CLOUDS_DIR"} -type f -size -64k \
             -iname "*.$format" -exec cp -t "$files" {} +
         more+=("$files")
-        [[ $target == tool_* ]] && more+=("$seeds/read_$format")
+        [[ $target == read_blocks ]] && formats=(ply pcd)
+    [[ $target == tool_* ]] && more+=("$seeds/read_$format")
     done
     mkdir -p "$seeds/$target" "$seeds/new/$target"
     log=$build/fuzz-$target.log

@@ -163,6 +163,25 @@ std::vector<std::array<std::string, 3>> odd_files() {
                    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
                    "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
                    "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 3 2 1\n"});
+    // Each point with a list, faces of several lengths, and elements ahead and behind.
+    std::string blocks =
+        "ply\nformat binary_little_endian 1.0\nelement camera 2\nproperty short view\n"
+        "element vertex 40\nproperty float x\nproperty list uchar uchar seen\nproperty float y\n"
+        "property float z\nelement face 30\nproperty list uchar uchar vertex_indices\n"
+        "property list uchar float texcoord\nelement edge 3\nproperty uchar vertex1\nend_header\n"
+        "abcd";
+    for (unsigned i = 0; i < 40; ++i)
+        blocks += std::string(4, '\1') + static_cast<char>(i % 3) + std::string(8 + i % 3, '\2');
+    for (unsigned i = 0; i < 30; ++i)
+        blocks +=
+            static_cast<char>(3 + i % 3) + std::string(3 + i % 3, static_cast<char>(i)) + '\0';
+    all.push_back({"read_blocks", "lists", blocks + "abc"});
+    all.push_back(
+        {"read_blocks", "text",
+         "ply\nformat ascii 1.0\nelement camera 1\nproperty short view\nelement vertex 5\n"
+         "property float x\nproperty float y\nproperty float z\nelement face 4\n"
+         "property list uchar int vertex_indices\nend_header\n7\n0 0 0\n1 0 0\n\n0 1 0\n"
+         "1 1 0\n0x1p3 0 1\n3 0 1 2\n4 0 1 2 3\n3 2 3 4\n3 0 1 4\n"});
     all.push_back(
         {"read_urdf", "arm",
          "<?xml version=\"1.0\"?>\n<robot name=\"r\"><link name=\"a\"><collision><origin "
