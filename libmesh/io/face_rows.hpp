@@ -59,9 +59,9 @@ struct face_rows {
 
 inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 
-/// What is read by runs. `in` must outlive what comes back, and so must what is `known` of its records. An STL
-/// has the faces of the part. Of a PLY the points of the part are put into what `make_store` gives for
-/// so many of them.
+/// What is read by runs. `in` must outlive what comes back, and so must what is `known` of its
+/// records. An STL has the faces of the part. Of a PLY the points of the part are put into what
+/// `make_store` gives for so many of them.
 ///
 /// \throws io_error; whole_file_error for a PLY that `has_rows_to_look_at` is not true of
 [[nodiscard]] face_rows open_stl_faces(const source& in, const file_part& part = {});

@@ -51,11 +51,12 @@ struct point_rows {
     std::function<row_place()> next_row{};
     /// Goes on at a row that a reader of the same file has told of.
     std::function<void(const row_place&)> go_to{};
-    /// Where `count` parts of the rows begin, of about as many bytes each, and where the last one ends:
-    /// `count + 1` places, found without reading more than a row. Empty where the rows have to be read:
-    /// in text and with lists of points where nothing is known of them, with lists of other values, and where not all
-    /// faces can have as many corners as the first one. That they have is taken for granted, and
-    /// refused from then on where it is not so. \pre no row was read. \throws io_error
+    /// Where `count` parts of the rows begin, of about as many bytes each, and where the last one
+    /// ends: `count + 1` places, found without reading more than a row. Empty where the rows have to be
+    /// read: in text and with lists of points where nothing is known of them, with lists of other
+    /// values, and where not all faces can have as many corners as the first one. That they have is
+    /// taken for granted, and refused from then on where it is not so. \pre no row was read.
+    /// \throws io_error
     std::function<std::vector<row_place>(std::size_t count)> row_parts{};
 };
 

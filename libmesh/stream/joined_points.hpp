@@ -21,8 +21,9 @@ namespace treeform::detail::stream {
 class joined_points {
   public:
     /// Reads what precedes the points of each file, and text once, of which each of `all` reads its
-    /// share of the bytes; of several also points with lists. All come here. With `as_las`, coordinates become those that a LAS file with
-    /// the first one's scale and offset holds, or with those that are set.
+    /// share of the bytes; of several also points with lists. All come here. With `as_las`,
+    /// coordinates become those that a LAS file with the first one's scale and offset holds, or with
+    /// those that are set.
     ///
     /// \throws io_error, std::invalid_argument as `join`
     joined_points(const cloud_inputs& inputs, bool as_las, const team& all);

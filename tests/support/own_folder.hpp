@@ -1,10 +1,12 @@
 #pragma once
 /// \file
-/// A folder for the files of a test.
+/// A folder for the files of a test, and their bytes.
 
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 namespace test {
@@ -23,5 +25,14 @@ class own_folder {
 
     const std::filesystem::path path;
 };
+
+inline std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void put(const std::filesystem::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
 
 }  // namespace test

@@ -8,13 +8,12 @@
 #include <doctest/doctest.h>
 #include <support/las_bytes.hpp>
 #include <support/models.hpp>
+#include <support/own_folder.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,10 +21,7 @@
 
 namespace {
 
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::bytes_of;
 
 std::string written(const tf::mesh_file& file, const std::string& format) {
     return tf::write_to_memory(file, {.format = format});

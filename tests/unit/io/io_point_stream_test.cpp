@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 #include <support/own_folder.hpp>
+#include <support/point_files.hpp>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -36,10 +37,10 @@ struct scratch {
     const fs::path& folder = own.path;
 };
 
-std::string bytes_of(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::bytes_of;
+using test::cloud;
+using test::kind;
+using test::kinds;
 
 bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
     return a.size() == b.size() &&
@@ -77,45 +78,6 @@ tf::mesh_file read_by(std::size_t most, const fs::path& path) {
     file.warnings = reader.header().warnings;
     return file;
 }
-
-/// Points as a cloud has them: with properties of several types, NaN here and there.
-tf::mesh_file cloud(std::size_t count, bool single) {
-    std::mt19937_64 random(count);
-    tf::mesh_file file;
-    file.stored_as = single ? tf::precision::float32 : tf::precision::float64;
-    std::vector<float> intensity;
-    std::vector<std::uint8_t> red;
-    std::vector<std::int32_t> id;
-    for (std::size_t i = 0; i < count; ++i) {
-        tf::point3 p;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double x = static_cast<double>(random() >> 11) * 0x1p-40 - 4000.0;
-            p[axis] = single ? static_cast<double>(static_cast<float>(x)) : x;
-        }
-        file.mesh.points.push_back(p);
-        intensity.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
-        red.push_back(static_cast<std::uint8_t>(random()));
-        id.push_back(static_cast<std::int32_t>(random()));
-    }
-    tf::element& e = tf::obtain_element(file.attributes, "vertex", count);
-    e.columns.push_back(tf::make_column<float>("intensity", intensity));
-    e.columns.push_back(tf::make_column<std::uint8_t>("red", red));
-    e.columns.push_back(tf::make_column<std::int32_t>("id", id));
-    file.attributes.comments = {"a cloud"};
-    file.attributes.texture_files = {"a.png"};
-    return file;
-}
-
-struct kind {
-    const char* format;
-    bool ascii;
-    const char* read_as;  ///< for the byte order of PLY, and for compression
-};
-
-constexpr kind kinds[] = {
-    {"ply", true, ""},  {"ply", false, ""}, {"ply", false, "ply-binary-be"},
-    {"pcd", true, ""},  {"pcd", false, ""}, {"pcd", false, "pcd-binary-compressed"},
-    {"csv", false, ""}, {"xyz", false, ""}};
 
 }  // namespace
 
@@ -199,149 +161,6 @@ TEST_CASE("point streams: what follows the first points is the rest of the file"
                                                    std::ptrdiff_t(i + block.points.size())}));
             }
             CHECK_FALSE(reader.read(block, 100));
-        }
-    }
-}
-
-TEST_CASE("point streams: parts written by several, put one after the other, are the whole file") {
-    const scratch here;
-    for (const kind& k : kinds) {
-        CAPTURE(k.format);
-        CAPTURE(k.ascii);
-        tf::mesh_file file = cloud(700, true);
-        file.format = k.read_as;
-        const tf::write_options options{.format = k.format, .ascii = k.ascii};
-        std::string bytes;
-        std::vector<std::string> heads;
-        std::vector<std::uint32_t> rows;
-        tf::point_block block;
-        for (std::uint32_t i = 0; i < 700; ++i) {
-            rows.push_back(i);
-            block.points.push_back(file.mesh.points[i]);
-            if (i != 250 && i != 699) continue;
-            block.properties = tf::gather(file.attributes.elements[0], rows);
-            tf::point_writer writer(here.folder / "part", file, 700, options);
-            writer.write(block);
-            tf::write_result result;
-            REQUIRE(writer.has_parts());
-            if (writer.has_shared_values()) {
-                CHECK_THROWS_AS(writer.commit_part(result), std::logic_error);
-                break;
-            }
-            const auto [head, points, behind] = writer.commit_part(result);
-            CHECK(behind == 0);
-            const std::string part = bytes_of(here.folder / "part");
-            heads.push_back(part.substr(0, head));
-            bytes += i == 250 ? part.substr(head, points) : part.substr(head);
-            rows.clear();
-            block = {};
-        }
-        const bool is_packed = std::string_view(k.read_as) == "pcd-binary-compressed";
-        if (!is_packed) bytes = tf::point_writer::join_heads(heads) + bytes;
-        CHECK(bytes == (is_packed ? "" : tf::write_to_memory(file, options)));
-    }
-}
-
-TEST_CASE("point streams: parts of a compressed PCD share their values, and pack a share each") {
-    const scratch here;
-    // Values of 33 bytes a point: up to six blocks, which no field and no part begins with.
-    for (const std::size_t count : std::vector<std::size_t>{0, 1, 5, 36'000, 180'000}) {
-        CAPTURE(count);
-        tf::mesh_file file = cloud(count, false);
-        file.format = "pcd-binary-compressed";
-        const tf::write_options options{.format = "pcd"};
-        const std::string expected = tf::write_to_memory(file, options);
-        for (const std::size_t parts : {1U, 3U, 8U}) {
-            CAPTURE(parts);
-            std::string values;
-            std::vector<tf::point_writer> writers;
-            std::uint64_t first = 0;
-            for (std::size_t part = 0; part < parts; ++part) {
-                const auto number = std::to_string(part);
-                tf::point_writer& writer =
-                    writers.emplace_back(here.folder / number, file, count, options);
-                REQUIRE(writer.has_shared_values());
-                writer.share_values(
-                    {.first_point = first,
-                     .part = part,
-                     .parts = parts,
-                     .put =
-                         [&](std::uint64_t at, std::span<const std::byte> bytes) {
-                             values.resize(std::max(values.size(), at + bytes.size()));
-                             if (!bytes.empty())
-                                 std::memcpy(values.data() + at, bytes.data(), bytes.size());
-                         },
-                     .get =
-                         [&](std::uint64_t at, std::span<std::byte> bytes) {
-                             REQUIRE(at + bytes.size() <= values.size());
-                             std::memcpy(bytes.data(), values.data() + at, bytes.size());
-                         }});
-                const std::size_t end = part + 1 == parts ? count : count * part / (parts + 3);
-                while (first < end) {  // the first one has none, the last one many
-                    tf::point_block block;
-                    std::vector<std::uint32_t> rows;
-                    for (; first < end && rows.size() < 5000; ++first) {
-                        rows.push_back(static_cast<std::uint32_t>(first));
-                        block.points.push_back(file.mesh.points[first]);
-                    }
-                    block.properties = tf::gather(file.attributes.elements[0], rows);
-                    writer.write(block);
-                }
-            }
-            std::string bytes;
-            std::vector<std::string> heads;
-            std::size_t most = 0;
-            for (std::size_t part = 0; part < parts; ++part) {
-                tf::write_result result;
-                const auto [head, points, behind] = writers[part].commit_part(result);
-                CHECK(behind == 0);
-                const std::string written = bytes_of(here.folder / std::to_string(part));
-                REQUIRE(written.size() == head + points);
-                heads.push_back(written.substr(0, head));
-                bytes += written.substr(head);
-                most = std::max(most, written.size());
-            }
-            CHECK((tf::point_writer::join_heads(heads) + bytes == expected));
-            if (count == 180'000 && parts == 3) CHECK(most < expected.size() / 2);
-        }
-    }
-}
-
-TEST_CASE("point streams: a shared place is refused where it is of no use, and has its own end") {
-    const scratch here;
-    tf::mesh_file file = cloud(3, false);
-    const tf::point_block all{.points = file.mesh.points,
-                              .properties = file.attributes.elements[0]};
-    tf::point_writer plain(here.folder / "a.pcd", file, 3);
-    CHECK_FALSE(plain.has_shared_values());
-    CHECK_THROWS_AS(plain.share_values({}), std::logic_error);
-    file.format = "pcd-binary-compressed";
-    tf::point_writer late(here.folder / "b.pcd", file, 3);
-    late.write(all);
-    CHECK_THROWS_AS(late.share_values({}), std::logic_error);
-    tf::point_writer part(here.folder / "c.pcd", file, 3);
-    part.share_values({.put = [](std::uint64_t, auto) {}, .get = [](std::uint64_t, auto) {}});
-    part.write(all);
-    CHECK_THROWS_AS(static_cast<void>(part.commit()), std::logic_error);
-    CHECK_FALSE(fs::exists(here.folder / "c.pcd"));
-}
-
-TEST_CASE("point streams: whether points are too many to be compressed, all of them say") {
-    const scratch here;
-    tf::mesh_file file = cloud(1, false);
-    file.format = "pcd-binary-compressed";
-    // 33 bytes a point; packed, at worst a byte more for each 32, and one.
-    constexpr std::uint64_t most = (std::uint64_t{1} << 32) / 33 * 32 / 33;
-    for (const std::uint64_t count : {most - 10, most + 10}) {
-        tf::point_writer writer(here.folder / "a.pcd", file, count, {});
-        CHECK(writer.has_parts());
-        CHECK(writer.has_shared_values() == (count < most));
-        if (!writer.has_shared_values()) {
-            tf::write_result result;
-            static_cast<void>(writer.commit_part(result));
-            CHECK(result.format == "pcd-binary");
-            REQUIRE(result.warnings.size() == 1);
-            CHECK(result.warnings[0].text == "too many points to be compressed");
         }
     }
 }

@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -27,10 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace stream = tf::detail::stream;
 
-std::string bytes_of(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::bytes_of;
 
 /// A sheet of quads and triangles, each with corners of its own, and a color of its own per corner.
 tf::mesh_file soup(std::uint32_t n) {

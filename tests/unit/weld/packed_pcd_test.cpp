@@ -18,8 +18,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <set>
 #include <string>
@@ -30,14 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 namespace stream = treeform::detail::stream;
 
-std::string bytes_of(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void put(const fs::path& path, const std::string& bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
-}
+using test::bytes_of;
+using test::put;
 
 /// With a property that packs well, and coordinates that do not.
 tf::mesh_file cloud(std::size_t count, test::random& random) {

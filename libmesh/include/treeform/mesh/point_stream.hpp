@@ -47,9 +47,9 @@ class TREEFORM_API point_reader {
   public:
     /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
     /// input, a pipe) is copied to an unnamed file in /var/tmp first; the points of a compressed PCD
-    /// are unpacked to one before the first of them is read. The `first` points, no more than there
-    /// are, are passed over: unread in binary PLY without lists, PCD except for text, LAS, and whole chunks
-    /// of LAZ.
+    /// are unpacked to one before the first of them is read, so that damage is found then. The `first`
+    /// points, no more than there are, are passed over: unread in binary PLY without lists, PCD
+    /// except for text, LAS, and whole chunks of LAZ.
     ///
     /// With `with_rows`, a PLY may have faces and other elements behind its points, and a binary STL is
     /// read as the corners of its facets, with the facets behind them. The header says how many rows
