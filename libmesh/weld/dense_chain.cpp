@@ -9,25 +9,119 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
+#include <numeric>
+#include <utility>
 
 namespace treeform::detail::weld {
 namespace {
+
+/// Cubes stand in cells of 8 x 8 x 8, so that what is near in space is near in memory.
+constexpr int cell_bits = 3;
+constexpr std::size_t cell_side = std::size_t{1} << cell_bits;
+/// Cubes whose points may be within the tolerance of each other are at most so far apart.
+constexpr std::size_t cubes_around = 2;
+
+using cube = std::array<std::int64_t, 3>;
+
+cube cell_of(cube at) {
+    for (std::int64_t& i : at) i >>= cell_bits;
+    return at;
+}
+std::uint64_t cell_hash(const cube& cell, std::uint32_t label) {
+    return cube_hash(cell[0], cell[1], cell[2], label) >> 3 * cell_bits;
+}
+std::uint64_t cell_hash(std::uint64_t hash) { return hash >> 3 * cell_bits; }
+
+/// Of a cube: the hash of its cell above, its place in the cell below.
+std::uint64_t hash_by_cell(const cube& at, std::uint32_t label) {
+    std::uint64_t hash = cell_hash(cell_of(at), label);
+    for (const std::int64_t i : at)
+        hash = hash << cell_bits | (static_cast<std::uint64_t>(i) & (cell_side - 1));
+    return hash;
+}
+std::array<std::size_t, 3> place_in_cell(std::uint64_t hash) {
+    constexpr std::uint64_t mask = cell_side - 1;
+    return {hash >> 2 * cell_bits & mask, hash >> cell_bits & mask, hash & mask};
+}
+
+/// The way to half of the cells around one; to the others it is the way back.
+constexpr std::array<cube, 13> half_around{{{0, 0, 1},
+                                            {0, 1, -1},
+                                            {0, 1, 0},
+                                            {0, 1, 1},
+                                            {1, -1, -1},
+                                            {1, -1, 0},
+                                            {1, -1, 1},
+                                            {1, 0, -1},
+                                            {1, 0, 0},
+                                            {1, 0, 1},
+                                            {1, 1, -1},
+                                            {1, 1, 0},
+                                            {1, 1, 1}}};
 
 struct member {
     std::uint64_t hash;  ///< of its cube and label
     std::uint32_t id;
 };
 
-/// Members of one cube that are one set already; places [begin, end) in the sorted members.
+/// Members of one cube that are one set already; places [begin, end) in the sorted members, of
+/// which the first is the earliest point.
 struct block {
-    std::size_t begin;
-    std::size_t end;
+    std::uint32_t begin;
+    std::uint32_t end;
+    point3 first;
 };
 
-using cube_key = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+/// The blocks of a cell and around it.
+class neighborhood {
+  public:
+    void clear() { row_.fill(0); }
+
+    /// Notes a block of the cube at `place`, which counts from the cell in the middle. Those of one
+    /// cube follow each other.
+    void add(const std::array<std::ptrdiff_t, 3>& place, std::uint32_t b) {
+        std::array<std::size_t, 3> at;
+        for (std::size_t k = 0; k < 3; ++k) {
+            at[k] = static_cast<std::size_t>(place[k] + static_cast<std::ptrdiff_t>(cubes_around));
+            if (at[k] >= side) return;
+        }
+        const std::size_t row = at[0] * side + at[1];
+        const auto bit = static_cast<std::uint16_t>(1U << at[2]);
+        places& there = blocks_[row * side + at[2]];
+        if ((row_[row] & bit) == 0) there = {b, b};
+        row_[row] |= bit;
+        ++there.end;
+    }
+
+    /// Calls `meet(b)` for the blocks of the cubes around the one at `place`, and of itself.
+    template <class Meet>
+    void visit(const std::array<std::size_t, 3>& place, const Meet& meet) const {
+        constexpr std::size_t width = 2 * cubes_around + 1;
+        for (std::size_t x = place[0]; x < place[0] + width; ++x)
+            for (std::size_t y = place[1]; y < place[1] + width; ++y) {
+                const std::size_t row = x * side + y;
+                for (std::uint32_t bits = row_[row] >> place[2] & ((1U << width) - 1); bits != 0;
+                     bits &= bits - 1) {
+                    const places& there = blocks_[row * side + place[2] +
+                                                  static_cast<std::size_t>(std::countr_zero(bits))];
+                    for (std::uint32_t b = there.begin; b < there.end; ++b) meet(b);
+                }
+            }
+    }
+
+  private:
+    struct places {
+        std::uint32_t begin;
+        std::uint32_t end;
+    };
+    static constexpr std::size_t side = cell_side + 2 * cubes_around;
+
+    std::array<std::uint16_t, side * side> row_{};   ///< which cubes of a row have blocks
+    std::array<places, side * side * side> blocks_;  ///< of the cubes that have some
+};
 
 class chain_finder {
   public:
@@ -35,32 +129,41 @@ class chain_finder {
         : points_(points),
           options_(&options),
           match_(points, options),
-          axis_(options.tolerance / cubes_per_tolerance),
-          sets_(points.size()) {}
+          axis_(options.tolerance / cubes_per_tolerance) {}
 
     std::vector<std::uint32_t> run() {
         sort();
-        for (std::size_t b = 0; b < blocks_.size(); ++b)
-            by_hash_.add(members_.records[blocks_[b].begin].hash, static_cast<std::uint32_t>(b));
-        for_chunks(blocks_.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t b = begin; b < end; ++b) join_neighbors(static_cast<std::uint32_t>(b));
-        });
-        std::vector<std::uint32_t> root_of(points_.size());
-        for_chunks(points_.size(), 65536, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i)
-                root_of[i] = sets_.root(static_cast<std::uint32_t>(i));
-        });
-        return root_of;
+        find_cells();
+        base::union_find sets(blocks_.size());
+        for (std::size_t first = 0; first < cells(); first += cells_a_call) {
+            if (options_->progress &&
+                !options_->progress(static_cast<double>(first) / static_cast<double>(cells())))
+                return {};
+            const std::size_t count = std::min(cells_a_call, cells() - first);
+            for_chunks(count, 16, [&](std::size_t begin, std::size_t end, std::size_t) {
+                neighborhood near;
+                std::vector<std::pair<std::uint32_t, std::uint32_t>> unsure;
+                for (std::size_t c = begin; c < end; ++c)
+                    join_around(first + c, near, unsure, sets);
+            });
+        }
+        return roots(sets.take_roots().span());
     }
 
   private:
+    static constexpr std::size_t cells_a_call = std::size_t{1} << 16;
+
     [[nodiscard]] std::uint32_t label_of(std::uint32_t i) const {
         return options_->label.empty() ? 0 : options_->label[i];
     }
-    [[nodiscard]] cube_key cube_of(std::uint32_t i) const {
-        const point3& p = points_[i];
+    [[nodiscard]] cube cube_of(const point3& p) const {
         return {axis_.index(p.x), axis_.index(p.y), axis_.index(p.z)};
     }
+    [[nodiscard]] cube cell(const block& b) const { return cell_of(cube_of(b.first)); }
+    [[nodiscard]] std::uint64_t hash(const block& b) const {
+        return members_.records[b.begin].hash;
+    }
+    [[nodiscard]] std::uint32_t id(const block& b) const { return members_.records[b.begin].id; }
 
     void sort() {
         const key_bits bits(points_.size());
@@ -72,8 +175,7 @@ class chain_finder {
             [&](std::size_t i, member& m) {
                 if (!base::is_finite(points_[i])) return false;
                 m.id = static_cast<std::uint32_t>(i);
-                const auto [x, y, z] = cube_of(m.id);
-                m.hash = cube_hash(x, y, z, label_of(m.id));
+                m.hash = hash_by_cell(cube_of(points_[i]), label_of(m.id));
                 return true;
             },
             key);
@@ -92,12 +194,17 @@ class chain_finder {
                 }
                 return bucket.size();
             });
-        for (const std::vector<block>& part : blocks)
+        std::size_t count = 0;
+        for (const std::vector<block>& part : blocks) count += part.size();
+        blocks_.reserve(count);
+        for (std::vector<block>& part : blocks) {
             blocks_.insert(blocks_.end(), part.begin(), part.end());
+            part = {};
+        }
     }
 
-    /// Joins what matches among the members of one cube: all of them unless `may_merge` says no,
-    /// and for points of two cubes of one hash, which become blocks of their own.
+    /// Cuts the members of one hash into blocks: all are one unless `may_merge` says no, or they
+    /// are of several cubes or labels.
     void add_blocks(std::span<member> members, std::size_t place, std::vector<block>& blocks) {
         std::vector<std::vector<member>> apart;
         std::size_t together = 1;
@@ -108,11 +215,16 @@ class chain_finder {
             else
                 add_apart(m, apart);
         }
-        blocks.push_back({place, place + together});
+        const auto add = [&](std::size_t begin, std::size_t size) {
+            blocks.push_back({static_cast<std::uint32_t>(place + begin),
+                              static_cast<std::uint32_t>(place + begin + size),
+                              points_[members[begin].id]});
+        };
+        add(0, together);
         for (const std::vector<member>& one : apart) {
             std::copy(one.begin(), one.end(),
                       members.begin() + static_cast<std::ptrdiff_t>(together));
-            blocks.push_back({place + together, place + together + one.size()});
+            add(together, one.size());
             together += one.size();
         }
     }
@@ -125,70 +237,143 @@ class chain_finder {
         apart.push_back({m});
     }
     /// Where only distance matters, one look is enough; what it overlooks, neighbors find.
-    bool joins(const member& m, std::span<const member> set) {
-        if (cube_of(m.id) != cube_of(set[0].id)) return false;  // of one hash only
+    [[nodiscard]] bool joins(const member& m, std::span<const member> set) const {
+        if (cube_of(points_[m.id]) != cube_of(points_[set[0].id])) return false;
         if (!options_->may_merge) set = set.first(1);
-        for (const member& other : set)
-            if (match_(m.id, other.id)) {
-                sets_.join(m.id, other.id);
-                return true;
-            }
-        return false;
+        return std::any_of(set.begin(), set.end(),
+                           [&](const member& other) { return match_(m.id, other.id); });
     }
 
-    /// Looks from each pair of cubes, and of blocks in one cube, once: from the lower.
-    void join_neighbors(std::uint32_t b) {
-        const std::uint32_t first = members_.records[blocks_[b].begin].id;
-        const cube_key own = cube_of(first);
-        const point3& p = points_[first];
-        std::array<cube_axis::range, 3> ranges;
-        for (std::size_t k = 0; k < 3; ++k) ranges[k] = axis_.neighbors(p[k], 2);
-        std::array<std::uint64_t, 125> hashes;
-        std::size_t count = 0;
-        for (std::int64_t x = std::get<0>(own); x <= ranges[0].last; ++x)
-            for (std::int64_t y = ranges[1].first; y <= ranges[1].last; ++y)
-                for (std::int64_t z = ranges[2].first; z <= ranges[2].last; ++z) {
-                    if (cube_key(x, y, z) <= own) continue;
-                    hashes[count] = cube_hash(x, y, z, label_of(first));
-                    by_hash_.prefetch(hashes[count++]);
-                }
-        by_hash_.visit(
-            cube_hash(std::get<0>(own), std::get<1>(own), std::get<2>(own), label_of(first)),
-            [&](std::uint32_t c) {
-                if (c > b) join_if_linked(b, c);
-            });
-        for (std::size_t k = 0; k < count; ++k)
-            by_hash_.visit(hashes[k], [&](std::uint32_t c) {
-                if (c != b) join_if_linked(b, c);
-            });
-    }
-
-    void join_if_linked(std::uint32_t b, std::uint32_t c) {
-        const auto ids = [&](const block& from) {
-            std::vector<std::uint32_t> result;
-            for (std::size_t i = from.begin; i < from.end; ++i)
-                result.push_back(members_.records[i].id);
-            return result;
-        };
-        const std::uint32_t i = members_.records[blocks_[b].begin].id;
-        const std::uint32_t j = members_.records[blocks_[c].begin].id;
-        if (label_of(i) != label_of(j) || sets_.root(i) == sets_.root(j)) return;
-        if (!match_(i, j)) {
-            std::vector<std::uint32_t> of_b = ids(blocks_[b]);
-            std::vector<std::uint32_t> of_c = ids(blocks_[c]);
-            if (!any_match(match_, of_b, of_c)) return;
+    /// Blocks of one cell and label are cells_[c] .. cells_[c + 1].
+    [[nodiscard]] std::size_t cells() const { return cells_.size() - 1; }
+    void find_cells() {
+        for (std::size_t begin = 0; begin < blocks_.size();) {
+            const std::uint64_t first = cell_hash(hash(blocks_[begin]));
+            std::size_t end = begin + 1;
+            while (end < blocks_.size() && cell_hash(hash(blocks_[end])) == first) ++end;
+            add_cells(begin, end);
+            begin = end;
         }
-        sets_.join(i, j);
+        cells_.push_back(static_cast<std::uint32_t>(blocks_.size()));
+    }
+    /// Blocks of one hash of cells are nearly always of one cell.
+    void add_cells(std::size_t begin, std::size_t end) {
+        const std::span<block> blocks = std::span(blocks_).subspan(begin, end - begin);
+        const auto key = [&](const block& b) { return std::pair(cell(b), label_of(id(b))); };
+        const auto less = [&](const block& a, const block& b) { return key(a) < key(b); };
+        if (std::any_of(blocks.begin(), blocks.end(),
+                        [&](const block& b) { return key(b) != key(blocks[0]); }))
+            std::stable_sort(blocks.begin(), blocks.end(), less);
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            if (b > 0 && key(blocks[b - 1]) == key(blocks[b])) continue;
+            by_hash_.add(cell_hash(hash(blocks[b])), static_cast<std::uint32_t>(cells_.size()));
+            cells_.push_back(static_cast<std::uint32_t>(begin + b));
+        }
+    }
+
+    /// Notes the blocks of a cell that is `away` cells from the one in the middle.
+    void note(std::size_t c, const cube& away, neighborhood& near) const {
+        for (std::uint32_t b = cells_[c]; b < cells_[c + 1]; ++b) {
+            const std::array<std::size_t, 3> at = place_in_cell(hash(blocks_[b]));
+            std::array<std::ptrdiff_t, 3> place;
+            for (std::size_t k = 0; k < 3; ++k)
+                place[k] =
+                    static_cast<std::ptrdiff_t>(away[k] * static_cast<std::int64_t>(cell_side)) +
+                    static_cast<std::ptrdiff_t>(at[k]);
+            near.add(place, b);
+        }
+    }
+
+    /// A cell beside another.
+    struct beside {
+        std::uint32_t number;
+        cube away;
+    };
+    /// Notes the blocks of half of the cells around one, which are of its label.
+    void note_half_around(const block& any, neighborhood& near) const {
+        const std::uint32_t label = label_of(id(any));
+        const cube middle = cell(any);
+        const auto at = [&](const cube& away) {
+            return cube{middle[0] + away[0], middle[1] + away[1], middle[2] + away[2]};
+        };
+        std::array<std::uint64_t, half_around.size()> hashes;
+        for (std::size_t k = 0; k < half_around.size(); ++k) {
+            hashes[k] = cell_hash(at(half_around[k]), label);
+            by_hash_.prefetch(hashes[k]);
+        }
+        // Each turn asks memory for what the next one reads.
+        std::vector<beside> found;
+        for (std::size_t k = 0; k < half_around.size(); ++k)
+            by_hash_.visit(hashes[k], [&](std::uint32_t c) {
+                found.push_back({c, half_around[k]});
+                __builtin_prefetch(&cells_[c]);
+            });
+        for (const beside& one : found) __builtin_prefetch(&blocks_[cells_[one.number]]);
+        for (const beside& one : found)
+            __builtin_prefetch(&members_.records[blocks_[cells_[one.number]].begin]);
+        for (const beside& one : found) {
+            const block& of = blocks_[cells_[one.number]];
+            if (cell(of) == at(one.away) && label_of(id(of)) == label)
+                note(one.number, one.away, near);
+        }
+    }
+
+    /// Joins the blocks of a cell with each other and with those in half of the cells around it;
+    /// the other half looks from there.
+    void join_around(std::size_t c, neighborhood& near,
+                     std::vector<std::pair<std::uint32_t, std::uint32_t>>& unsure,
+                     base::union_find& sets) const {
+        near.clear();
+        note(c, {0, 0, 0}, near);
+        note_half_around(blocks_[cells_[c]], near);
+        unsure.clear();
+        for (std::uint32_t b = cells_[c]; b < cells_[c + 1]; ++b)
+            near.visit(place_in_cell(hash(blocks_[b])), [&](std::uint32_t other) {
+                const bool looks_from_there = other >= cells_[c] && other <= b;
+                if (looks_from_there || sets.root(b) == sets.root(other)) return;
+                if (match_.near(blocks_[b].first, blocks_[other].first) &&
+                    (match_.by_distance() || match_(id(blocks_[b]), id(blocks_[other]))))
+                    sets.join(b, other);
+                else
+                    unsure.emplace_back(b, other);
+            });
+        std::vector<std::uint32_t> of_b;
+        std::vector<std::uint32_t> of_other;
+        for (const auto& [b, other] : unsure) {
+            if (sets.root(b) == sets.root(other)) continue;
+            list(blocks_[b], of_b);
+            list(blocks_[other], of_other);
+            if (any_match(match_, of_b, of_other)) sets.join(b, other);
+        }
+    }
+    void list(const block& b, std::vector<std::uint32_t>& ids) const {
+        ids.clear();
+        for (std::size_t i = b.begin; i < b.end; ++i) ids.push_back(members_.records[i].id);
+    }
+
+    /// The earliest point of each point's set, given the sets of the blocks.
+    [[nodiscard]] std::vector<std::uint32_t> roots(std::span<const std::uint32_t> set_of) const {
+        std::vector<std::uint32_t> earliest(blocks_.size(), ~std::uint32_t{0});
+        for (std::size_t b = 0; b < blocks_.size(); ++b)
+            earliest[set_of[b]] = std::min(earliest[set_of[b]], id(blocks_[b]));
+        std::vector<std::uint32_t> root_of(points_.size());
+        std::iota(root_of.begin(), root_of.end(), 0U);
+        for_chunks(blocks_.size(), 4096, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t b = begin; b < end; ++b)
+                for (std::size_t i = blocks_[b].begin; i < blocks_[b].end; ++i)
+                    root_of[members_.records[i].id] = earliest[set_of[b]];
+        });
+        return root_of;
     }
 
     points_view points_;
     const weld_options* options_;
     matcher match_;
     cube_axis axis_;
-    base::union_find sets_;
-    sorted_records<member> members_;
-    std::vector<block> blocks_;
-    hashed_ids by_hash_;
+    sorted_records<member> members_{};
+    std::vector<block> blocks_{};         ///< by cell, then by cube
+    std::vector<std::uint32_t> cells_{};  ///< [cells + 1] the first block of each
+    hashed_ids by_hash_{};                ///< cells
 };
 
 }  // namespace
