@@ -17,22 +17,32 @@ namespace treeform::detail::weld {
 [[nodiscard]] std::vector<std::uint32_t> dense_leaders(points_view points,
                                                        const weld_options& options);
 
-/// Whether `tiled_leaders` can do it and is the fastest: for the rule `first` without labels and
-/// `may_merge`, and many points, where a window over them would be wide.
+/// Whether `tiled_leaders` can do it, and the points are many enough: for the rule `first` without
+/// labels and `may_merge`.
+[[nodiscard]] bool can_be_tiled(points_view points, const weld_options& options);
+
+/// Whether a window over the points would be so wide that listing pairs is not worth a try.
 ///
 /// \cost O(V), a nanosecond a point
-[[nodiscard]] bool is_for_tiles(points_view points, const weld_options& options);
+[[nodiscard]] bool is_window_wide(points_view points, double tolerance);
+
+struct tiling {
+    std::size_t points_a_tile = std::size_t{1} << 17;
+    enum { if_faster, always } when = if_faster;
+};
 
 /// As `dense_leaders`: tiles of space that fit a cache are welded side by side, and their borders
-/// after them (tile_weld.hpp). Empty also for a tolerance that is wide beside the tiles.
+/// after them (tile_weld.hpp). Empty also for a tolerance that is wide beside the tiles; and,
+/// unless asked for `always`, where two tiles in the middle show that it would be slower: where
+/// few points are kept, or most hang on the borders. They do where points come row by row and have
+/// several others within the tolerance: whether one is kept then hangs on the row before.
 ///
 /// \pre  the rule is `first`; no labels, no `may_merge`
 ///
 /// \cost O(V) expected; 10 to 14 bytes a point, and 64 a point near a border
 [[nodiscard]] std::vector<std::uint32_t> tiled_leaders(points_view points,
                                                        const weld_options& options,
-                                                       std::size_t points_a_tile = std::size_t{1}
-                                                                                   << 16);
+                                                       const tiling& how = {});
 
 /// The earliest point of each point's chain; empty when progress stopped it.
 ///

@@ -119,12 +119,13 @@ point_groups detail::weld::find_groups(const char* called, points_view points,
     if (options.tolerance == 0.0) {
         first_of = by_equality(points, options);
     } else {
-        if (detail::weld::is_for_tiles(points, options))
-            first_of = detail::weld::tiled_leaders(points, options);
-        else
+        const bool in_tiles = detail::weld::can_be_tiled(points, options);
+        const auto missing = [&] { return first_of.size() != points.size() && !stopped; };
+        if (!in_tiles || !detail::weld::is_window_wide(points, options.tolerance))
             first_of = by_first ? detail::weld::sparse_leaders(points, options)
                                 : detail::weld::sparse_chains(points, options);
-        if (first_of.size() != points.size() && !stopped)
+        if (in_tiles && missing()) first_of = detail::weld::tiled_leaders(points, options);
+        if (missing())
             first_of = by_first ? detail::weld::dense_leaders(points, options)
                                 : detail::weld::dense_chains(points, options);
     }

@@ -15,26 +15,27 @@
 
 namespace treeform::detail::weld {
 
-/// Cubes whose edge is a power of two, and at least four times the tolerance. Coordinates are
-/// divided by the edge without error. Beyond 2^47 edges a cube is 64 neighboring doubles a side:
-/// at least two edges, and more than an interval of 1.26 tolerances to both sides, rounded
-/// outward, is wide. So such an interval meets at most two cubes a side, those of its ends.
+/// Cubes whose edge is a multiple of a sixteenth of a power of two, and at least 2.0833 times as
+/// wide as a reach. An interval of the reach to both sides, rounded outward, meets at most two
+/// cubes a side, those of its ends: for |x| below 2^44 edges it is 2 / 2.0833 + 2^-6 edges wide,
+/// positions in edges are off by 2^-8, and all that is less than 1. Beyond, a cube is 1024
+/// neighboring doubles a side, which are at least two edges, and the interval is less than an edge
+/// and 8 of these doubles wide. Where the one kind ends, a cube of either does: no position below
+/// 2^44 is rounded up to it, with any of the 16 edges.
 class cube_map {
   public:
-    static constexpr double reach = 1.26;  ///< of the interval, in tolerances
-
-    explicit cube_map(double tolerance)
-        : half_(std::min(reach * tolerance, greatest)),
-          exact_(tolerance == 0.0),
-          least_exponent_(std::ilogb(std::max(tolerance, 0x1p-900)) + 3) {
-        set_edge(least_exponent_ + 2);
+    explicit cube_map(double reach)
+        : half_(reach),
+          exact_(reach == 0.0),
+          least_edge_(edge_over(2.0833 * std::max(reach, 0x1p-900))) {
+        set_edge(8.0 * least_edge_);
     }
 
-    [[nodiscard]] bool can_shrink() const { return !exact_ && exponent_ > least_exponent_; }
-    void shrink() { set_edge(exponent_ - 1); }
+    [[nodiscard]] bool can_shrink() const { return !exact_ && edge_ > least_edge_; }
+    void shrink() { set_edge(0.5 * edge_); }
 
     using cube = std::array<std::int64_t, 3>;
-    /// With tolerance 0 a cube is a point.
+    /// With reach 0 a cube is a point.
     [[nodiscard]] cube of(const point3& p) const { return {index(p.x), index(p.y), index(p.z)}; }
     /// The lowest and the highest cube of those near `p`.
     [[nodiscard]] std::array<cube, 2> around(const point3& p) const {
@@ -59,10 +60,16 @@ class cube_map {
     static constexpr double greatest = std::numeric_limits<double>::max();
 
     /// Where edges are hardly to be had, all is one cube.
-    void set_edge(int exponent) {
-        exponent_ = exponent;
-        per_edge_ = exponent > 1000 ? 0.0 : std::ldexp(1.0, -exponent);
-        limit_ = std::ldexp(1.0, exponent + 47);
+    [[nodiscard]] static double edge_over(double least) {
+        if (!(least < 0x1p1000)) return std::numeric_limits<double>::infinity();
+        int exponent = 0;
+        const double part = std::frexp(least, &exponent);
+        return std::ldexp(std::ceil(16.0 * part), exponent - 4);
+    }
+    void set_edge(double edge) {
+        edge_ = edge;
+        per_edge_ = 1.0 / edge;
+        limit_ = std::ldexp(edge, straight_bits);
     }
 
     [[nodiscard]] std::int64_t index(double x) const {
@@ -72,13 +79,15 @@ class cube_map {
             return static_cast<double>(cut) > steps ? cut - 1 : cut;
         }
         const auto bits = std::bit_cast<std::int64_t>(x + 0.0);  // -0 becomes +0
-        return exact_ ? bits : bits >> 6;
+        return exact_ ? bits : bits >> 10;
     }
+
+    static constexpr int straight_bits = 44;
 
     double half_;
     bool exact_;
-    int least_exponent_;
-    int exponent_ = 0;
+    double least_edge_;
+    double edge_ = 0.0;
     double per_edge_ = 1.0;
     double limit_ = 0.0;
 };
@@ -88,8 +97,8 @@ class cube_map {
 template <class Entry>  // has a point3 `at`
 class near_cells {
   public:
-    explicit near_cells(double tolerance, bool salted = false)
-        : cubes_(tolerance), heads_(least_heads, nobody), salted_(salted) {}
+    explicit near_cells(double reach, bool salted = false)
+        : cubes_(reach), heads_(least_heads, nobody), salted_(salted) {}
 
     void reserve(std::size_t count) {
         entries_.reserve(count);

@@ -18,19 +18,34 @@
 namespace treeform::detail::weld {
 namespace {
 
-/// A point that is remembered. An open one that `stands` does so for all open points within a
-/// fourth of the tolerance.
-struct remembered {
+struct kept_point {
+    point3 at{};
+    std::uint64_t id = 0;
+};
+
+/// An open point. One that `stands` does so for all open points within a fourth of the tolerance.
+struct open_point {
     point3 at{};
     std::uint64_t tag = 0;
 
-    static remembered make(std::uint64_t id, const point3& at, bool open) {
-        return {at, id << 2 | (open ? 1U : 0U)};
+    [[nodiscard]] static open_point make(std::uint64_t id, const point3& at) {
+        return {at, id << 1};
     }
-    [[nodiscard]] std::uint64_t id() const { return tag >> 2; }
-    [[nodiscard]] bool open() const { return (tag & 1) != 0; }
-    [[nodiscard]] bool stands() const { return (tag & 2) != 0; }
-    void stand() { tag |= 2; }
+    [[nodiscard]] std::uint64_t id() const { return tag >> 1; }
+    [[nodiscard]] bool stands() const { return (tag & 1) != 0; }
+    void stand() { tag |= 1; }
+};
+
+/// What a pass remembers of points with their values.
+template <class Point>
+struct remembered {
+    near_cells<Point> cells;
+    std::vector<std::uint64_t> values{};  ///< in the order of the numbers in `cells`
+
+    void add(const Point& point, std::span<const std::uint64_t> its_values, std::uint64_t salt) {
+        cells.add(point, salt);
+        values.insert(values.end(), its_values.begin(), its_values.end());
+    }
 };
 
 /// The rule first, of the points of a tile or of the borders of some.
@@ -41,12 +56,13 @@ class first_pass {
           within_(tolerance),
           // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
           within_fourth_(tolerance < largest ? 0.25 * tolerance : 0.0),
-          within_more_(tolerance < largest ? cube_map::reach * tolerance : tolerance),
-          cells_(tolerance, agree.size() > 0) {}
+          within_more_(tolerance < largest ? 1.26 * tolerance : tolerance),
+          kept_{near_cells<kept_point>(within_.distance(), agree.size() > 0)},
+          open_{near_cells<open_point>(within_more_.distance(), agree.size() > 0)} {}
 
     void reserve(std::size_t points) {
-        cells_.reserve(points);
-        values_.reserve(points * agree_.size());
+        kept_.cells.reserve(points);
+        kept_.values.reserve(points * agree_.size());
     }
 
     void add(std::span<const tile_point> points, std::span<const std::uint64_t> values,
@@ -57,9 +73,9 @@ class first_pass {
         };
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (i + 2 * ahead < points.size())
-                cells_.prefetch(points[i + 2 * ahead].at, salt(i + 2 * ahead));
+                kept_.cells.prefetch(points[i + 2 * ahead].at, salt(i + 2 * ahead));
             if (i + ahead < points.size())
-                cells_.prefetch_entry(points[i + ahead].at, salt(i + ahead));
+                kept_.cells.prefetch_entry(points[i + ahead].at, salt(i + ahead));
             const tile_point& p = points[i];
             add({.id = p.id(),
                  .at = p.at,
@@ -109,7 +125,7 @@ class first_pass {
             if (around.covering != nullptr)
                 around.covering->stand();
             else
-                remember(a, true);
+                open_.add(open_point::make(a.id, a.at), values_of(a), a.salt);
         } else {
             keep(a, out);
         }
@@ -117,12 +133,11 @@ class first_pass {
 
     void keep(const arrival& a, tile_result& out) {
         if (a.shared) put(at(a, border_kind::kept), a, out);
-        remember(a, false);
+        kept_.add({.at = a.at, .id = a.id}, values_of(a), a.salt);
     }
 
-    void remember(const arrival& a, bool open) {
-        cells_.add(remembered::make(a.id, a.at, open), a.salt);
-        values_.insert(values_.end(), a.values, a.values + agree_.size());
+    [[nodiscard]] std::span<const std::uint64_t> values_of(const arrival& a) const {
+        return {a.values, agree_.size()};
     }
     void put(const border_point& b, const arrival& a, tile_result& out) const {
         out.border.push_back(b);
@@ -134,29 +149,32 @@ class first_pass {
         nearest_kept open;       ///< of those that stand for themselves
         double standing_square;  ///< of the distance of the nearest other one, rounded
         bool some_open;
-        remembered* covering;
+        open_point* covering;
     };
 
     neighbors look(const arrival& a) {
         const point3& p = a.at;
         neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, nullptr};
         if (a.leaning != nullptr) found.kept.consider(a.leaning->leader, a.leaning->leader_at);
-        cells_.visit(p, a.salt, [&](remembered& q, std::size_t number) {
-            const std::uint64_t* const values = values_.data() + number * agree_.size();
-            if (!q.open()) {
-                if (within_.holds(p, q.at) && agree_.holds(a.values, values))
-                    found.kept.consider(q.id(), q.at);
-                return;
-            }
+        const auto agrees = [&](const std::vector<std::uint64_t>& values, std::size_t number) {
+            return agree_.holds(a.values, values.data() + number * agree_.size());
+        };
+        kept_.cells.visit(p, a.salt, [&](const kept_point& q, std::size_t number) {
+            if (within_.holds(p, q.at) && agrees(kept_.values, number))
+                found.kept.consider(q.id, q.at);
+        });
+        open_.cells.visit(p, a.salt, [&](open_point& q, std::size_t number) {
             if (!(q.stands() ? within_more_ : within_).holds(p, q.at)) return;
-            if (!agree_.holds(a.values, values)) return;
+            if (!agrees(open_.values, number)) return;
             found.some_open = true;
             if (q.stands())
                 found.standing_square =
                     std::min(found.standing_square, rounded_squared_distance(p, q.at));
             else
                 found.open.consider(q.id(), q.at);
-            if (within_fourth_.holds(p, q.at) && agree_.same(a.values, values)) found.covering = &q;
+            if (within_fourth_.holds(p, q.at) &&
+                agree_.same(a.values, open_.values.data() + number * agree_.size()))
+                found.covering = &q;
         });
         return found;
     }
@@ -200,8 +218,8 @@ class first_pass {
     reach within_;
     reach within_fourth_;
     reach within_more_;
-    near_cells<remembered> cells_;
-    std::vector<std::uint64_t> values_{};  ///< of what the cells have, in the order of its numbers
+    remembered<kept_point> kept_;
+    remembered<open_point> open_;
 };
 
 /// The rule chain inside a tile.

@@ -6,13 +6,18 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace treeform::detail::weld {
 namespace {
+
+/// Kept points that fit a cache whatever the order in which points come.
+constexpr std::size_t few_kept = std::size_t{1} << 16;
 
 /// Finite points by tile: those of its part of space and of its halo, ascending.
 struct tiled_points {
@@ -83,67 +88,102 @@ std::optional<tiled_points> distribute(points_view points, const tile_cuts& cuts
     return result;
 }
 
-/// Writes the leaders that a tile knows, and returns what it leaves to the border pass.
-std::vector<border_point> weld_tile(points_view points, const tiled_points& tiled, std::size_t tile,
-                                    double tolerance, std::vector<std::uint32_t>& leader_of) {
+/// What came of a tile.
+struct welded_tile {
+    std::vector<border_point> border;  ///< left to the border pass
+    std::size_t dropped = 0;
+    bool given_up = false;  ///< the border had more than its share
+};
+
+/// Writes the leaders that a tile knows.
+welded_tile weld_tile(points_view points, const tiled_points& tiled, std::size_t tile,
+                      double tolerance, std::size_t largest_border,
+                      std::vector<std::uint32_t>& leader_of) {
     constexpr std::size_t block = 1024;
     tile_weld weld(weld_rule::first, tolerance);
     tile_result found;
+    welded_tile result;
     std::vector<tile_point> some;
     const std::size_t end = tiled.begin[tile + 1];
     weld.reserve((end - tiled.begin[tile]) / 4);
-    for (std::size_t place = tiled.begin[tile]; place < end;) {
+    for (std::size_t place = tiled.begin[tile]; place < end && !result.given_up;) {
         some.clear();
         for (; place < end && some.size() < block; ++place)
             some.push_back(tiled.at(tile, place, points));
         weld.add(some, found);
         for (const tile_drop& drop : found.dropped)
             leader_of[drop.id] = static_cast<std::uint32_t>(drop.leader);
+        result.dropped += found.dropped.size();
         found.dropped.clear();
+        result.given_up = found.border.size() > largest_border;
     }
-    return std::move(found.border);
+    result.border = std::move(found.border);
+    return result;
 }
 
 }  // namespace
 
-bool is_for_tiles(points_view points, const weld_options& options) {
+bool can_be_tiled(points_view points, const weld_options& options) {
     constexpr std::size_t least = std::size_t{1} << 18;
-    if (options.rule != weld_rule::first || options.search != neighbor_search::automatic ||
-        !options.label.empty() || options.may_merge || points.size() < least)
-        return false;
-    const std::optional<lattice> steps = lattice::over(points, options.tolerance);
+    return options.rule == weld_rule::first && options.search == neighbor_search::automatic &&
+           options.label.empty() && !options.may_merge && points.size() >= least;
+}
+
+bool is_window_wide(points_view points, double tolerance) {
+    const std::optional<lattice> steps = lattice::over(points, tolerance);
     return steps && estimated_window(points, *steps) >= wide_window;
 }
 
 std::vector<std::uint32_t> tiled_leaders(points_view points, const weld_options& options,
-                                         std::size_t points_a_tile) {
+                                         const tiling& how) {
     constexpr std::size_t most_tiles = 4096;
     constexpr std::size_t sample_a_tile = 64;
     constexpr std::size_t tiles_a_call = 64;
-    const std::size_t tiles = std::min(most_tiles, points.size() / points_a_tile + 1);
+    const std::size_t count = std::min(most_tiles, points.size() / how.points_a_tile + 1);
     std::vector<point3> sample;
-    for (std::size_t i = 0; i < points.size(); i += points.size() / (tiles * sample_a_tile) + 1)
+    for (std::size_t i = 0; i < points.size(); i += points.size() / (count * sample_a_tile) + 1)
         if (base::is_finite(points[i])) sample.push_back(points[i]);
-    const tile_cuts cuts(sample, options.tolerance, tiles);
+    const tile_cuts cuts(sample, options.tolerance, count);
+    if (how.when == tiling::if_faster && cuts.size() < 3) return {};
     const std::optional<tiled_points> tiled = distribute(points, cuts);
     if (!tiled) return {};
     std::vector<std::uint32_t> leader_of(points.size());
     std::iota(leader_of.begin(), leader_of.end(), 0U);
-    std::vector<std::vector<border_point>> borders(cuts.size());
-    for (std::size_t first = 0; first < cuts.size(); first += tiles_a_call) {
-        if (options.progress &&
-            !options.progress(static_cast<double>(first) / static_cast<double>(cuts.size())))
-            return {};
-        for_chunks(std::min(tiles_a_call, cuts.size() - first), 1,
-                   [&](std::size_t begin, std::size_t, std::size_t) {
-                       borders[first + begin] =
-                           weld_tile(points, *tiled, first + begin, options.tolerance, leader_of);
-                   });
+
+    std::vector<welded_tile> tiles(cuts.size());
+    const auto weld_tiles = [&](std::span<const std::size_t> some, std::size_t largest_border) {
+        for_chunks(some.size(), 1, [&](std::size_t k, std::size_t, std::size_t) {
+            tiles[some[k]] =
+                weld_tile(points, *tiled, some[k], options.tolerance, largest_border, leader_of);
+        });
+    };
+    std::vector<std::size_t> left(cuts.size());
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    if (how.when == tiling::if_faster) {
+        const std::array tried{cuts.size() / 3, cuts.size() * 2 / 3};
+        weld_tiles(tried, how.points_a_tile / 4);
+        std::size_t known = 0;
+        std::size_t kept = 0;
+        for (const std::size_t t : tried) {
+            if (tiles[t].given_up) return {};
+            known += tiled->begin[t + 1] - tiled->begin[t];
+            kept += tiled->begin[t + 1] - tiled->begin[t] - tiles[t].dropped;
+            std::erase(left, t);
+        }
+        if (kept * (points.size() / 1024) < known * (few_kept / 1024)) return {};
     }
+    for (std::size_t first = 0; first < left.size(); first += tiles_a_call) {
+        if (options.progress &&
+            !options.progress(static_cast<double>(first) / static_cast<double>(left.size())))
+            return {};
+        weld_tiles(std::span(left).subspan(first, std::min(tiles_a_call, left.size() - first)),
+                   points.size());
+    }
+
     std::vector<border_point> border;
-    for (auto& some : borders) {
-        border.insert(border.end(), some.begin(), some.end());
-        some = {};
+    for (welded_tile& tile : tiles) {
+        border.insert(border.end(), tile.border.begin(), tile.border.end());
+        tile = {};
     }
     std::sort(border.begin(), border.end(),
               [](const border_point& a, const border_point& b) { return a.tag < b.tag; });

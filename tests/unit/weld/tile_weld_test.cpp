@@ -245,8 +245,9 @@ void check_same(const cloud& points, double tolerance, test::random& random) {
                     expected);
         }
         if (rule != weld_rule::first) continue;
-        const auto tiled = tf::detail::weld::tiled_leaders(points, {.tolerance = tolerance},
-                                                           points.size() / 7 + 1);
+        const auto tiled = tf::detail::weld::tiled_leaders(
+            points, {.tolerance = tolerance},
+            {points.size() / 7 + 1, tf::detail::weld::tiling::always});
         CHECK((tiled.empty() || std::ranges::equal(tiled, expected)));
         in_memory += tiled.size();
     }

@@ -1,0 +1,95 @@
+#include <libmesh/weld/dense.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+using tf::point3;
+using tf::detail::weld::dense_leaders;
+using tf::detail::weld::tiled_leaders;
+using tf::detail::weld::tiling;
+using cloud = std::vector<point3>;
+
+constexpr std::size_t side = 640;
+
+/// One point near each place of a square grid, row by row.
+cloud rows(test::random& random) {
+    cloud points;
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x)
+            points.push_back({static_cast<double>(x) + random.unit(),
+                              static_cast<double>(y) + random.unit(), 0.1 * random.unit()});
+    return points;
+}
+
+void check_groups(const cloud& points, const tf::weld_options& options) {
+    const auto leaders = dense_leaders(points, options);
+    const tf::point_groups groups = tf::group_points(points, options);
+    REQUIRE(groups.group_of_point.size() == leaders.size());
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < leaders.size(); ++i)
+        if (groups.first_of_group[groups.group_of_point[i]] != leaders[i]) ++wrong;
+    CHECK(wrong == 0);
+}
+
+}  // namespace
+
+TEST_CASE("tiled_leaders: rows that hang on each other are left to the way through the file") {
+    test::random random(5);
+    const cloud points = rows(random);
+    const tf::weld_options options{.tolerance = 2.0};
+    CHECK(tiled_leaders(points, options).empty());
+    CHECK(tiled_leaders(points, options, {.when = tiling::always}) ==
+          dense_leaders(points, options));
+    check_groups(points, options);
+}
+
+TEST_CASE("tiled_leaders: the same points in any order are welded in tiles") {
+    test::random random(6);
+    cloud points = rows(random);
+    random.shuffle(points);
+    const tf::weld_options options{.tolerance = 1.25};
+    CHECK(tiled_leaders(points, options) == dense_leaders(points, options));
+    check_groups(points, options);
+}
+
+TEST_CASE("tiled_leaders: where few points are kept, they are not worth it") {
+    test::random random(7);
+    cloud points = rows(random);
+    random.shuffle(points);
+    const tf::weld_options options{.tolerance = 8.0};
+    CHECK(tiled_leaders(points, options).empty());
+    CHECK(tiled_leaders(points, options, {.when = tiling::always}) ==
+          dense_leaders(points, options));
+    check_groups(points, options);
+}
+
+TEST_CASE("tiled_leaders: where cubes give way to neighboring doubles, nothing is missed") {
+    for (int sixteenths = 16; sixteenths < 32; ++sixteenths) {
+        const double edge = sixteenths / 16.0;
+        CHECK(std::nextafter(edge * 0x1p44, 0.0) * (1.0 / edge) < 0x1p44);
+    }
+    test::random random(8);
+    for (int bits = 42; bits < 51; ++bits)
+        for (const double edge : {1.1875, 1.875, 2.75}) {
+            const double tolerance = edge / 2.09;
+            CAPTURE(bits);
+            cloud points;
+            for (int i = 0; i < 2'000; ++i)
+                points.push_back({std::ldexp(edge, bits) + random.in(-9, 9),
+                                  random.in(-9, 9) - std::ldexp(1.0, bits), random.in(-2, 2)});
+            const tf::weld_options options{.tolerance = tolerance};
+            const auto expected = dense_leaders(points, options);
+            CHECK(tiled_leaders(points, options, {4'000, tiling::always}) == expected);
+            const auto in_tiles = tiled_leaders(points, options, {300, tiling::always});
+            CHECK((in_tiles.empty() || in_tiles == expected));
+        }
+}
