@@ -86,15 +86,11 @@ stream_search_result stream_search::finish() {
 void stream_search::remove_folder() { state_->folder.remove(); }
 
 bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
-    try {
-        const auto in = detail::io::source::open(input);
-        const auto found = detail::io::detect(in, detail::io::plain_extension(format),
-                                              detail::io::extension_of(input));
-        return found.kind == detail::io::file_kind::stl_binary ||
-               (found.kind == detail::io::file_kind::ply && detail::io::has_rows_to_look_at(in));
-    } catch (const io_error&) {
-        return false;
-    }
+    const auto in = detail::io::source::open(input);
+    const auto found = detail::io::detect(in, detail::io::plain_extension(format),
+                                          detail::io::extension_of(input));
+    return found.kind == detail::io::file_kind::stl_binary ||
+           (found.kind == detail::io::file_kind::ply && detail::io::has_rows_to_look_at(in));
 }
 
 stream_search_result self_intersections_of_file(const fs::path& input,

@@ -311,7 +311,7 @@ class Tiles(ToolTest):
     def test_what_fails_under_mpirun_is_said_once(self):
         self.put_all(heap(10))
         for arguments, status, words in (
-                (["none.stl"], 2, "none.stl"), (["in.stl", "--within"], 2, "needs the whole mesh"),
+                (["none.stl"], 3, "none.stl"), (["in.stl", "--within"], 2, "needs the whole mesh"),
                 (["in.stl", "--pairs", "none/p.csv"], 4, "no folder none"),
                 (["in.stl", "--work", "none/tiles"], 4, "none/tiles: cannot be made"),
                 (["in.stl", "float.ply"], 2, "mpirun: one INPUT"),
@@ -352,6 +352,10 @@ class Tiles(ToolTest):
             run = self.run_tool(*arguments, "--tile-faces", 10, status=2)
             self.assertIn(word + " needs the whole mesh in memory", run.err)
             self.assertEqual(word in ("standard input", "a pipe"), "MB" not in run.err, run.err)
+        self.put("damaged.ply", "ply\nformat ascii 1.0\nelement vertex -1\nend_header\n")
+        for name, fault in (("damaged.ply", "damaged.ply:3: an element needs"),
+                            ("none.ply", "none.ply: No such file")):
+            self.assertIn(fault, self.run_tool(name, "--tile-faces", 10, status=3).err)
         self.put("foreign/file.txt", "mine")
         run = self.run_tool("in.stl", "--tile-faces", 10, "--work", "foreign", status=4)
         self.assertIn("holds files that this tool has not put there", run.err)

@@ -5,7 +5,6 @@ from weld_support import *
 import hashlib
 import random
 import resource
-import signal
 
 FIELDS = "x y z t"  # doubles, and a float
 
@@ -226,16 +225,7 @@ class Packed(WeldTest):
             self.run_tool("in.pcd", *gives, *more, status=0)
             expected = self.written()
             work = ["in.pcd", *gives, *more, "--tile-points", 4000, "--work", "tiles"]
-            for step in range(1, 100, 2):
-                run = self.mpi(3, *work, status=None, last=["--stop-at", step])
-                if run.status == 0:  # it had fewer steps
-                    self.written()
-                    break
-                self.assertEqual(run.status, 128 + signal.SIGKILL)
-                self.assertEqual(self.listing(), ["in.pcd", "tiles"])
-                run = self.mpi(self.rng.choice((1, 2, 4)), *work, "-v")
-                self.assertIn("finished before", run.err)
-                self.assertEqual(self.written(), expected)
+            self.check_kills(3, work, expected, between=2)
         self.assertEqual(self.listing(), ["in.pcd"])
 
     def test_processes_that_share_a_folder_unpack_it_where_they_read_it(self):

@@ -342,16 +342,7 @@ class Shared(WeldTest):
                            (3, ["--keep", "mean"])):
             expected = self.one(*gives, *more)
             work = ["in.ply", *gives, *more, "--tile-points", 400, "--work", "tiles"]
-            for step in range(1, 100):
-                run = self.mpi(size, *work, status=None, last=["--stop-at", step])
-                if run.status == 0:  # it had fewer steps
-                    self.written()
-                    break
-                self.assertEqual(run.status, 128 + signal.SIGKILL)
-                self.assertEqual(self.listing(), ["in.ply", "tiles"])
-                run = self.mpi(self.rng.choice((1, 2, 4)), *work, "-v")
-                self.assertIn("finished before", run.err)
-                self.assertEqual(self.written(), expected)
+            self.check_kills(size, work, expected)
         self.assertEqual(self.listing(), ["in.ply"])
         points = [(*p, 0.5) for p in cloud(self.rng, 1500) if p[0] == p[0]]
         self.write("in.csv", texts(points)["in.csv"])

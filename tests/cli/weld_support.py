@@ -2,6 +2,8 @@
 
 from support import *
 
+import signal
+
 
 def xyz_bytes(points):
     return "".join(" ".join(repr(float(x)) for x in p) + "\n" for p in points).encode()
@@ -52,6 +54,20 @@ class WeldTest(ToolTest):
         report = self.report(*arguments, status=status)
         self.assertEqual(len(report["files"]), 1)
         return report["files"][0]
+
+    def check_kills(self, size, work, expected, between=1):
+        """Of so many ranks one is killed at each step, or each few; then any number goes on."""
+        for step in range(1, 100, between):
+            run = self.mpi(size, *work, status=None, last=["--stop-at", step])
+            if run.status == 0:  # it had fewer steps
+                self.assertEqual(self.written(), expected)
+                return
+            self.assertEqual(run.status, 128 + signal.SIGKILL)
+            self.assertEqual(self.listing(), [work[0], "tiles"])
+            run = self.mpi(self.rng.choice((1, 2, 4)), *work, "-v")
+            self.assertIn("finished before", run.err)
+            self.assertEqual(self.written(), expected)
+        self.fail("more than 100 steps")
 
     def numbers(self, name):
         """The rows of a text file of numbers."""

@@ -19,8 +19,12 @@ std::string what_needs_memory(const job& work, const search_settings& settings, 
     if (settings.tolerance.value > 0.0) return "-t";
     if (work.path == "-") return "standard input";
     if (is_read_once(work.path)) return "a pipe";
-    if (!tf::is_searched_in_tiles(work.path, work.options.format))
-        return "a file that is neither a binary STL nor a PLY";
+    try {
+        if (!tf::is_searched_in_tiles(work.path, work.options.format))
+            return "a file that is neither a binary STL nor a PLY";
+    } catch (const tf::io_error&) {
+        return {};  // whoever reads it tells the fault
+    }
     return {};
 }
 

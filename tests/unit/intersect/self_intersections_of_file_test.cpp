@@ -247,7 +247,8 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(folder.path / "no.stl"), tf::io_error);
     CHECK(tf::is_searched_in_tiles(path));
     CHECK_FALSE(tf::is_searched_in_tiles(folder.path / "grid.obj"));
-    CHECK_FALSE(tf::is_searched_in_tiles(folder.path / "no.stl"));
+    CHECK_THROWS_AS(static_cast<void>(tf::is_searched_in_tiles(folder.path / "no.stl")),
+                    tf::io_error);
     fs::resize_file(path, fs::file_size(path) - 100);
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
     CHECK_FALSE(fs::exists(path.string() + ".search-tiles"));

@@ -207,7 +207,9 @@ struct stream_search_result {
 [[nodiscard]] TREEFORM_API stream_search_result self_intersections_of_file(
     const std::filesystem::path& input, const stream_search_options& options = {});
 
-/// Whether the file is of a format that is searched in tiles; false for one that cannot be read.
+/// Whether the file is of a format that is searched in tiles.
+///
+/// \throws io_error when the file cannot be read, or its header is damaged
 [[nodiscard]] TREEFORM_API bool is_searched_in_tiles(const std::filesystem::path& input,
                                                      std::string_view format = {});
 
