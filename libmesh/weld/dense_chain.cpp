@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -63,7 +62,7 @@ constexpr std::array<cube, 13> half_around{{{0, 0, 1},
                                             {1, 1, 1}}};
 
 struct member {
-    std::uint64_t hash;  ///< of its cube and label
+    std::uint64_t hash;  ///< of its cell and label, and its place in the cell
     std::uint32_t id;
 };
 
@@ -133,26 +132,41 @@ class chain_finder {
 
     std::vector<std::uint32_t> run() {
         sort();
+        if (!go_on(0)) return {};
         find_cells();
         base::union_find sets(blocks_.size());
         for (std::size_t first = 0; first < cells(); first += cells_a_call) {
-            if (options_->progress &&
-                !options_->progress(static_cast<double>(first) / static_cast<double>(cells())))
-                return {};
+            if (!go_on(first)) return {};
             const std::size_t count = std::min(cells_a_call, cells() - first);
-            for_chunks(count, 16, [&](std::size_t begin, std::size_t end, std::size_t) {
-                neighborhood near;
-                std::vector<std::pair<std::uint32_t, std::uint32_t>> unsure;
-                for (std::size_t c = begin; c < end; ++c)
-                    join_around(first + c, near, unsure, sets);
+            for_chunks(count, 4, [&](std::size_t begin, std::size_t end, std::size_t) {
+                scratch space;
+                for (std::size_t c = begin; c < end; ++c) join_around(first + c, space, sets);
             });
         }
         return roots(sets.take_roots().span());
     }
 
   private:
-    static constexpr std::size_t cells_a_call = std::size_t{1} << 16;
+    static constexpr std::size_t cells_a_call = std::size_t{1} << 12;
 
+    /// A cell beside another.
+    struct beside {
+        std::uint32_t number;
+        cube away;
+    };
+    /// What is used again for each cell of a chunk.
+    struct scratch {
+        neighborhood near{};
+        std::vector<beside> found{};
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> unsure{};
+        std::vector<std::uint32_t> of_one{};
+        std::vector<std::uint32_t> of_other{};
+    };
+
+    [[nodiscard]] bool go_on(std::size_t cells_done) const {
+        return !options_->progress || options_->progress(static_cast<double>(cells_done) /
+                                                         static_cast<double>(cells_.size() + 1));
+    }
     [[nodiscard]] std::uint32_t label_of(std::uint32_t i) const {
         return options_->label.empty() ? 0 : options_->label[i];
     }
@@ -203,8 +217,8 @@ class chain_finder {
         }
     }
 
-    /// Cuts the members of one hash into blocks: all are one unless `may_merge` says no, or they
-    /// are of several cubes or labels.
+    /// Cuts the members of one hash into blocks: all are one unless `may_merge` says no, they are of
+    /// several cubes or labels, or so far out that cubes are wide.
     void add_blocks(std::span<member> members, std::size_t place, std::vector<block>& blocks) {
         std::vector<std::vector<member>> apart;
         std::size_t together = 1;
@@ -284,13 +298,8 @@ class chain_finder {
         }
     }
 
-    /// A cell beside another.
-    struct beside {
-        std::uint32_t number;
-        cube away;
-    };
     /// Notes the blocks of half of the cells around one, which are of its label.
-    void note_half_around(const block& any, neighborhood& near) const {
+    void note_half_around(const block& any, scratch& space) const {
         const std::uint32_t label = label_of(id(any));
         const cube middle = cell(any);
         const auto at = [&](const cube& away) {
@@ -302,49 +311,54 @@ class chain_finder {
             by_hash_.prefetch(hashes[k]);
         }
         // Each turn asks memory for what the next one reads.
-        std::vector<beside> found;
+        space.found.clear();
         for (std::size_t k = 0; k < half_around.size(); ++k)
             by_hash_.visit(hashes[k], [&](std::uint32_t c) {
-                found.push_back({c, half_around[k]});
+                space.found.push_back({c, half_around[k]});
                 __builtin_prefetch(&cells_[c]);
             });
-        for (const beside& one : found) __builtin_prefetch(&blocks_[cells_[one.number]]);
-        for (const beside& one : found)
+        for (const beside& one : space.found) __builtin_prefetch(&blocks_[cells_[one.number]]);
+        for (const beside& one : space.found)
             __builtin_prefetch(&members_.records[blocks_[cells_[one.number]].begin]);
-        for (const beside& one : found) {
+        for (const beside& one : space.found) {
             const block& of = blocks_[cells_[one.number]];
             if (cell(of) == at(one.away) && label_of(id(of)) == label)
-                note(one.number, one.away, near);
+                note(one.number, one.away, space.near);
         }
     }
 
     /// Joins the blocks of a cell with each other and with those in half of the cells around it;
     /// the other half looks from there.
-    void join_around(std::size_t c, neighborhood& near,
-                     std::vector<std::pair<std::uint32_t, std::uint32_t>>& unsure,
-                     base::union_find& sets) const {
-        near.clear();
-        note(c, {0, 0, 0}, near);
-        note_half_around(blocks_[cells_[c]], near);
-        unsure.clear();
+    void join_around(std::size_t c, scratch& space, base::union_find& sets) const {
+        constexpr std::size_t many = std::size_t{1} << 16;
+        space.near.clear();
+        note(c, {0, 0, 0}, space.near);
+        note_half_around(blocks_[cells_[c]], space);
         for (std::uint32_t b = cells_[c]; b < cells_[c + 1]; ++b)
-            near.visit(place_in_cell(hash(blocks_[b])), [&](std::uint32_t other) {
+            space.near.visit(place_in_cell(hash(blocks_[b])), [&](std::uint32_t other) {
                 const bool looks_from_there = other >= cells_[c] && other <= b;
                 if (looks_from_there || sets.root(b) == sets.root(other)) return;
-                if (match_.near(blocks_[b].first, blocks_[other].first) &&
-                    (match_.by_distance() || match_(id(blocks_[b]), id(blocks_[other]))))
+                const block& one = blocks_[b];
+                const block& two = blocks_[other];
+                if (match_.near(one.first, two.first) &&
+                    (match_.by_distance() || match_(id(one), id(two)))) {
                     sets.join(b, other);
-                else
-                    unsure.emplace_back(b, other);
+                } else if (one.end - one.begin > 1 || two.end - two.begin > 1) {
+                    space.unsure.emplace_back(b, other);
+                    if (space.unsure.size() == many) settle(space, sets);
+                }
             });
-        std::vector<std::uint32_t> of_b;
-        std::vector<std::uint32_t> of_other;
-        for (const auto& [b, other] : unsure) {
+        settle(space, sets);
+    }
+    /// Asks of all members of blocks whose firsts do not match; most have been joined by then.
+    void settle(scratch& space, base::union_find& sets) const {
+        for (const auto& [b, other] : space.unsure) {
             if (sets.root(b) == sets.root(other)) continue;
-            list(blocks_[b], of_b);
-            list(blocks_[other], of_other);
-            if (any_match(match_, of_b, of_other)) sets.join(b, other);
+            list(blocks_[b], space.of_one);
+            list(blocks_[other], space.of_other);
+            if (any_match(match_, space.of_one, space.of_other)) sets.join(b, other);
         }
+        space.unsure.clear();
     }
     void list(const block& b, std::vector<std::uint32_t>& ids) const {
         ids.clear();

@@ -15,13 +15,17 @@
 
 namespace treeform::detail::weld {
 
-/// Cubes whose edge is a multiple of a sixteenth of a power of two, and at least 2.0833 times as
-/// wide as a reach. An interval of the reach to both sides, rounded outward, meets at most two
-/// cubes a side, those of its ends: for |x| below 2^44 edges it is 2 / 2.0833 + 2^-6 edges wide,
-/// positions in edges are off by 2^-8, and all that is less than 1. Beyond, a cube is 1024
-/// neighboring doubles a side, which are at least two edges, and the interval is less than an edge
-/// and 8 of these doubles wide. Where the one kind ends, a cube of either does: no position below
-/// 2^44 is rounded up to it, with any of the 16 edges.
+/// Cubes whose edge is a multiple of an eighth of a power of two, and at least 2.0833 times as wide
+/// as a reach. An interval of the reach to both sides, rounded outward, meets at most two cubes a
+/// side, those of its ends:
+/// - For |x| below 2^44 edges, positions in edges are told by multiplication. The interval is
+///   2 / 2.0833 edges wide, and 2^-6 for the slack, 2^-7 for the rounding of its ends, 2^-7 for
+///   that of the two positions: less than 1.
+/// - Beyond, a cube is so many neighboring doubles a side: 1024 at first, which are at least two
+///   edges, half as many with each further power of two, and 32 at last. There an edge is less
+///   than 16 doubles, and the interval less than an edge and 10.
+/// - Where these change, at multiples of 1024 doubles, whole cubes begin: no position below 2^44 is
+///   rounded up to it, and the lower cube is at least 1 - 2^-8 edges wide.
 class cube_map {
   public:
     explicit cube_map(double reach)
@@ -42,7 +46,7 @@ class cube_map {
         std::array<cube, 2> ends;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double x = p[axis];
-            const double slack = exact_ ? 0.0 : (std::abs(x) + half_) * 0x1p-51;
+            const double slack = exact_ ? 0.0 : std::abs(x) * 0x1p-51 + half_ * 0x1p-51;
             ends[0][axis] = index(std::max(x - half_ - slack, -greatest));
             ends[1][axis] = index(std::min(x + half_ + slack, greatest));
         }
@@ -70,6 +74,7 @@ class cube_map {
         edge_ = edge;
         per_edge_ = 1.0 / edge;
         limit_ = std::ldexp(edge, straight_bits);
+        limit_exponent_ = exponent_of(std::bit_cast<std::int64_t>(limit_));
     }
 
     [[nodiscard]] std::int64_t index(double x) const {
@@ -79,7 +84,11 @@ class cube_map {
             return static_cast<double>(cut) > steps ? cut - 1 : cut;
         }
         const auto bits = std::bit_cast<std::int64_t>(x + 0.0);  // -0 becomes +0
-        return exact_ ? bits : bits >> 10;
+        return exact_ ? bits : bits >> (10 - std::min(exponent_of(bits) - limit_exponent_, 5));
+    }
+
+    [[nodiscard]] static int exponent_of(std::int64_t bits) {
+        return static_cast<int>(bits >> 52 & 0x7ff);
     }
 
     static constexpr int straight_bits = 44;
@@ -90,6 +99,7 @@ class cube_map {
     double edge_ = 0.0;
     double per_edge_ = 1.0;
     double limit_ = 0.0;
+    int limit_exponent_ = 0;
 };
 
 /// Points by cube. Cubes start wide, so that a look mostly meets one of them, and shrink when they

@@ -147,7 +147,7 @@ class first_pass {
     struct neighbors {
         nearest_kept kept;
         nearest_kept open;       ///< of those that stand for themselves
-        double standing_square;  ///< of the distance of the nearest other one, rounded
+        double standing_square;  ///< of the distance of the nearest other one, rounded; or infinity
         bool some_open;
         open_point* covering;
     };
@@ -168,8 +168,8 @@ class first_pass {
             if (!agrees(open_.values, number)) return;
             found.some_open = true;
             if (q.stands())
-                found.standing_square =
-                    std::min(found.standing_square, rounded_squared_distance(p, q.at));
+                found.standing_square = std::min(
+                    {found.standing_square, rounded_squared_distance(p, q.at), largest_square});
             else
                 found.open.consider(q.id(), q.at);
             if (within_fourth_.holds(p, q.at) &&
@@ -213,6 +213,7 @@ class first_pass {
     }
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static constexpr double largest_square = std::numeric_limits<double>::max();
 
     const agreement& agree_;
     reach within_;

@@ -23,7 +23,7 @@ std::string what_needs_memory(const job& work, const search_settings& settings, 
         if (!tf::is_searched_in_tiles(work.path, work.options.format))
             return "a file that is neither a binary STL nor a PLY";
     } catch (const tf::io_error&) {
-        return {};  // whoever reads it tells the fault
+        return {};  // the reader names the fault
     }
     return {};
 }

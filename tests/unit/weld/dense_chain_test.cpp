@@ -105,3 +105,34 @@ TEST_CASE("dense_chains: cells of one hash are told apart") {
     }
     CHECK(found > 10);
 }
+
+TEST_CASE("dense_chains: progress is told often, and stops the work") {
+    std::mt19937_64 engine(8);
+    std::vector<point3> points;
+    for (int i = 0; i < 60'000; ++i) {
+        const point3 p = test::unit_point(engine);
+        points.push_back({400.0 * p.x, 400.0 * p.y, p.z});
+    }
+    tf::weld_options options{.tolerance = 0.2, .rule = tf::weld_rule::chain};
+    int calls = 0;
+    options.progress = [&](double) { return ++calls > 0; };
+    CHECK(tf::detail::weld::dense_chains(points, options).size() == points.size());
+    CHECK(calls > 5);
+    const int all = calls;
+    for (int stop = 1; stop < all; ++stop) {
+        calls = 0;
+        options.progress = [&](double) { return ++calls < stop; };
+        CHECK(tf::detail::weld::dense_chains(points, options).empty());
+        CHECK(calls == stop);
+    }
+}
+
+TEST_CASE("dense_chains: points that may not merge take no room in pairs") {
+    std::mt19937_64 engine(9);
+    std::vector<point3> points;
+    for (int i = 0; i < 4'000; ++i) points.push_back(test::unit_point(engine));
+    const auto of_class = [](std::uint32_t i, std::uint32_t j) { return i % 50 == j % 50; };
+    check_chains(points, 0.05, {}, of_class);
+    check_chains(points, 0.3, {}, of_class);
+    check_chains(points, 0.3, {}, [](std::uint32_t, std::uint32_t) { return false; });
+}

@@ -1,13 +1,16 @@
 #include <libmesh/weld/dense.hpp>
+#include <libmesh/weld/near_cells.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace {
@@ -19,6 +22,7 @@ using tf::detail::weld::tiling;
 using cloud = std::vector<point3>;
 
 constexpr std::size_t side = 640;
+constexpr double largest = std::numeric_limits<double>::max();
 
 /// One point near each place of a square grid, row by row.
 cloud rows(test::random& random) {
@@ -92,4 +96,56 @@ TEST_CASE("tiled_leaders: where cubes give way to neighboring doubles, nothing i
             const auto in_tiles = tiled_leaders(points, options, {300, tiling::always});
             CHECK((in_tiles.empty() || in_tiles == expected));
         }
+}
+
+TEST_CASE("near_cells: an interval meets the first and the last of its cubes only") {
+    test::random random(9);
+    for (const double reach : {1.0, 1.26, 0.7, 0x1p-1060, 0x1p970}) {
+        tf::detail::weld::cube_map cubes(reach);
+        while (cubes.can_shrink()) cubes.shrink();
+        for (int bits = 38; bits < 62; ++bits)
+            for (int i = 0; i < 2'000; ++i) {
+                const double at = std::min(std::ldexp(reach, bits) * random.in(0.9, 2.3), largest);
+                const double sign = i % 2 == 0 ? 1.0 : -1.0;
+                const double other =
+                    std::clamp(at + reach * random.in(-1.0, 1.0), -largest, largest);
+                if (!(std::abs(other - at) <= reach)) continue;
+                const auto ends = cubes.around({sign * at, 0, 0});
+                const auto cube = cubes.of({sign * other, 0, 0});
+                const bool met = cube[0] == ends[0][0] || cube[0] == ends[1][0];
+                if (!met) FAIL_CHECK(reach << " at " << at << ": " << other << " is not met");
+            }
+    }
+}
+
+TEST_CASE("tiled_leaders: next to the largest double nothing is missed") {
+    const cloud points{{0, 0, 0x1.ffffffffffd53p+1023}, {0, 0, 0x1.ffffffffffea9p+1023}};
+    const tf::weld_options options{.tolerance = 0x1.cp+979};
+    CHECK(dense_leaders(points, options) == std::vector<std::uint32_t>{0, 0});
+    CHECK(tiled_leaders(points, options, {10, tiling::always}) == dense_leaders(points, options));
+}
+
+TEST_CASE("tiled_leaders: distances whose squares overflow lead to the nearest, too") {
+    test::random random(10);
+    cloud points;
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 90; ++x)
+            points.push_back({0x1p520 * (x + random.unit()), 0x1p520 * (y + random.unit()), 0});
+    for (int turn = 0; turn < 4; ++turn) {
+        random.shuffle(points);
+        const tf::weld_options options{.tolerance = 0x1.4p520};
+        const auto tiled = tiled_leaders(points, options, {800, tiling::always});
+        CHECK(tiled == dense_leaders(points, options));
+    }
+}
+
+TEST_CASE("tiled_leaders: where a double is as wide as the tolerance, crowds take no time") {
+    test::random random(11);
+    cloud points;
+    for (int i = 0; i < 50'000; ++i)
+        points.push_back({0x1p52 + random.in(0, 1000), 0x1p52 + random.in(0, 1000),
+                          0x1p52 + random.in(0, 1000)});
+    const tf::weld_options options{.tolerance = 0.9};  // 10 s where cubes are 1024 doubles wide
+    CHECK(tiled_leaders(points, options, {100'000, tiling::always}) ==
+          dense_leaders(points, options));
 }

@@ -114,9 +114,9 @@ struct file_weld_result {
 ///         lowest element of the arrays given
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, as long as
 ///         `may_merge` is empty or nearly always true; parallel, except for rule `first` where points
-///         have several others within the tolerance and come row by row, or few are kept. Groups take
-///         up to 36 bytes a point (50 for chains in dense places, 110 by `tree`), 40 more in an
-///         `order`; faces 24 each besides the result, 100 with
+///         have several others within the tolerance, and either come row by row or few of them are
+///         kept. Groups take up to 36 bytes a point (50 for chains in dense places, 110 by `tree`),
+///         40 more in an `order`; faces 24 each besides the result, 100 with
 ///         `keep_manifold`; conditions 8 a point and property
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(mesh_view mesh, const weld_options& options = {});

@@ -218,7 +218,8 @@ typedef struct treeform_search_result {
 TREEFORM_C_API treeform_code treeform_self_intersections_of_file(
     const char* path, const treeform_search_file_options* options, treeform_search_result** result);
 
-/// Whether the file is of a format that is searched in tiles. `format` may be null.
+/// Whether the file is of a format that is searched in tiles; an error when it cannot be read, or
+/// its header is damaged. `format` may be null.
 TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, const char* format,
                                                            int32_t* is);
 
