@@ -12,6 +12,7 @@
 #include <libmesh/stream/row_file.hpp>
 #include <libmesh/stream/unpacked_pcd.hpp>
 #include <libmesh/stream/work_folder.hpp>
+#include <libmesh/weld/tile_cuts.hpp>
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 

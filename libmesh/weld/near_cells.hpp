@@ -118,6 +118,7 @@ class near_cells {
         hang_all();
     }
     [[nodiscard]] std::size_t size() const { return entries_.size(); }
+    [[nodiscard]] Entry& operator[](std::size_t number) { return entries_[number]; }
 
     /// Entries are numbered as they come. \pre `salt` is 0 unless salted
     void add(const Entry& entry, std::uint64_t salt = 0) {

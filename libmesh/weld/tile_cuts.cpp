@@ -1,4 +1,4 @@
-#include <libmesh/weld/tile_weld.hpp>
+#include <libmesh/weld/tile_cuts.hpp>
 #include <libmesh/weld/tolerance.hpp>
 
 #include <algorithm>

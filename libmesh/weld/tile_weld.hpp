@@ -36,7 +36,7 @@
 /// the lowest is known to no tile before; a tile names the points of components that may be larger,
 /// each with the lowest it knows of, and they are measured when all are brought together.
 ///
-/// The border pass may be taken in parts: one for some tiles each, and then one for what some of
+/// The border pass may be taken in parts of space: one for some tiles each, and then one for what
 /// these passes leave. A point is outer to a pass when it is in a tile that is not among its own,
 /// or in the halo of one. With the rule first, a pass is to its tiles' points what a tile is to its
 /// own, but it knows nothing of what is beyond its tiles: so it calls an outer point that no kept
@@ -44,8 +44,20 @@
 /// of them, what may change sides to such, and outer kept ones. A pass with no outer points leaves
 /// none. With the rule chain, a pass hands on the links of outer points, with the lowest of what it
 /// has joined.
+///
+/// And with the rule first it may be taken slice by slice of the numbers, each by a `border_weld` of
+/// its own, so that memory holds one slice only: where points come row by row, what is open along a
+/// border may leave all later points of the rows open. A later slice has to know of those points of
+/// the earlier ones that decide the fate of its own. These are asked for: when an own point is open
+/// or leans, a tile marks the open points that are near it with its slice. To each slice that asks
+/// for an open point, what the border pass has made of it is handed over, and of those it stands
+/// for, which are of the same slice. That is all a slice needs: an earlier neighbor that is kept in
+/// the end is open in the point's own tile, or dropped the point there. The same holds for a pass
+/// of some tiles, which marks its own open points, and the one for what these leave: of what tiles
+/// ask for, that has to know where an outer point is asked for.
 
 #include <libmesh/weld/agreement.hpp>
+#include <libmesh/weld/number_slices.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -57,42 +69,6 @@
 #include <vector>
 
 namespace treeform::detail::weld {
-
-/// Space cut by planes, and each part again. All points, also those of no sample, are in one tile;
-/// points within the tolerance of each other are in tiles that know of both.
-class TREEFORM_API tile_cuts {
-  public:
-    /// At most `count` tiles with about equal shares of `sample`, whose points are finite.
-    ///
-    /// \throws std::invalid_argument for a count of 0 or a tolerance that is negative or not finite
-    /// \cost O(n log n) for n points of the sample
-    tile_cuts(points_view sample, double tolerance, std::size_t count);
-
-    [[nodiscard]] std::size_t size() const { return size_; }
-
-    struct node {
-        std::uint32_t direction = leaf;
-        std::uint32_t above = 0;  ///< node; the one below is the next. Of a leaf: the tile
-        double cut = 0.0;         ///< places from here on are above
-    };
-    /// What makes other cuts the same.
-    [[nodiscard]] std::span<const node> nodes() const { return nodes_; }
-    tile_cuts(std::vector<node> nodes, double tolerance);
-
-    /// The tile that the point is in. The others whose halo it is in replace the content of `halos`.
-    ///
-    /// \pre `p` is finite
-    [[nodiscard]] std::uint32_t find(const point3& p, std::vector<std::uint32_t>& halos) const;
-
-  private:
-    static constexpr std::uint32_t leaf = 3;
-
-    std::uint32_t split(std::span<point3> sample, std::size_t count);
-
-    double tolerance_;
-    std::uint32_t size_ = 0;
-    std::vector<node> nodes_{};
-};
 
 /// What a point is to a tile.
 enum class tile_role : std::uint8_t {
@@ -142,6 +118,13 @@ struct border_point {
     [[nodiscard]] border_kind kind() const { return static_cast<border_kind>(tag & 3); }
 };
 
+/// An open point whose fate may decide that of points in later slices.
+struct asked_point {
+    std::uint64_t id = 0;
+    point3 at{};
+    std::uint64_t slices = 0;  ///< a bit for each that asks
+};
+
 /// A point of a component that may be in several tiles, with the rule chain.
 struct tile_member {
     point3 at{};
@@ -170,6 +153,8 @@ struct tile_result {
     std::vector<tile_drop> dropped{};    ///< by ascending numbers; for good with the rule first
     std::vector<border_point> border{};  ///< by ascending numbers
     std::vector<std::uint64_t> border_values{};  ///< of these with the rule first, as for `add`
+    std::vector<asked_point> asked{};            ///< with the rule first, by ascending numbers
+    std::vector<std::uint64_t> asked_values{};   ///< of these
     std::vector<tile_member> members{};          ///< with the rule chain
     /// Of `dropped`, with the rule chain except for the `members`.
     longest_move move{};
@@ -179,7 +164,8 @@ struct tile_result {
 class TREEFORM_API tile_weld {
   public:
     /// \throws std::invalid_argument for a tolerance that is negative or not finite
-    tile_weld(weld_rule rule, double tolerance, agreement agree = {});
+    tile_weld(weld_rule rule, double tolerance, agreement agree = {},
+              const number_slices& slices = {});
     ~tile_weld();
     tile_weld(tile_weld&&) noexcept;
     tile_weld& operator=(tile_weld&&) noexcept;
@@ -210,7 +196,7 @@ class TREEFORM_API tile_weld {
 class TREEFORM_API border_weld {
   public:
     /// \throws std::invalid_argument for a tolerance that is negative or not finite
-    explicit border_weld(double tolerance, agreement agree = {});
+    explicit border_weld(double tolerance, agreement agree = {}, const number_slices& slices = {});
     ~border_weld();
     border_weld(border_weld&&) noexcept;
     border_weld& operator=(border_weld&&) noexcept;
@@ -223,6 +209,16 @@ class TREEFORM_API border_weld {
     /// \pre `outer` is true if the point is, and `values` are those of the agreement
     void add(const border_point& p, std::span<const std::uint64_t> values, bool outer,
              tile_result& out);
+
+    /// Rule first: takes a point that a pass over an earlier slice `hand_over` has named, before any
+    /// of its own slice.
+    void receive(const border_point& p, std::span<const std::uint64_t> values);
+    /// Rule first: appends to `out.border` what a slice that asks for that point has to know.
+    void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
+                   tile_result& out);
+    /// Rule first: appends the open points that other slices ask for, a piece at a time: call it
+    /// until it returns false.
+    [[nodiscard]] bool finish(tile_result& out);
 
     /// The end for the rule chain: links from what has been joined to the lowest, by ascending
     /// numbers. Such a number is that of a dropped point, which may be in a tile's `dropped` as

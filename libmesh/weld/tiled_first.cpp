@@ -1,6 +1,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/weld/dense.hpp>
 #include <libmesh/weld/near_pairs.hpp>
+#include <libmesh/weld/tile_cuts.hpp>
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -1,11 +1,10 @@
-#include <libmesh/weld/crowded_chain.hpp>
 #include <libmesh/weld/dense.hpp>
-#include <libmesh/weld/tile_weld.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/in_tiles.hpp>
 #include <support/random.hpp>
 
 #include <algorithm>
@@ -21,207 +20,21 @@
 
 namespace {
 
+using test::border_way;
+using test::check_equal;
+using test::cloud;
+using test::number_slices;
+using test::tiled;
+using test::values_of_points;
+using test::weld_crowded;
+using test::weld_in_tiles;
+using test::weld_tile;
 using tf::point3;
 using tf::weld_rule;
-using tf::detail::weld::border_point;
-using tf::detail::weld::tile_drop;
 using tf::detail::weld::tile_point;
 using tf::detail::weld::tile_role;
-using cloud = std::vector<point3>;
 
 constexpr std::array rules{weld_rule::first, weld_rule::chain};
-
-bool finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-struct tiled {
-    std::vector<std::uint64_t> leader;
-    double longest = 0.0;
-    std::size_t border = 0;
-};
-
-std::vector<std::vector<tile_point>> scatter(const cloud& points,
-                                             const tf::detail::weld::tile_cuts& cuts) {
-    std::vector<std::vector<tile_point>> tiles(cuts.size());
-    std::vector<std::uint32_t> halos;
-    bool in_range = true;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!finite(points[i])) continue;
-        const std::uint32_t own = cuts.find(points[i], halos);
-        in_range = in_range && own < cuts.size();
-        tiles[own].push_back(
-            tile_point::make(i, halos.empty() ? tile_role::own : tile_role::shared, points[i]));
-        for (const std::uint32_t t : halos) {
-            in_range = in_range && t < cuts.size() && t != own;
-            tiles[t].push_back(tile_point::make(i, tile_role::halo, points[i]));
-        }
-    }
-    REQUIRE(in_range);
-    return tiles;
-}
-
-/// Calls `take` for all of `points`, in blocks of any size.
-template <class Take>
-void in_blocks(const std::vector<tile_point>& points, test::random& random, const Take& take) {
-    for (std::size_t begin = 0; begin < points.size();) {
-        const std::size_t size = std::min(points.size() - begin, 1 + random.below(points.size()));
-        take(std::span(points).subspan(begin, size));
-        begin += size;
-    }
-}
-
-/// What must agree, and the values of all points.
-struct values_of_points {
-    tf::detail::weld::agreement agree{};
-    std::vector<std::uint64_t> values{};
-
-    [[nodiscard]] const std::uint64_t* at(std::uint64_t id) const {
-        return values.data() + id * agree.size();
-    }
-    [[nodiscard]] std::vector<std::uint64_t> of(std::span<const tile_point> points) const {
-        std::vector<std::uint64_t> all;
-        for (const tile_point& p : points)
-            all.insert(all.end(), at(p.id()), at(p.id()) + agree.size());
-        return all;
-    }
-};
-
-tf::detail::weld::tile_result weld_tile(const std::vector<tile_point>& points, weld_rule rule,
-                                        double tolerance, test::random& random,
-                                        const values_of_points& more = {}) {
-    tf::detail::weld::tile_weld tile(rule, tolerance, more.agree);
-    tf::detail::weld::tile_result result;
-    in_blocks(points, random, [&](auto block) { tile.add(block, result, more.of(block)); });
-    while (tile.finish(result)) {
-    }
-    return result;
-}
-
-tf::detail::weld::tile_result weld_crowded(const std::vector<tile_point>& points, double tolerance,
-                                           test::random& random) {
-    tf::detail::weld::crowded_chain tile(tolerance);
-    tf::detail::weld::tile_result result;
-    in_blocks(points, random, [&](auto block) { tile.look(block); });
-    in_blocks(points, random, [&](auto block) { tile.link(block); });
-    in_blocks(points, random, [&](auto block) { tile.settle(block, result); });
-    return result;
-}
-
-void check_equal(const tf::detail::weld::tile_result& a, const tf::detail::weld::tile_result& b) {
-    const auto same_member = [](const auto& p, const auto& q) {
-        return p.at == q.at && p.lowest == q.lowest && p.lowest_at == q.lowest_at;
-    };
-    const auto same_border = [&](const border_point& p, const border_point& q) {
-        return p.tag == q.tag && p.at == q.at && p.leader == q.leader && p.leader_at == q.leader_at;
-    };
-    CHECK(a.dropped == b.dropped);
-    CHECK(std::ranges::equal(a.border, b.border, same_border));
-    CHECK(std::ranges::equal(a.members, b.members, same_member));
-    CHECK(a.move.length() == b.move.length());
-}
-
-/// What tiles [first, last) leave to others: by one pass, or by one over what two passes leave, each
-/// over a half of them, and so on.
-struct passes {
-    weld_rule rule;
-    double tolerance;
-    const tf::detail::weld::tile_cuts& cuts;
-    const std::vector<tf::detail::weld::tile_result>& tiles;
-    const values_of_points& more;
-    bool one_by_one = false;
-    std::vector<tile_drop> dropped{};
-    tf::detail::weld::longest_move longest{};
-    tf::detail::weld::border_weld joined{0.0};  ///< by all passes
-
-    std::vector<border_point> over(std::size_t first, std::size_t last) {
-        std::vector<border_point> border;
-        if (one_by_one && last - first > 1) {
-            const std::size_t middle = (first + last) / 2;
-            border = over(first, middle);
-            const std::vector<border_point> rest = over(middle, last);
-            border.insert(border.end(), rest.begin(), rest.end());
-        } else {
-            for (std::size_t t = first; t < last; ++t)
-                border.insert(border.end(), tiles[t].border.begin(), tiles[t].border.end());
-        }
-        std::ranges::stable_sort(border, {}, &border_point::id);
-        tf::detail::weld::border_weld pass(tolerance, more.agree);
-        tf::detail::weld::tile_result out;
-        std::vector<std::uint32_t> halos;
-        const auto is_outer = [&](const border_point& p) {
-            const auto is_other = [&](std::uint32_t t) { return t < first || t >= last; };
-            return is_other(cuts.find(p.at, halos)) || std::ranges::any_of(halos, is_other);
-        };
-        for (const border_point& p : border)
-            pass.add(p, {more.at(p.id()), more.agree.size()}, is_outer(p), out);
-        for (const border_point& link : pass.joined()) {
-            out.dropped.push_back({link.id(), link.leader});
-            joined.join(link);
-        }
-        if (rule == weld_rule::chain)
-            for (const border_point& p : border)
-                if (is_outer(p)) out.border.push_back(pass.handed_on(p));
-        dropped.insert(dropped.end(), out.dropped.begin(), out.dropped.end());
-        longest.consider(out.move);
-        return out.border;
-    }
-};
-
-/// The leader of each point by `count` tiles, done in an order of `random`, in blocks of any size.
-tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::size_t count,
-                    test::random& random, const values_of_points& more = {},
-                    bool one_by_one = false) {
-    cloud sample;
-    std::copy_if(points.begin(), points.end(), std::back_inserter(sample), finite);
-    const tf::detail::weld::tile_cuts planned(sample, tolerance, count);
-    const tf::detail::weld::tile_cuts slabs({planned.nodes().begin(), planned.nodes().end()},
-                                            tolerance);
-    const auto tiles = scatter(points, slabs);
-    std::vector<std::size_t> order(tiles.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    random.shuffle(order);
-
-    tiled all;
-    all.leader.resize(points.size());
-    std::iota(all.leader.begin(), all.leader.end(), std::uint64_t{0});
-    tf::detail::weld::longest_move longest;
-    std::vector<tile_drop> dropped;
-    std::vector<tf::detail::weld::tile_member> members;
-    std::vector<tf::detail::weld::tile_result> results(tiles.size());
-    for (const std::size_t t : order) {
-        const tf::detail::weld::tile_result& result = results[t] =
-            weld_tile(tiles[t], rule, tolerance, random, more);
-        if (rule == weld_rule::first)
-            REQUIRE(result.border_values.size() == result.border.size() * more.agree.size());
-        if (rule == weld_rule::chain && tiles.size() <= 3 && more.agree.size() == 0)
-            check_equal(result, weld_crowded(tiles[t], tolerance, random));
-        const auto by_id = [](const auto& a, const auto& b) { return a < b; };
-        REQUIRE(std::is_sorted(result.dropped.begin(), result.dropped.end(),
-                               [&](auto& a, auto& b) { return by_id(a.id, b.id); }));
-        REQUIRE(std::is_sorted(result.border.begin(), result.border.end(),
-                               [&](auto& a, auto& b) { return by_id(a.id(), b.id()); }));
-        dropped.insert(dropped.end(), result.dropped.begin(), result.dropped.end());
-        all.border += result.border.size();
-        members.insert(members.end(), result.members.begin(), result.members.end());
-        longest.consider(result.move);
-    }
-
-    passes pass{rule, tolerance, slabs, results, more, one_by_one};
-    REQUIRE(pass.over(0, tiles.size()).empty());
-    longest.consider(pass.longest);
-    for (const tf::detail::weld::tile_member& m : members) pass.joined.measure(m, longest);
-    all.longest = longest.length();
-    for (const tile_drop& d : dropped) all.leader[d.id] = pass.joined.leader_of(d.leader);
-    bool agree = true;  // where a point is named twice
-    for (const tile_drop& d : pass.dropped) {
-        const std::uint64_t leader = pass.joined.leader_of(d.leader);
-        agree = agree && (all.leader[d.id] == d.id || all.leader[d.id] == leader);
-        all.leader[d.id] = leader;
-    }
-    REQUIRE(agree);
-    return all;
-}
 
 std::vector<std::uint64_t> leaders(const cloud& points, weld_rule rule, double tolerance) {
     const auto groups = tf::group_points(points, {.tolerance = tolerance, .rule = rule});
@@ -239,10 +52,13 @@ void check_same(const cloud& points, double tolerance, test::random& random) {
         for (const std::size_t count : {1U, 2U, 3U, 7U, 50U}) {
             CAPTURE(static_cast<int>(rule));
             CAPTURE(count);
-            for (const bool one_by_one : {false, true})
-                CHECK(
-                    weld_in_tiles(points, rule, tolerance, count, random, {}, one_by_one).leader ==
-                    expected);
+            for (const bool by_slices : {false, true}) {
+                const border_way way{.by_halves = random.below(2) == 1, .by_slices = by_slices};
+                CAPTURE(way.by_halves);
+                CAPTURE(by_slices);
+                CHECK(weld_in_tiles(points, rule, tolerance, count, random, {}, way).leader ==
+                      expected);
+            }
         }
         if (rule != weld_rule::first) continue;
         const auto tiled = tf::detail::weld::tiled_leaders(
@@ -343,6 +159,25 @@ TEST_CASE("tile_weld: decisions that hang on each other from tile to tile come o
     check_same(points, 1.0, random);
 }
 
+TEST_CASE("tile_weld: of rows that hang on those before, a slice knows only the last ones") {
+    test::random random(17);
+    cloud points;
+    constexpr std::size_t side = 80;
+    for (std::size_t i = 0; i < side * side; ++i)
+        points.push_back({static_cast<double>(i % side) + 0.5 * random.unit(),
+                          static_cast<double>(i / side) + 0.5 * random.unit(), 0.0});
+    const auto expected = leaders(points, weld_rule::first, 1.9);
+    for (const bool by_halves : {false, true}) {
+        const tiled found = weld_in_tiles(points, weld_rule::first, 1.9, 9, random, {},
+                                          {.by_halves = by_halves, .by_slices = true});
+        CHECK(found.leader == expected);
+        CHECK(found.border > points.size() / 2);
+        // About a row is asked for by each slice; in each of 4 passes where halves are settled first.
+        CHECK(found.handed_over > number_slices::most);
+        CHECK(found.handed_over < number_slices::most * side * (by_halves ? 4 : 1));
+    }
+}
+
 TEST_CASE("tile_weld: mixed scales, outliers and the ends of the doubles give the same groups") {
     test::random random(8);
     cloud points;
@@ -399,8 +234,8 @@ TEST_CASE("tile_weld: the longest move is that from a point to its leader") {
     for (const weld_rule rule : rules)
         for (const double tolerance : {0.0, 0.05, 0.15, 0.3}) {
             CAPTURE(tolerance);
-            const tiled found =
-                weld_in_tiles(points, rule, tolerance, 6, random, {}, random.below(2) == 1);
+            const tiled found = weld_in_tiles(points, rule, tolerance, 6, random, {},
+                                              test::border_ways[random.below(4)]);
             const auto apart = [&](std::size_t i, double x) {
                 const point3& leader = points[found.leader[i]];
                 return tf::compare_distance(points[i], leader, {}, {x, 0.0, 0.0});
@@ -451,10 +286,9 @@ TEST_CASE("tile_weld: points whose values do not agree stay apart, as in the who
                 for (const std::uint32_t g : groups.group_of_point)
                     expected.push_back(groups.first_of_group[g]);
                 for (const std::size_t count : {1U, 2U, 7U, 50U})
-                    for (const bool one_by_one : {false, true})
-                        CHECK(
-                            weld_in_tiles(points, rule, tolerance, count, random, more, one_by_one)
-                                .leader == expected);
+                    for (const border_way& way : test::border_ways)
+                        CHECK(weld_in_tiles(points, rule, tolerance, count, random, more, way)
+                                  .leader == expected);
             }
     }
 }

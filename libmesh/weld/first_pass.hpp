@@ -1,0 +1,299 @@
+#pragma once
+/// \file
+/// The rule first, of the points of a tile or of the borders of some.
+
+#include <libmesh/weld/near_cells.hpp>
+#include <libmesh/weld/nearest_kept.hpp>
+#include <libmesh/weld/reach.hpp>
+#include <libmesh/weld/tile_weld.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::weld {
+
+struct kept_point {
+    point3 at{};
+    std::uint64_t id = 0;
+};
+
+/// An open point. One that `stands` does so for those of its slice within a fourth of the tolerance.
+struct open_point {
+    point3 at{};
+    std::uint64_t tag = 0;
+    std::uint64_t asked_by = 0;  ///< slices with points that its fate may decide
+
+    [[nodiscard]] static open_point make(std::uint64_t id, const point3& at) {
+        return {at, id << 1, 0};
+    }
+    [[nodiscard]] std::uint64_t id() const { return tag >> 1; }
+    [[nodiscard]] bool stands() const { return (tag & 1) != 0; }
+    void stand() { tag |= 1; }
+};
+
+/// What a pass remembers of points with their values.
+template <class Point>
+struct remembered {
+    near_cells<Point> cells;
+    std::vector<std::uint64_t> values{};  ///< in the order of the numbers in `cells`
+
+    void add(const Point& point, std::span<const std::uint64_t> its_values, std::uint64_t salt) {
+        cells.add(point, salt);
+        values.insert(values.end(), its_values.begin(), its_values.end());
+    }
+    [[nodiscard]] std::span<const std::uint64_t> values_of(std::size_t number,
+                                                           std::size_t width) const {
+        return std::span(values).subspan(number * width, width);
+    }
+};
+
+/// The rule first, of the points of a tile or of the borders of some.
+class first_pass {
+  public:
+    first_pass(double tolerance, const agreement& agree, const number_slices& slices)
+        : agree_(agree),
+          slices_(slices),
+          within_(tolerance),
+          // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
+          within_fourth_(tolerance < largest ? 0.25 * tolerance : 0.0),
+          within_half_(tolerance < largest ? 0.5 * tolerance : 0.0),
+          within_more_(tolerance < largest ? 1.26 * tolerance : tolerance),
+          kept_{near_cells<kept_point>(within_.distance(), agree.size() > 0)},
+          open_{near_cells<open_point>(within_more_.distance(), agree.size() > 0)} {}
+
+    void reserve(std::size_t points) {
+        kept_.cells.reserve(points);
+        kept_.values.reserve(points * agree_.size());
+    }
+
+    void add(std::span<const tile_point> points, std::span<const std::uint64_t> values,
+             tile_result& out) {
+        constexpr std::size_t ahead = 12;
+        const auto salt = [&](std::size_t i) {
+            return agree_.salt(values.data() + i * agree_.size());
+        };
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (i + 2 * ahead < points.size())
+                kept_.cells.prefetch(points[i + 2 * ahead].at, salt(i + 2 * ahead));
+            if (i + ahead < points.size())
+                kept_.cells.prefetch_entry(points[i + ahead].at, salt(i + ahead));
+            const tile_point& p = points[i];
+            add({.id = p.id(),
+                 .at = p.at,
+                 .values = values.data() + i * agree_.size(),
+                 .salt = salt(i),
+                 .own = p.role() != tile_role::halo,
+                 .shared = p.role() == tile_role::shared},
+                out);
+        }
+    }
+
+    void add(const border_point& p, std::span<const std::uint64_t> values, bool outer,
+             tile_result& out) {
+        const arrival a{.id = p.id(),
+                        .at = p.at,
+                        .values = values.data(),
+                        .salt = agree_.salt(values.data()),
+                        .shared = outer,
+                        .unsure = outer,
+                        .leaning = p.kind() == border_kind::leaning ? &p : nullptr};
+        if (p.kind() == border_kind::kept)
+            keep(a, out);
+        else
+            add(a, out);
+    }
+
+    /// As `border_weld`.
+    void receive(const border_point& p, std::span<const std::uint64_t> values) {
+        const std::uint64_t salt = agree_.salt(values.data());
+        if (p.kind() == border_kind::kept) {
+            kept_.add({.at = p.at, .id = p.id()}, values, salt);
+            return;
+        }
+        open_point q = open_point::make(p.id(), p.at);
+        if (p.leader == stands_for_others) q.stand();
+        open_.add(q, values, salt);
+    }
+
+    /// As `border_weld`. An open point within a fourth of the tolerance of `asked` may have one that
+    /// stands for it and is as near to it.
+    void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
+                   tile_result& out) {
+        const std::uint64_t salt = agree_.salt(values.data());
+        const auto put = [&](border_point b, const point3& p, bool stands) {
+            b.at = p;
+            b.leader = stands ? stands_for_others : 0;
+            out.border.push_back(b);
+            out.border_values.insert(out.border_values.end(), values.begin(), values.end());
+        };
+        const auto is_same = [&](const std::vector<std::uint64_t>& all, std::size_t number) {
+            return agree_.same(values.data(), all.data() + number * agree_.size());
+        };
+        kept_.cells.visit(asked.at, salt, [&](const kept_point& q, std::size_t number) {
+            if (within_fourth_.holds(asked.at, q.at) && is_same(kept_.values, number))
+                put(border_point::make(q.id, border_kind::kept), q.at, false);
+        });
+        open_.cells.visit(asked.at, salt, [&](const open_point& q, std::size_t number) {
+            const reach& near = q.stands() ? within_half_ : within_fourth_;
+            if (near.holds(asked.at, q.at) && is_same(open_.values, number))
+                put(border_point::make(q.id(), border_kind::open), q.at, q.stands());
+        });
+    }
+
+    /// Appends the open points that later slices ask for, a piece at a time; returns whether there
+    /// are more.
+    [[nodiscard]] bool put_asked(tile_result& out) {
+        constexpr std::size_t piece = std::size_t{1} << 16;
+        const std::size_t end = std::min(open_.cells.size(), next_asked_ + piece);
+        for (; next_asked_ < end; ++next_asked_) {
+            const open_point& p = open_.cells[next_asked_];
+            const std::uint64_t later = slices_.after(p.id(), p.asked_by);
+            if (later == 0) continue;
+            out.asked.push_back({p.id(), p.at, later});
+            const auto values = open_.values_of(next_asked_, agree_.size());
+            out.asked_values.insert(out.asked_values.end(), values.begin(), values.end());
+        }
+        return next_asked_ < open_.cells.size();
+    }
+
+  private:
+    static constexpr std::uint64_t stands_for_others = 1;
+    static constexpr double largest = 0x1p1000;
+
+    struct arrival {
+        std::uint64_t id;
+        const point3& at;
+        const std::uint64_t* values;
+        std::uint64_t salt;
+        bool own = true;
+        bool shared = false;  ///< others have to know of it
+        bool unsure = false;  ///< some of its neighbors may be unknown here
+        const border_point* leaning = nullptr;
+    };
+
+    void add(const arrival& a, tile_result& out) {
+        const neighbors around = look(a);
+        if (around.kept.any()) {
+            if (a.own) drop(a, around, out);
+        } else if (!a.own || a.unsure || around.some_open) {
+            if (a.own) put_unsure(at(a, border_kind::open), a, out);
+            if (around.covering != nullptr)
+                around.covering->stand();
+            else
+                open_.add(open_point::make(a.id, a.at), values_of(a), a.salt);
+        } else {
+            keep(a, out);
+        }
+    }
+
+    void keep(const arrival& a, tile_result& out) {
+        if (a.shared) put(at(a, border_kind::kept), a, out);
+        kept_.add({.at = a.at, .id = a.id}, values_of(a), a.salt);
+    }
+
+    [[nodiscard]] std::span<const std::uint64_t> values_of(const arrival& a) const {
+        return {a.values, agree_.size()};
+    }
+    void put(const border_point& b, const arrival& a, tile_result& out) const {
+        out.border.push_back(b);
+        out.border_values.insert(out.border_values.end(), a.values, a.values + agree_.size());
+    }
+
+    /// One whose fate the open points around it may decide.
+    void put_unsure(const border_point& b, const arrival& a, tile_result& out) {
+        put(b, a, out);
+        for (const std::uint32_t number : met_open_)
+            open_.cells[number].asked_by |= slices_.bit_of(a.id);
+    }
+
+    struct neighbors {
+        nearest_kept kept;
+        nearest_kept open;       ///< of those that stand for themselves
+        double standing_square;  ///< of the distance of the nearest other one, rounded; or infinity
+        bool some_open;
+        open_point* covering;
+    };
+
+    neighbors look(const arrival& a) {
+        const point3& p = a.at;
+        neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, nullptr};
+        if (a.leaning != nullptr) found.kept.consider(a.leaning->leader, a.leaning->leader_at);
+        const auto agrees = [&](const std::vector<std::uint64_t>& values, std::size_t number) {
+            return agree_.holds(a.values, values.data() + number * agree_.size());
+        };
+        kept_.cells.visit(p, a.salt, [&](const kept_point& q, std::size_t number) {
+            if (within_.holds(p, q.at) && agrees(kept_.values, number))
+                found.kept.consider(q.id, q.at);
+        });
+        met_open_.clear();
+        open_.cells.visit(p, a.salt, [&](open_point& q, std::uint32_t number) {
+            if (!(q.stands() ? within_more_ : within_).holds(p, q.at)) return;
+            if (!agrees(open_.values, number)) return;
+            found.some_open = true;
+            met_open_.push_back(number);
+            if (q.stands())
+                found.standing_square = std::min(
+                    {found.standing_square, rounded_squared_distance(p, q.at), largest_square});
+            else
+                found.open.consider(q.id(), q.at);
+            if (slices_.of(q.id()) == slices_.of(a.id) && within_fourth_.holds(p, q.at) &&
+                agree_.same(a.values, open_.values.data() + number * agree_.size()))
+                found.covering = &q;
+        });
+        return found;
+    }
+
+    void drop(const arrival& a, const neighbors& around, tile_result& out) {
+        const nearest_kept& kept = around.kept;
+        if (!a.unsure && !open_may_precede(a.at, around)) {
+            out.dropped.push_back({a.id, kept.id()});
+            out.move.consider(a.at, kept.at());
+            return;
+        }
+        border_point leaning = at(a, border_kind::leaning);
+        leaning.leader = kept.id();
+        leaning.leader_at = kept.at();
+        put_unsure(leaning, a, out);
+    }
+
+    /// What stands for others is nearer by a fourth of the tolerance, as far as is known.
+    [[nodiscard]] bool open_may_precede(const point3& p, const neighbors& around) const {
+        if (!around.some_open) return false;
+        if (around.open.any() && around.kept.precedes(around.open.id(), around.open.at()))
+            return true;
+        if (!(around.standing_square < infinity)) return around.standing_square != infinity;
+        const double kept = rounded_squared_distance(p, around.kept.at());
+        const double least = around.standing_square;
+        // The roots of sums in this range are off by less than a part in 2^48.
+        if (!(least > 0x1p-900 && kept > 0x1p-900 && kept < 0x1p1000)) return true;
+        return std::sqrt(least) - within_fourth_.distance() * (1.0 + 0x1p-40) <=
+               std::sqrt(kept) * (1.0 + 0x1p-40);
+    }
+
+    [[nodiscard]] static border_point at(const arrival& a, border_kind kind) {
+        border_point b = border_point::make(a.id, kind);
+        b.at = a.at;
+        return b;
+    }
+
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static constexpr double largest_square = std::numeric_limits<double>::max();
+
+    const agreement& agree_;
+    number_slices slices_;
+    reach within_;
+    reach within_fourth_;
+    reach within_half_;
+    reach within_more_;
+    remembered<kept_point> kept_;
+    remembered<open_point> open_;
+    std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of those that `look` has met
+    std::size_t next_asked_ = 0;
+};
+
+}  // namespace treeform::detail::weld

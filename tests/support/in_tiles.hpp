@@ -1,0 +1,294 @@
+#pragma once
+/// \file
+/// Clouds welded in tiles, with what lies along the borders settled in any way that may be chosen.
+
+#include <libmesh/weld/crowded_chain.hpp>
+#include <libmesh/weld/tile_cuts.hpp>
+#include <libmesh/weld/tile_weld.hpp>
+#include <treeform/mesh/weld.hpp>
+
+#include <doctest/doctest.h>
+#include <support/random.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace test {
+
+using tf::point3;
+using tf::weld_rule;
+using tf::detail::weld::asked_point;
+using tf::detail::weld::border_point;
+using tf::detail::weld::border_weld;
+using tf::detail::weld::longest_move;
+using tf::detail::weld::number_slices;
+using tf::detail::weld::tile_cuts;
+using tf::detail::weld::tile_drop;
+using tf::detail::weld::tile_member;
+using tf::detail::weld::tile_point;
+using tf::detail::weld::tile_result;
+using tf::detail::weld::tile_role;
+using cloud = std::vector<point3>;
+
+inline bool is_finite(const point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+struct tiled {
+    std::vector<std::uint64_t> leader;
+    double longest = 0.0;
+    std::size_t border = 0;
+    std::size_t handed_over = 0;  ///< from slice to slice
+};
+
+inline std::vector<std::vector<tile_point>> scatter(const cloud& points, const tile_cuts& cuts) {
+    std::vector<std::vector<tile_point>> tiles(cuts.size());
+    std::vector<std::uint32_t> halos;
+    bool in_range = true;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_finite(points[i])) continue;
+        const std::uint32_t own = cuts.find(points[i], halos);
+        in_range = in_range && own < cuts.size();
+        tiles[own].push_back(
+            tile_point::make(i, halos.empty() ? tile_role::own : tile_role::shared, points[i]));
+        for (const std::uint32_t t : halos) {
+            in_range = in_range && t < cuts.size() && t != own;
+            tiles[t].push_back(tile_point::make(i, tile_role::halo, points[i]));
+        }
+    }
+    REQUIRE(in_range);
+    return tiles;
+}
+
+/// Calls `take` for all of `points`, in blocks of any size.
+template <class Take>
+void in_blocks(const std::vector<tile_point>& points, test::random& random, const Take& take) {
+    for (std::size_t begin = 0; begin < points.size();) {
+        const std::size_t size = std::min(points.size() - begin, 1 + random.below(points.size()));
+        take(std::span(points).subspan(begin, size));
+        begin += size;
+    }
+}
+
+/// What must agree, and the values of all points.
+struct values_of_points {
+    tf::detail::weld::agreement agree{};
+    std::vector<std::uint64_t> values{};
+
+    [[nodiscard]] const std::uint64_t* at(std::uint64_t id) const {
+        return values.data() + id * agree.size();
+    }
+    [[nodiscard]] std::vector<std::uint64_t> of(std::span<const tile_point> points) const {
+        std::vector<std::uint64_t> all;
+        for (const tile_point& p : points)
+            all.insert(all.end(), at(p.id()), at(p.id()) + agree.size());
+        return all;
+    }
+};
+
+inline tile_result weld_tile(const std::vector<tile_point>& points, weld_rule rule,
+                             double tolerance, test::random& random,
+                             const values_of_points& more = {}, const number_slices& slices = {}) {
+    tf::detail::weld::tile_weld tile(rule, tolerance, more.agree, slices);
+    tile_result result;
+    in_blocks(points, random, [&](auto block) { tile.add(block, result, more.of(block)); });
+    while (tile.finish(result)) {
+    }
+    return result;
+}
+
+inline tile_result weld_crowded(const std::vector<tile_point>& points, double tolerance,
+                                test::random& random) {
+    tf::detail::weld::crowded_chain tile(tolerance);
+    tile_result result;
+    in_blocks(points, random, [&](auto block) { tile.look(block); });
+    in_blocks(points, random, [&](auto block) { tile.link(block); });
+    in_blocks(points, random, [&](auto block) { tile.settle(block, result); });
+    return result;
+}
+
+inline void check_equal(const tile_result& a, const tile_result& b) {
+    const auto same_member = [](const auto& p, const auto& q) {
+        return p.at == q.at && p.lowest == q.lowest && p.lowest_at == q.lowest_at;
+    };
+    const auto same_border = [&](const border_point& p, const border_point& q) {
+        return p.tag == q.tag && p.at == q.at && p.leader == q.leader && p.leader_at == q.leader_at;
+    };
+    CHECK(a.dropped == b.dropped);
+    CHECK(std::ranges::equal(a.border, b.border, same_border));
+    CHECK(std::ranges::equal(a.members, b.members, same_member));
+    CHECK(a.move.length() == b.move.length());
+}
+
+/// What tiles leave to a border pass, or such a pass to the next one.
+struct left_to_borders {
+    std::vector<border_point> points;
+    std::vector<asked_point> asked;
+
+    void add(const std::vector<border_point>& some, const std::vector<asked_point>& by) {
+        points.insert(points.end(), some.begin(), some.end());
+        asked.insert(asked.end(), by.begin(), by.end());
+    }
+};
+
+/// What tiles [first, last) leave to others: by one pass, or by one over what two passes leave, each
+/// over a half of them, and so on; each of them a slice of the numbers at a time.
+struct passes {
+    weld_rule rule;
+    double tolerance;
+    const tile_cuts& cuts;
+    const std::vector<tile_result>& tiles;
+    const values_of_points& more;
+    number_slices slices;
+    bool by_halves;
+    std::vector<tile_drop> dropped{};
+    longest_move longest{};
+    border_weld joined{0.0};  ///< by all passes
+    std::size_t handed_over = 0;
+
+    left_to_borders over(std::size_t first, std::size_t last) {
+        left_to_borders from;
+        if (by_halves && last - first > 1) {
+            const std::size_t middle = (first + last) / 2;
+            from = over(first, middle);
+            const left_to_borders rest = over(middle, last);
+            from.add(rest.points, rest.asked);
+        } else {
+            for (std::size_t t = first; t < last; ++t) from.add(tiles[t].border, tiles[t].asked);
+        }
+        std::ranges::stable_sort(from.points, {}, &border_point::id);
+        tile_result out;
+        std::vector<asked_point> asked;
+        std::array<std::vector<border_point>, number_slices::most> inbox;
+        auto next = from.points.begin();
+        for (std::size_t slice = 0; slice < number_slices::most; ++slice) {
+            border_weld pass(tolerance, more.agree, slices);
+            for (const border_point& p : inbox[slice]) pass.receive(p, values_of(p.id()));
+            const auto begin = next;
+            for (; next != from.points.end() && slices.of(next->id()) == slice; ++next)
+                pass.add(*next, values_of(next->id()), is_outer(next->at, first, last), out);
+            for (const asked_point& a : from.asked) {
+                if (slices.of(a.id) != slice) continue;
+                hand_over(pass, a, inbox);
+                if (is_outer(a.at, first, last)) asked.push_back(a);
+            }
+            while (pass.finish(out)) {
+            }
+            join(pass, {begin, next}, first, last, out);
+        }
+        asked.insert(asked.end(), out.asked.begin(), out.asked.end());
+        dropped.insert(dropped.end(), out.dropped.begin(), out.dropped.end());
+        longest.consider(out.move);
+        return {out.border, asked};
+    }
+
+  private:
+    [[nodiscard]] std::span<const std::uint64_t> values_of(std::uint64_t id) const {
+        return {more.at(id), more.agree.size()};
+    }
+    [[nodiscard]] bool is_outer(const point3& p, std::size_t first, std::size_t last) const {
+        std::vector<std::uint32_t> halos;
+        const auto is_other = [&](std::uint32_t t) { return t < first || t >= last; };
+        return is_other(cuts.find(p, halos)) || std::ranges::any_of(halos, is_other);
+    }
+    /// Each once to a slice.
+    void hand_over(border_weld& pass, const asked_point& asked, auto& inbox) {
+        tile_result found;
+        pass.hand_over(asked, values_of(asked.id), found);
+        for (std::size_t slice = 0; slice < inbox.size(); ++slice)
+            for (const border_point& p : found.border) {
+                const auto is_same = [&](const border_point& q) { return p.tag == q.tag; };
+                if ((asked.slices >> slice & 1) == 0 || std::ranges::any_of(inbox[slice], is_same))
+                    continue;
+                inbox[slice].push_back(p);
+                ++handed_over;
+            }
+    }
+    void join(border_weld& pass, std::span<const border_point> border, std::size_t first,
+              std::size_t last, tile_result& out) {
+        for (const border_point& link : pass.joined()) {
+            out.dropped.push_back({link.id(), link.leader});
+            joined.join(link);
+        }
+        if (rule != weld_rule::chain) return;
+        for (const border_point& p : border)
+            if (is_outer(p.at, first, last)) out.border.push_back(pass.handed_on(p));
+    }
+};
+
+/// How the border is settled.
+struct border_way {
+    bool by_halves = false;
+    bool by_slices = false;
+};
+inline constexpr std::array<border_way, 4> border_ways{
+    {{false, false}, {false, true}, {true, false}, {true, true}}};
+
+/// The leader of each point by `count` tiles, done in an order of `random`, in blocks of any size.
+inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::size_t count,
+                           test::random& random, const values_of_points& more = {},
+                           const border_way& way = {}) {
+    cloud sample;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(sample), is_finite);
+    const tile_cuts planned(sample, tolerance, count);
+    const tile_cuts slabs({planned.nodes().begin(), planned.nodes().end()}, tolerance);
+    const auto tiles = scatter(points, slabs);
+    const number_slices slices =
+        way.by_slices && rule == weld_rule::first ? number_slices(points.size()) : number_slices();
+    std::vector<std::size_t> order(tiles.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    random.shuffle(order);
+
+    tiled all;
+    all.leader.resize(points.size());
+    std::iota(all.leader.begin(), all.leader.end(), std::uint64_t{0});
+    longest_move longest;
+    std::vector<tile_drop> dropped;
+    std::vector<tile_member> members;
+    std::vector<tile_result> results(tiles.size());
+    for (const std::size_t t : order) {
+        const tile_result& result = results[t] =
+            weld_tile(tiles[t], rule, tolerance, random, more, slices);
+        if (rule == weld_rule::first)
+            REQUIRE(result.border_values.size() == result.border.size() * more.agree.size());
+        REQUIRE(result.asked_values.size() == result.asked.size() * more.agree.size());
+        if (rule == weld_rule::chain && tiles.size() <= 3 && more.agree.size() == 0)
+            check_equal(result, weld_crowded(tiles[t], tolerance, random));
+        const auto by_id = [](const auto& a, const auto& b) { return a < b; };
+        REQUIRE(std::is_sorted(result.dropped.begin(), result.dropped.end(),
+                               [&](auto& a, auto& b) { return by_id(a.id, b.id); }));
+        REQUIRE(std::is_sorted(result.border.begin(), result.border.end(),
+                               [&](auto& a, auto& b) { return by_id(a.id(), b.id()); }));
+        dropped.insert(dropped.end(), result.dropped.begin(), result.dropped.end());
+        all.border += result.border.size();
+        members.insert(members.end(), result.members.begin(), result.members.end());
+        longest.consider(result.move);
+    }
+
+    passes pass{rule, tolerance, slabs, results, more, slices, way.by_halves};
+    const left_to_borders left = pass.over(0, tiles.size());
+    REQUIRE(left.points.empty());
+    REQUIRE((left.asked.empty() || way.by_slices));
+    all.handed_over = pass.handed_over;
+    longest.consider(pass.longest);
+    for (const tile_member& m : members) pass.joined.measure(m, longest);
+    all.longest = longest.length();
+    for (const tile_drop& d : dropped) all.leader[d.id] = pass.joined.leader_of(d.leader);
+    bool agree = true;  // where a point is named twice
+    for (const tile_drop& d : pass.dropped) {
+        const std::uint64_t leader = pass.joined.leader_of(d.leader);
+        agree = agree && (all.leader[d.id] == d.id || all.leader[d.id] == leader);
+        all.leader[d.id] = leader;
+    }
+    REQUIRE(agree);
+    return all;
+}
+
+}  // namespace test
