@@ -31,7 +31,10 @@ using test::weld_in_tiles;
 using test::weld_tile;
 using tf::point3;
 using tf::weld_rule;
+using tf::detail::weld::border_point;
+using tf::detail::weld::border_weld;
 using tf::detail::weld::tile_point;
+using tf::detail::weld::tile_result;
 using tf::detail::weld::tile_role;
 
 constexpr std::array rules{weld_rule::first, weld_rule::chain};
@@ -178,6 +181,51 @@ TEST_CASE("tile_weld: of rows that hang on those before, a slice knows only the 
     }
 }
 
+TEST_CASE("tile_weld: rows of small heaps, of which an open point stands for others") {
+    test::random random(18);
+    for (const double spread : {0.3, 0.6}) {
+        cloud points;
+        constexpr std::size_t side = 20;
+        for (std::size_t site = 0; site < side * side; ++site)
+            for (int i = 0; i < 8; ++i)
+                points.push_back({0.9 * static_cast<double>(site % side) + spread * random.unit(),
+                                  0.9 * static_cast<double>(site / side) + spread * random.unit(),
+                                  spread * random.unit()});
+        for (const double tolerance : {0.7, 0.9, 1.1}) check_same(points, tolerance, random);
+    }
+}
+
+TEST_CASE("border_weld: an open point is handed over by the one that stands for it") {
+    using tf::detail::weld::border_kind;
+    const number_slices slices(640);  // of 11 numbers
+    const auto open = [](std::uint64_t id, double x) {
+        border_point p = border_point::make(id, border_kind::open);
+        p.at = {x, 0.0, 0.0};
+        return p;
+    };
+    border_weld earlier(1.0, {}, slices);
+    tile_result out;
+    earlier.add(open(1, 0.0), {}, true, out);
+    earlier.add(open(2, 0.25), {}, true, out);  // the first one stands for it
+    tile_result known;
+    earlier.hand_over({0, {0.5, 0.0, 0.0}, 2}, {},
+                      known);  // asked for by one that knows the second
+    REQUIRE(known.border.size() == 1);
+    CHECK(known.border[0].id() == 1);
+
+    border_weld later(1.0, {}, slices);
+    later.receive(known.border[0], {});
+    out = {};
+    later.add(open(12, 1.25), {}, false, out);  // within the tolerance of the second one only
+    REQUIRE(out.border.size() == 1);
+    CHECK(out.border[0].kind() == border_kind::open);
+    while (later.finish(out)) {
+    }
+    REQUIRE(out.asked.size() == 1);
+    CHECK(out.asked[0].id == 1);
+    CHECK(out.asked[0].slices == 2);
+}
+
 TEST_CASE("tile_weld: mixed scales, outliers and the ends of the doubles give the same groups") {
     test::random random(8);
     cloud points;
@@ -322,7 +370,7 @@ TEST_CASE("crowded_chain: two crowds a hair more than the tolerance apart stay t
         }
         points[3998].at = {0.0, 0.0, 0.0};
         points[3999].at = {gap + more, 0.0, 0.0};
-        const tf::detail::weld::tile_result result = weld_crowded(points, gap, random);
+        const tile_result result = weld_crowded(points, gap, random);
         CHECK(result.dropped.size() == (more > 0.0 ? 3998 : 3999));
         check_equal(result, weld_tile(points, weld_rule::chain, gap, random));
     }
