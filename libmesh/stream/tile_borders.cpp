@@ -1,12 +1,10 @@
 /// \file
-/// What lies along the borders of tiles: each of a team settles what it can of its own tiles, and
-/// then what is left is brought together, by two and two.
+/// What lies along the borders of tiles. With the rule chain, each of a team settles what it can of
+/// its own tiles, and then what is left is brought together, by two and two.
 
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -18,25 +16,10 @@ constexpr std::uint64_t records_a_check = 65536;
 
 }  // namespace
 
-std::array<std::uint64_t, 8> row_of(const border_point& b) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    const point3& p = b.at;
-    const point3& q = b.leader_at;
-    return {b.tag, bits(p.x), bits(p.y), bits(p.z), b.leader, bits(q.x), bits(q.y), bits(q.z)};
-}
-
-border_point border_of(numbers r) {
-    const auto at = [&](std::size_t i) {
-        const auto x = [&](std::size_t k) { return std::bit_cast<double>(r[i + k]); };
-        return point3{x(0), x(1), x(2)};
-    };
-    return {r[0], at(1), r[4], at(5)};
-}
-
-/// The passes over borders, and what they leave.
-class tile_steps::border_passes {
+/// The passes over borders with the rule chain, and what they leave.
+class tile_steps::chain_borders {
   public:
-    border_passes(const tile_steps& steps, border_weld& border) : steps_(steps), border_(border) {
+    chain_borders(const tile_steps& steps, border_weld& border) : steps_(steps), border_(border) {
         const team& all = steps.team_;
         const std::size_t rank = all.rank();
         const share own = steps.tiles_of(rank);
@@ -67,7 +50,6 @@ class tile_steps::border_passes {
     }
 
     [[nodiscard]] const std::vector<tiles_welded::file>& drops() const { return drops_; }
-    [[nodiscard]] const longest_move& move() const { return move_; }
 
   private:
     using file = tiles_welded::file;
@@ -76,48 +58,35 @@ class tile_steps::border_passes {
     template <class Open>
     void pass(border_weld& border, const share& tiles, const std::string& name, const Open& open) {
         const bool whole = tiles.size() == steps_.tiles_.size();
-        const bool chain = steps_.rule() == weld_rule::chain;
         record_writer<tile_drop> dropped(path(name, ".drops"), piece);
         row_writer on(path(name, ".on"), piece);
         row_writer joined(path(name, ".joined"), piece);
         weld::tile_result out;
-        each(open(), [&](const border_point& p, numbers values) {
-            border.add(p, values, !whole && !chain && is_outer(p.at, tiles), out);
-            dropped.put(out.dropped);
-            out.dropped.clear();
-            put_border(out, on);
-        });
+        each(open(), [&](const border_point& p) { border.add(p, {}, false, out); });
         for (const border_point& link : border.joined()) {
             dropped.put({link.id(), link.leader});
             if (!steps_.team_.is_alone()) joined.put(row_of(link));
         }
-        if (chain && !whole) {
+        if (!whole) {
             std::optional<std::uint64_t> last;
-            each(open(), [&](const border_point& p, numbers) {
-                if (last != p.id() && is_outer(p.at, tiles)) on.put(row_of(border.handed_on(p)));
+            each(open(), [&](const border_point& p) {
+                if (last != p.id() && steps_.is_outer(p.at, tiles, halos_))
+                    on.put(row_of(border.handed_on(p)));
                 last = p.id();
             });
         }
         drops_.push_back({path(name, ".drops"), dropped.finish_unsynced()});
         hands_on_[steps_.team_.rank()] = {path(name, ".on"), on.finish_unsynced()};
         joined_ = {path(name, ".joined"), joined.finish_unsynced()};
-        move_.consider(out.move);
     }
 
     template <class Take>
     void each(std::vector<row_reader> rows, const Take& take) const {
         std::uint64_t count = 0;
         for (row_merge merge(std::move(rows), 1); !merge.empty(); merge.pop(), ++count) {
-            const numbers r = merge.front();
-            take(border_of(r), r.subspan(8));
+            take(border_of(merge.front()));
             if (count % records_a_check == 0) steps_.pace_.check();
         }
-    }
-
-    /// Whether a tile other than these has the point, be it in its halo.
-    [[nodiscard]] bool is_outer(const point3& p, const share& tiles) {
-        return !tiles.has(steps_.cuts_->find(p, halos_)) ||
-               !std::ranges::all_of(halos_, [&](std::uint32_t t) { return tiles.has(t); });
     }
 
     [[nodiscard]] std::filesystem::path path(const std::string& name, const char* what) const {
@@ -145,7 +114,7 @@ class tile_steps::border_passes {
     void learn(std::size_t by) {
         std::vector<state_reader> told = tell_of(joined_);
         const file joined = file_of(told[by]);
-        if (joined.path.empty() || steps_.rule() != weld_rule::chain) return;
+        if (joined.path.empty()) return;
         for (row_reader rows(joined.path, joined.count, 8, piece); !rows.empty(); rows.pop())
             border_.join(border_of(rows.front()));
     }
@@ -155,14 +124,16 @@ class tile_steps::border_passes {
     std::vector<file> hands_on_{};  ///< of the last pass of each
     std::vector<file> drops_{};
     file joined_{};  ///< by the last pass
-    longest_move move_{};
     std::vector<std::uint32_t> halos_{};
 };
 
 tiles_welded tile_steps::weld_borders() {
     tiles_welded w(tolerance_, keys_.agree());
-    const border_passes passes(*this, w.border);
-    longest_move longest = passes.move();
+    longest_move longest;
+    if (rule() == weld_rule::first)
+        w.drops = weld_borders_by_slices(longest);
+    else
+        w.drops = chain_borders(*this, w.border).drops();
     const share own = tiles_of(team_.rank());
     for (auto t = static_cast<std::size_t>(own.first); t < own.last; ++t) {
         w.drops.push_back({file(t, ".drops"), tiles_[t].drops});
@@ -173,8 +144,6 @@ tiles_welded tile_steps::weld_borders() {
             pace_.check();
         }
     }
-    w.drops.insert(w.drops.end(), passes.drops().begin(), passes.drops().end());
-    if (rule() == weld_rule::first) w.border = border_weld(tolerance_);  // for its memory
     w.points = told_to(team_.rank());
     kept_points kept(w.points.size(), w.points.first);
     kept_points followed = kept;
@@ -187,6 +156,13 @@ tiles_welded tile_steps::weld_borders() {
     if (task_.options.keep != weld_keep::first) w.followed.emplace(std::move(followed));
     step_done();
     return w;
+}
+
+/// Whether a tile other than these has the point, be it in its halo.
+bool tile_steps::is_outer(const point3& p, const share& tiles,
+                          std::vector<std::uint32_t>& halos) const {
+    return !tiles.has(cuts_->find(p, halos)) ||
+           !std::ranges::all_of(halos, [&](std::uint32_t t) { return tiles.has(t); });
 }
 
 /// By rank, and by number; the first of a team of all where others read nothing.
@@ -287,9 +263,9 @@ void tile_steps::tell_first(tiles_welded& w) const {
     if (has_order()) w.kept = number_kept(w.kept);
 }
 
-row_reader tile_steps::border_rows(const std::filesystem::path& path,
-                                   const record_count& count) const {
-    return {path, count, border_width(), bytes_per_reader()};
+row_reader tile_steps::border_rows(const std::filesystem::path& path, const record_count& count,
+                                   const share& some) const {
+    return {path, count, border_width(), bytes_per_reader(), some};
 }
 
 row_merge tile_steps::sorted_drops(const std::vector<tiles_welded::file>& files) const {

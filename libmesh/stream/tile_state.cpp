@@ -204,7 +204,8 @@ void tile_steps::count_finished() {
 void tile_steps::store_tile(std::size_t t) const {
     const tile& mine = tiles_[t];
     state_writer state;
-    for (const record_count& c : {mine.drops, mine.border, mine.members}) store_count(c, state);
+    for (const record_count& c : {mine.drops, mine.border, mine.asked, mine.members})
+        store_count(c, state);
     state.point(mine.move.from());
     state.point(mine.move.to());
     folder_.store(name_of_done(t), state);
@@ -214,10 +215,12 @@ bool tile_steps::load_tile(std::size_t t, bool check) {
     auto state = folder_.load(name_of_done(t));
     if (!state) return false;
     tile& mine = tiles_[t];
-    for (record_count* c : {&mine.drops, &mine.border, &mine.members}) *c = load_count(*state);
+    for (record_count* c : {&mine.drops, &mine.border, &mine.asked, &mine.members})
+        *c = load_count(*state);
     mine.move = load_move(*state);
     mine.finished = state->whole() && is_there<tile_drop>(file(t, ".drops"), mine.drops, check) &&
                     is_there<std::uint64_t>(file(t, ".border"), mine.border, check) &&
+                    is_there<std::uint64_t>(file(t, ".asked"), mine.asked, check) &&
                     is_there<tile_member>(file(t, ".members"), mine.members, check);
     if (!mine.finished) survey_.cloud.damaged.push_back(file(t, ".drops"));
     return mine.finished;

@@ -317,6 +317,7 @@ void tile_steps::check_finished() {
 struct tile_steps::tile_files {
     record_writer<tile_drop> dropped;
     row_writer border;
+    row_writer asked;
     record_writer<tile_member> members;
     std::unique_ptr<row_sorter> points{};  ///< in the order of ranks, where they have to be sorted
     weld::tile_result result{};
@@ -324,6 +325,10 @@ struct tile_steps::tile_files {
     void write() {
         dropped.put(result.dropped);
         put_border(result, border);
+        put_asked(result, [&](const asked_point& a, numbers values) {
+            asked.put(row_of(a));
+            asked.put(values);
+        });
         members.put(result.members);
         result.dropped.clear();
         result.members.clear();
@@ -387,12 +392,13 @@ void tile_steps::sort_points(std::size_t t, tile_files& files) const {
 void tile_steps::weld_tile(std::size_t t) {
     tile& mine = tiles_[t];
     const std::array names{std::to_string(t) + ".drops", std::to_string(t) + ".border",
-                           std::to_string(t) + ".members"};
-    std::array<std::string, 3> own;  // until all is written
+                           std::to_string(t) + ".asked", std::to_string(t) + ".members"};
+    std::array<std::string, 4> own;  // until all is written
     std::ranges::transform(names, own.begin(), work_folder::own_name);
     tile_files files{{folder_.file(own[0]), piece / 4},
                      {folder_.file(own[1]), piece / 4},
-                     {folder_.file(own[2]), piece / 4}};
+                     {folder_.file(own[2]), piece / 4},
+                     {folder_.file(own[3]), piece / 4}};
     if (has_order()) sort_points(t, files);
     const std::uint64_t room = task_.options.memory / 10 * 7 / bytes_per_point();
     const bool held = rule() == weld_rule::first || points_of(mine) <= room;
@@ -405,6 +411,7 @@ void tile_steps::weld_tile(std::size_t t) {
         weld_held(t, files);
     mine.drops = files.dropped.finish();
     mine.border = files.border.finish();
+    mine.asked = files.asked.finish();
     mine.members = files.members.finish();
     mine.move = files.result.move;
     for (std::size_t i = 0; i < names.size(); ++i) folder_.rename(own[i], names[i]);
@@ -415,7 +422,7 @@ void tile_steps::weld_tile(std::size_t t) {
 }
 
 void tile_steps::weld_held(std::size_t t, tile_files& files) {
-    weld::tile_weld weld(rule(), tolerance_, keys_.agree());
+    weld::tile_weld weld(rule(), tolerance_, keys_.agree(), slices());
     const std::uint64_t room = task_.options.memory / 2 / bytes_per_point();
     weld.reserve(static_cast<std::size_t>(std::min(points_of(tiles_[t]), room)));
     each_point_of(t, files, [&](std::span<const tile_point> points, numbers values) {

@@ -2,6 +2,7 @@
 /// \file
 /// A cloud welded in tiles on the disk, step by step; each step is found done when it has been.
 
+#include <libmesh/stream/border_rows.hpp>
 #include <libmesh/stream/joined_points.hpp>
 #include <libmesh/stream/kept_points.hpp>
 #include <libmesh/stream/pacer.hpp>
@@ -16,7 +17,6 @@
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -28,7 +28,6 @@
 
 namespace treeform::detail::stream {
 
-using weld::border_point;
 using weld::border_weld;
 using weld::longest_move;
 using weld::tile_cuts;
@@ -129,6 +128,7 @@ class tile_steps {
         bool finished = false;
         record_count drops{};
         record_count border{};
+        record_count asked{};
         record_count members{};
         longest_move move{};
     };
@@ -143,6 +143,10 @@ class tile_steps {
     [[nodiscard]] std::size_t point_width() const { return 4 + values(); }
     [[nodiscard]] std::size_t border_width() const {
         return 8 + (rule() == weld_rule::first ? values() : 0);
+    }
+    [[nodiscard]] std::size_t asked_width() const { return 5 + values(); }
+    [[nodiscard]] weld::number_slices slices() const {
+        return weld::number_slices(survey_.cloud.points);
     }
     [[nodiscard]] std::uint64_t points_of(const tile& t) const;
     [[nodiscard]] std::filesystem::path points_file(std::size_t t, std::size_t part) const;
@@ -191,7 +195,13 @@ class tile_steps {
     template <class Take>
     void each_row_of(std::size_t t, const Take& take) const;
 
-    class border_passes;
+    class chain_borders;
+    class slice_borders;
+    /// Also names the longest way there. What they come to, for what is told of all points.
+    [[nodiscard]] std::vector<tiles_welded::file> weld_borders_by_slices(
+        longest_move& longest) const;
+    [[nodiscard]] bool is_outer(const point3& p, const share& tiles,
+                                std::vector<std::uint32_t>& halos) const;
     void tell(tiles_welded& w, kept_points& followed) const;
     void follow(const tiles_welded& w, kept_points& kept, kept_points& followed) const;
     void sum_up(tiles_welded& w, const kept_points& kept, const kept_points& followed,
@@ -206,8 +216,18 @@ class tile_steps {
     /// Of the points with these ranks.
     [[nodiscard]] row_chain numbers_by_rank(const share& some = {}) const;
     static void put_border(weld::tile_result& result, row_writer& to);
+    /// Calls `put` with each and its values.
+    template <class Put>
+    static void put_asked(weld::tile_result& result, const Put& put) {
+        const std::size_t count = result.asked.size();
+        const std::size_t width = count == 0 ? 0 : result.asked_values.size() / count;
+        for (std::size_t i = 0; i < count; ++i)
+            put(result.asked[i], numbers(result.asked_values).subspan(i * width, width));
+        result.asked.clear();
+        result.asked_values.clear();
+    }
     [[nodiscard]] row_reader border_rows(const std::filesystem::path& path,
-                                         const record_count& count) const;
+                                         const record_count& count, const share& some = {}) const;
     [[nodiscard]] row_merge sorted_drops(const std::vector<tiles_welded::file>& files) const;
 
     [[nodiscard]] std::size_t at_a_time() const;
@@ -229,10 +249,6 @@ class tile_steps {
     record_count ranks_{};  ///< of the points that the process reads, while tiles get their points
     std::vector<tile> tiles_{};
 };
-
-/// Borders as rows, which the values of points follow.
-[[nodiscard]] std::array<std::uint64_t, 8> row_of(const border_point& b);
-[[nodiscard]] border_point border_of(numbers row);
 
 inline constexpr double bytes_of_border = 100.0;  ///< of a point in the border pass, about
 inline constexpr double bytes_of_cube = 200.0;    ///< of a cube in `crowded_chain`, about

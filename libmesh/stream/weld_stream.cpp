@@ -20,9 +20,13 @@ namespace {
 namespace fs = std::filesystem;
 using detail::stream::work_folder;
 
+/// Other than in versions that leave other files in the folder.
+constexpr std::uint64_t layout_of_folder = 2;
+
 std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o) {
     detail::stream::state_writer state;
     state.text(version_string());
+    state.number(layout_of_folder);
     for (const fs::path& input : inputs.paths) {
         state.text(fs::absolute(input).string());
         std::error_code error;
