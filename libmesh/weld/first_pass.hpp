@@ -181,7 +181,7 @@ class first_pass {
         if (around.kept.any()) {
             if (a.own) drop(a, around, out);
         } else if (!a.own || a.unsure || around.some_open) {
-            if (a.own) put_unsure(at(a, border_kind::open), a, out);
+            if (a.own) put(at(a, border_kind::open), a, out);
             if (around.covering != nullptr)
                 around.covering->stand();
             else
@@ -204,13 +204,6 @@ class first_pass {
         out.border_values.insert(out.border_values.end(), a.values, a.values + agree_.size());
     }
 
-    /// One whose fate the open points around it may decide.
-    void put_unsure(const border_point& b, const arrival& a, tile_result& out) {
-        put(b, a, out);
-        for (const std::uint32_t number : met_open_)
-            open_.cells[number].asked_by |= slices_.bit_of(a.id);
-    }
-
     struct neighbors {
         nearest_kept kept;
         nearest_kept open;       ///< of those that stand for themselves
@@ -230,18 +223,22 @@ class first_pass {
             if (within_.holds(p, q.at) && agrees(kept_.values, number))
                 found.kept.consider(q.id, q.at);
         });
+        const std::uint64_t slice = a.own ? slices_.bit_of(a.id) : 0;
         met_open_.clear();
         open_.cells.visit(p, a.salt, [&](open_point& q, std::uint32_t number) {
             if (!(q.stands() ? within_more_ : within_).holds(p, q.at)) return;
             if (!agrees(open_.values, number)) return;
             found.some_open = true;
-            met_open_.push_back(number);
+            if (found.kept.any())
+                met_open_.push_back(number);
+            else
+                q.asked_by |= slice;
             if (q.stands())
                 found.standing_square = std::min(
                     {found.standing_square, rounded_squared_distance(p, q.at), largest_square});
             else
                 found.open.consider(q.id(), q.at);
-            if (slices_.of(q.id()) == slices_.of(a.id) && within_fourth_.holds(p, q.at) &&
+            if (within_fourth_.holds(p, q.at) && slices_.of(q.id()) == slices_.of(a.id) &&
                 agree_.same(a.values, open_.values.data() + number * agree_.size()))
                 found.covering = &q;
         });
@@ -258,7 +255,9 @@ class first_pass {
         border_point leaning = at(a, border_kind::leaning);
         leaning.leader = kept.id();
         leaning.leader_at = kept.at();
-        put_unsure(leaning, a, out);
+        put(leaning, a, out);
+        for (const std::uint32_t number : met_open_)
+            open_.cells[number].asked_by |= slices_.bit_of(a.id);
     }
 
     /// What stands for others is nearer by a fourth of the tolerance, as far as is known.
@@ -292,7 +291,7 @@ class first_pass {
     reach within_more_;
     remembered<kept_point> kept_;
     remembered<open_point> open_;
-    std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of those that `look` has met
+    std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of what a dropped one has met
     std::size_t next_asked_ = 0;
 };
 

@@ -5,7 +5,7 @@
 #include <libmesh/weld/crowded_chain.hpp>
 #include <libmesh/weld/tile_cuts.hpp>
 #include <libmesh/weld/tile_weld.hpp>
-#include <treeform/mesh/weld.hpp>
+#include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
