@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// What tiles leave to borders, as rows of numbers, which the values of points follow.
+/// What tiles leave to borders, as rows of five numbers and the values of the point: its tag, where it
+/// is, and one number more. A point that has a leader takes two, the second one for where that is.
 
 #include <libmesh/stream/row_file.hpp>
 #include <libmesh/weld/tile_weld.hpp>
@@ -13,29 +14,49 @@
 namespace treeform::detail::stream {
 
 using weld::asked_point;
+using weld::border_kind;
 using weld::border_point;
+
+inline constexpr std::size_t border_numbers = 5;
+using border_row = std::array<std::uint64_t, border_numbers>;
+
+[[nodiscard]] inline border_row row_of(std::uint64_t tag, const point3& p, std::uint64_t more) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    return {tag, bits(p.x), bits(p.y), bits(p.z), more};
+}
+[[nodiscard]] inline border_row row_of(const asked_point& a) {
+    return row_of(a.id, a.at, a.slices);
+}
 
 [[nodiscard]] inline point3 point_of(numbers row) {
     const auto at = [&](std::size_t k) { return std::bit_cast<double>(row[k]); };
-    return {at(0), at(1), at(2)};
+    return {at(1), at(2), at(3)};
+}
+[[nodiscard]] inline asked_point asked_of(numbers row) { return {row[0], point_of(row), row[4]}; }
+
+[[nodiscard]] inline bool has_leader(const border_point& b) {
+    return b.kind() == border_kind::leaning || b.kind() == border_kind::link;
 }
 
-[[nodiscard]] inline std::array<std::uint64_t, 8> row_of(const border_point& b) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    const point3& p = b.at;
-    const point3& q = b.leader_at;
-    return {b.tag, bits(p.x), bits(p.y), bits(p.z), b.leader, bits(q.x), bits(q.y), bits(q.z)};
-}
-[[nodiscard]] inline border_point border_of(numbers row) {
-    return {row[0], point_of(row.subspan(1)), row[4], point_of(row.subspan(5))};
+/// Returns the number of rows.
+inline std::uint64_t put_rows(const border_point& b, numbers values, row_writer& to) {
+    to.put(row_of(b.tag, b.at, b.leader));
+    to.put(values);
+    if (!has_leader(b)) return 1;
+    to.put(row_of(b.tag, b.leader_at, 0));
+    to.put(values);
+    return 2;
 }
 
-[[nodiscard]] inline std::array<std::uint64_t, 5> row_of(const asked_point& a) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    return {a.id, bits(a.at.x), bits(a.at.y), bits(a.at.z), a.slices};
-}
-[[nodiscard]] inline asked_point asked_of(numbers row) {
-    return {row[0], point_of(row.subspan(1)), row[4]};
+/// Goes on to the last row of the front's point. \pre not empty
+template <class Rows>  // row_reader or row_merge
+[[nodiscard]] border_point take_rows(Rows& rows) {
+    const numbers row = rows.front();
+    border_point b{row[0], point_of(row), row[4], {}};
+    if (!has_leader(b)) return b;
+    rows.pop();
+    b.leader_at = point_of(rows.front());
+    return b;
 }
 
 }  // namespace treeform::detail::stream

@@ -80,7 +80,7 @@ class tile_steps::slice_borders {
         std::vector<row_reader> asked;
         for (auto t = static_cast<std::size_t>(own.first); t < own.last; ++t) {
             rows.push_back(steps.border_rows(steps.file(t, ".border"), steps.tiles_[t].border));
-            asked.emplace_back(steps.file(t, ".asked"), steps.tiles_[t].asked, steps.asked_width(),
+            asked.emplace_back(steps.file(t, ".asked"), steps.tiles_[t].asked, steps.border_width(),
                                steps.bytes_per_reader());
         }
         row_merge all_asked(std::move(asked), 1);
@@ -90,7 +90,7 @@ class tile_steps::slice_borders {
                        for (; !all_asked.empty(); all_asked.pop()) {
                            const asked_point a = asked_of(all_asked.front());
                            if (slices_.of(a.id) != slice) break;
-                           take(a, all_asked.front().subspan(5));
+                           take(a, all_asked.front().subspan(border_numbers));
                        }
                    });
         first.finish();
@@ -136,12 +136,12 @@ class tile_steps::slice_borders {
                 border_weld border(steps_.tolerance_, steps_.keys_.agree(), all_.slices_);
                 receive(slice, border);
                 for (; !rows.empty(); rows.pop()) {
-                    const border_point p = border_of(rows.front());
-                    if (all_.slices_.of(p.id()) != slice) break;
-                    border.add(p, rows.front().subspan(8), is_outer(p.at), out_);
+                    if (all_.slices_.of(rows.front()[0] >> 2) != slice) break;
+                    const border_point p = take_rows(rows);
+                    border.add(p, rows.front().subspan(border_numbers), is_outer(p.at), out_);
                     write();
                 }
-                left_.ends.push_back(points_written_);
+                left_.ends.push_back(rows_written_);
                 each_asked(slice, [&](const asked_point& a, numbers values) {
                     hand_over(border, a, values);
                 });
@@ -186,16 +186,16 @@ class tile_steps::slice_borders {
             order.erase(again.begin(), again.end());
             for (const std::size_t i : order) {
                 const numbers row = numbers(rows).subspan(i * width, width);
-                border.receive(border_of(row), row.subspan(8));
+                border.receive({row[0], point_of(row), row[4], {}}, row.subspan(border_numbers));
             }
         }
 
         void hand_over(border_weld& border, const asked_point& asked, numbers values) {
             border.hand_over(asked, values, known_);
-            for (std::size_t i = 0; i < known_.border.size(); ++i)
+            for (const border_point& p : known_.border)
                 for (std::size_t slice = 0; slice < slices_of_all; ++slice)
                     if ((asked.slices >> slice & 1) != 0)
-                        inbox_.put(slice, row_of(known_.border[i]), values);
+                        inbox_.put(slice, row_of(p.tag, p.at, p.leader), values);
             known_.border.clear();
             known_.border_values.clear();
             if (is_outer(asked.at)) asked_.put(all_.slices_.of(asked.id), row_of(asked), values);
@@ -205,8 +205,7 @@ class tile_steps::slice_borders {
         void write() {
             dropped_.put(out_.dropped);
             out_.dropped.clear();
-            points_written_ += out_.border.size();
-            put_border(out_, points_);
+            rows_written_ += put_border(out_, points_);
             put_asked(out_, [&](const asked_point& a, numbers values) {
                 asked_.put(all_.slices_.of(a.id), row_of(a), values);
             });
@@ -225,7 +224,7 @@ class tile_steps::slice_borders {
         rows_by_slice asked_;  ///< for the next pass
         record_writer<tile_drop> dropped_;
         row_writer points_;
-        std::uint64_t points_written_ = 0;
+        std::uint64_t rows_written_ = 0;
         /// By whom, and how much.
         std::array<std::vector<std::pair<std::size_t, record_count>>, slices_of_all> received_{};
         left left_{};
@@ -311,12 +310,13 @@ class tile_steps::slice_borders {
     }
 
     void each_asked(std::size_t slice, const take_asked& take) const {
-        const std::size_t width = steps_.asked_width();
+        const std::size_t width = steps_.border_width();
         for (std::size_t r = 0; r < left_.size(); ++r)
             rows_by_slice::each(steps_.folder_, "border.asked", r, slice, left_[r].asked[slice],
                                 width, [&](numbers rows) {
                                     for (; !rows.empty(); rows = rows.subspan(width))
-                                        take(asked_of(rows), rows.first(width).subspan(5));
+                                        take(asked_of(rows),
+                                             rows.first(width).subspan(border_numbers));
                                 });
     }
 

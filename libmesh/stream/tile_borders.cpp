@@ -65,13 +65,13 @@ class tile_steps::chain_borders {
         each(open(), [&](const border_point& p) { border.add(p, {}, false, out); });
         for (const border_point& link : border.joined()) {
             dropped.put({link.id(), link.leader});
-            if (!steps_.team_.is_alone()) joined.put(row_of(link));
+            if (!steps_.team_.is_alone()) put_rows(link, {}, joined);
         }
         if (!whole) {
             std::optional<std::uint64_t> last;
             each(open(), [&](const border_point& p) {
                 if (last != p.id() && steps_.is_outer(p.at, tiles, halos_))
-                    on.put(row_of(border.handed_on(p)));
+                    put_rows(border.handed_on(p), {}, on);
                 last = p.id();
             });
         }
@@ -84,7 +84,7 @@ class tile_steps::chain_borders {
     void each(std::vector<row_reader> rows, const Take& take) const {
         std::uint64_t count = 0;
         for (row_merge merge(std::move(rows), 1); !merge.empty(); merge.pop(), ++count) {
-            take(border_of(merge.front()));
+            take(take_rows(merge));
             if (count % records_a_check == 0) steps_.pace_.check();
         }
     }
@@ -115,8 +115,9 @@ class tile_steps::chain_borders {
         std::vector<state_reader> told = tell_of(joined_);
         const file joined = file_of(told[by]);
         if (joined.path.empty()) return;
-        for (row_reader rows(joined.path, joined.count, 8, piece); !rows.empty(); rows.pop())
-            border_.join(border_of(rows.front()));
+        for (row_reader rows(joined.path, joined.count, border_numbers, piece); !rows.empty();
+             rows.pop())
+            border_.join(take_rows(rows));
     }
 
     const tile_steps& steps_;

@@ -335,15 +335,16 @@ struct tile_steps::tile_files {
     }
 };
 
-void tile_steps::put_border(weld::tile_result& result, row_writer& to) {
+std::uint64_t tile_steps::put_border(weld::tile_result& result, row_writer& to) {
     const std::size_t width =
         result.border.empty() ? 0 : result.border_values.size() / result.border.size();
-    for (std::size_t i = 0; i < result.border.size(); ++i) {
-        to.put(row_of(result.border[i]));
-        to.put(numbers(result.border_values).subspan(i * width, width));
-    }
+    std::uint64_t rows = 0;
+    for (std::size_t i = 0; i < result.border.size(); ++i)
+        rows +=
+            put_rows(result.border[i], numbers(result.border_values).subspan(i * width, width), to);
     result.border.clear();
     result.border_values.clear();
+    return rows;
 }
 
 /// Calls `take` with some rows at a time, in the order of the files.

@@ -142,9 +142,8 @@ class tile_steps {
     /// Numbers in a row of a tile's points, and of its border.
     [[nodiscard]] std::size_t point_width() const { return 4 + values(); }
     [[nodiscard]] std::size_t border_width() const {
-        return 8 + (rule() == weld_rule::first ? values() : 0);
+        return border_numbers + (rule() == weld_rule::first ? values() : 0);
     }
-    [[nodiscard]] std::size_t asked_width() const { return 5 + values(); }
     [[nodiscard]] weld::number_slices slices() const {
         return weld::number_slices(survey_.cloud.points);
     }
@@ -215,7 +214,8 @@ class tile_steps {
     }
     /// Of the points with these ranks.
     [[nodiscard]] row_chain numbers_by_rank(const share& some = {}) const;
-    static void put_border(weld::tile_result& result, row_writer& to);
+    /// Returns the number of rows.
+    static std::uint64_t put_border(weld::tile_result& result, row_writer& to);
     /// Calls `put` with each and its values.
     template <class Put>
     static void put_asked(weld::tile_result& result, const Put& put) {
