@@ -23,7 +23,7 @@ struct tile_steps::cut_sizes {
     double points = 0.0;   ///< of all tiles, halos included
     double largest = 0.0;  ///< points in a tile
     double held = 0.0;     ///< places in a tile, which are about what it has to hold
-    double border = 0.0;   ///< places in several tiles
+    double border = 0.0;   ///< places in several tiles that are held at a time
 };
 
 tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
@@ -45,6 +45,9 @@ tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
     double ignored = 0.0;
     sizes.points = count(survey_.sample, sizes.largest, ignored);
     static_cast<void>(count(places(), sizes.held, sizes.border));
+    if (rule() == weld_rule::first)  // a slice at a time
+        sizes.border = std::min(sizes.border, static_cast<double>(survey_.cloud.points) /
+                                                  static_cast<double>(weld::number_slices::most));
     return sizes;
 }
 

@@ -94,7 +94,7 @@ weld_rule tile_steps::rule() const {
 
 std::uint64_t tile_steps::bytes_per_point() const {
     const std::uint64_t of_values = values() > 0 ? 8 * values() + 12 : 0;
-    return (rule() == weld_rule::first ? 64 : 110) + of_values;
+    return (rule() == weld_rule::first ? 104 : 110) + of_values;
 }
 
 std::size_t tile_steps::bytes_per_reader() const {
@@ -424,8 +424,9 @@ void tile_steps::weld_tile(std::size_t t) {
 
 void tile_steps::weld_held(std::size_t t, tile_files& files) {
     weld::tile_weld weld(rule(), tolerance_, keys_.agree(), slices());
-    const std::uint64_t room = task_.options.memory / 2 / bytes_per_point();
-    weld.reserve(static_cast<std::size_t>(std::min(points_of(tiles_[t]), room)));
+    // With the rule first few are held; or all, which doubles memory twice, up to `bytes_per_point`.
+    const std::uint64_t all = points_of(tiles_[t]);
+    weld.reserve(static_cast<std::size_t>(rule() == weld_rule::first ? all / 4 : all));
     each_point_of(t, files, [&](std::span<const tile_point> points, numbers values) {
         weld.add(points, files.result, values);
         files.write();

@@ -42,6 +42,10 @@ struct remembered {
     near_cells<Point> cells;
     std::vector<std::uint64_t> values{};  ///< in the order of the numbers in `cells`
 
+    void reserve(std::size_t points, std::size_t width) {
+        cells.reserve(points);
+        values.reserve(points * width);
+    }
     void add(const Point& point, std::span<const std::uint64_t> its_values, std::uint64_t salt) {
         cells.add(point, salt);
         values.insert(values.end(), its_values.begin(), its_values.end());
@@ -67,8 +71,8 @@ class first_pass {
           open_{near_cells<open_point>(within_more_.distance(), agree.size() > 0)} {}
 
     void reserve(std::size_t points) {
-        kept_.cells.reserve(points);
-        kept_.values.reserve(points * agree_.size());
+        kept_.reserve(points, agree_.size());
+        open_.reserve(points, agree_.size());
     }
 
     void add(std::span<const tile_point> points, std::span<const std::uint64_t> values,

@@ -291,6 +291,17 @@ class Large(WeldTest):
             self.check_beyond_the_limit(points, tolerance)
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_rows_that_hang_on_those_before_are_welded_within_the_memory_limit(self):
+        rng = random.Random(8)
+        line = [(0.3 * (i % 200000) + 0.2 * rng.random(), 20.0 * (i // 200000), 0.0)
+                for i in range(1000000)]
+        sheet = [(i % 700 + rng.random(), i // 700 + rng.random(), 0.0) for i in range(490000)]
+        for points, tolerance in ((line, "0.52"), (sheet, "1.3"), (sheet, "2")):
+            self.check_beyond_the_limit(points, tolerance, rules=("first",))
+            # A second look at the same place.
+            self.check_beyond_the_limit(points[::2] + points[1::2], tolerance, rules=("first",))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_what_is_welded_in_memory_says_so_where_memory_is_limited(self):
         corners = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(float(i % 97 + k) for k in range(9)),
                                        0) for i in range(100000))

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -102,7 +103,8 @@ tf::weld_stream_result weld_shared(const job& work, test::random& random) {
 
 /// Clouds that are hard in one way each.
 std::vector<std::vector<tf::point3>> families(std::size_t count, test::random& random) {
-    std::vector<std::vector<tf::point3>> all(7);
+    std::vector<std::vector<tf::point3>> all(9);
+    const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(count)));
     for (std::size_t i = 0; i < count; ++i) {
         const tf::point3 p{random.unit(), random.unit(), random.unit()};
         const auto x = static_cast<double>(i) / static_cast<double>(count);
@@ -112,6 +114,12 @@ std::vector<std::vector<tf::point3>> families(std::size_t count, test::random& r
         all[3].push_back({2 * p.x, 0.001 * p.y, 0.0});                 // a line
         all[4].push_back({p.x, p.y, 0.25});                            // a plane
         all[5].push_back(i % 3 == 0 ? p : tf::point3{0.5, 0.5, 0.5});  // equal points
+        // Rows that hang on those before them, of points and of small heaps.
+        all[7].push_back({0.012 * static_cast<double>(i % side) + 0.004 * p.x,
+                          0.012 * static_cast<double>(i / side) + 0.004 * p.y, 0.0});
+        all[8].push_back({0.02 * static_cast<double>(i / 4 % (side / 2)) + 0.008 * p.x,
+                          0.02 * static_cast<double>(i / 4 / (side / 2)) + 0.008 * p.y,
+                          0.008 * p.z});
         all[6].push_back({0.05 * static_cast<double>(random.below(12)),
                           0.05 * static_cast<double>(random.below(12)),
                           i % 50 == 0 ? std::numeric_limits<double>::quiet_NaN() : 0.0});
