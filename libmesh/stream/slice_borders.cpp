@@ -89,7 +89,7 @@ class tile_steps::slice_borders {
                    [&](std::size_t slice, const take_asked& take) {
                        for (; !all_asked.empty(); all_asked.pop()) {
                            const asked_point a = asked_of(all_asked.front());
-                           if (slices_.of(a.id) != slice) break;
+                           if (a.slice != slice) break;
                            take(a, all_asked.front().subspan(border_numbers));
                        }
                    });
@@ -182,10 +182,10 @@ class tile_steps::slice_borders {
             std::iota(order.begin(), order.end(), std::size_t{0});
             const auto tag = [&](std::size_t i) { return rows[i * width]; };
             std::ranges::sort(order, {}, tag);
-            const auto again = std::ranges::unique(order, {}, tag);
-            order.erase(again.begin(), again.end());
-            for (const std::size_t i : order) {
-                const numbers row = numbers(rows).subspan(i * width, width);
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                const auto row = std::span(rows).subspan(order[i] * width, width);
+                for (; i + 1 < order.size() && tag(order[i + 1]) == row[0]; ++i)
+                    row[4] |= rows[order[i + 1] * width + 4];
                 border.receive({row[0], point_of(row), row[4], {}}, row.subspan(border_numbers));
             }
         }
@@ -194,11 +194,11 @@ class tile_steps::slice_borders {
             border.hand_over(asked, values, known_);
             for (const border_point& p : known_.border)
                 for (std::size_t slice = 0; slice < slices_of_all; ++slice)
-                    if ((asked.slices >> slice & 1) != 0)
+                    if (weld::number_slices::has(asked.asked_by, slice))
                         inbox_.put(slice, row_of(p.tag, p.at, p.leader), values);
             known_.border.clear();
             known_.border_values.clear();
-            if (is_outer(asked.at)) asked_.put(all_.slices_.of(asked.id), row_of(asked), values);
+            if (is_outer(asked.at)) asked_.put(asked.slice, row_of(asked), values);
             check();
         }
 
@@ -207,7 +207,7 @@ class tile_steps::slice_borders {
             out_.dropped.clear();
             rows_written_ += put_border(out_, points_);
             put_asked(out_, [&](const asked_point& a, numbers values) {
-                asked_.put(all_.slices_.of(a.id), row_of(a), values);
+                asked_.put(a.slice, row_of(a), values);
             });
             check();
         }

@@ -22,18 +22,14 @@ struct kept_point {
     std::uint64_t id = 0;
 };
 
-/// An open point. One that `stands` does so for those of its slice within a fourth of the tolerance.
+/// An open point. It stands for all open points within a fourth of the tolerance that come later.
 struct open_point {
     point3 at{};
-    std::uint64_t tag = 0;
-    std::uint64_t asked_by = 0;  ///< slices with points that its fate may decide
+    std::uint64_t id = 0;
+    std::uint64_t stands_in = 0;  ///< slices of those it stands for
+    std::uint64_t asked_by = 0;   ///< slices with points that its fate may decide, or that of these
 
-    [[nodiscard]] static open_point make(std::uint64_t id, const point3& at) {
-        return {at, id << 1, 0};
-    }
-    [[nodiscard]] std::uint64_t id() const { return tag >> 1; }
-    [[nodiscard]] bool stands() const { return (tag & 1) != 0; }
-    void stand() { tag |= 1; }
+    [[nodiscard]] bool stands() const { return stands_in != 0; }
 };
 
 /// What a pass remembers of points with their values.
@@ -119,9 +115,7 @@ class first_pass {
             kept_.add({.at = p.at, .id = p.id()}, values, salt);
             return;
         }
-        open_point q = open_point::make(p.id(), p.at);
-        if (p.leader == stands_for_others) q.stand();
-        open_.add(q, values, salt);
+        open_.add({.at = p.at, .id = p.id(), .stands_in = p.leader}, values, salt);
     }
 
     /// As `border_weld`. An open point within a fourth of the tolerance of `asked` may have one that
@@ -129,9 +123,9 @@ class first_pass {
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
                    tile_result& out) {
         const std::uint64_t salt = agree_.salt(values.data());
-        const auto put = [&](border_point b, const point3& p, bool stands) {
+        const auto put = [&](border_point b, const point3& p, std::uint64_t stands_in) {
             b.at = p;
-            b.leader = stands ? stands_for_others : 0;
+            b.leader = stands_in;
             out.border.push_back(b);
             out.border_values.insert(out.border_values.end(), values.begin(), values.end());
         };
@@ -140,33 +134,36 @@ class first_pass {
         };
         kept_.cells.visit(asked.at, salt, [&](const kept_point& q, std::size_t number) {
             if (within_fourth_.holds(asked.at, q.at) && is_same(kept_.values, number))
-                put(border_point::make(q.id, border_kind::kept), q.at, false);
+                put(border_point::make(q.id, border_kind::kept), q.at, 0);
         });
         open_.cells.visit(asked.at, salt, [&](const open_point& q, std::size_t number) {
             const reach& near = q.stands() ? within_half_ : within_fourth_;
             if (near.holds(asked.at, q.at) && is_same(open_.values, number))
-                put(border_point::make(q.id(), border_kind::open), q.at, q.stands());
+                put(border_point::make(q.id, border_kind::open), q.at, q.stands_in);
         });
     }
 
-    /// Appends the open points that later slices ask for, a piece at a time; returns whether there
-    /// are more.
+    /// As `border_weld`.
     [[nodiscard]] bool put_asked(tile_result& out) {
         constexpr std::size_t piece = std::size_t{1} << 16;
         const std::size_t end = std::min(open_.cells.size(), next_asked_ + piece);
         for (; next_asked_ < end; ++next_asked_) {
             const open_point& p = open_.cells[next_asked_];
-            const std::uint64_t later = slices_.after(p.id(), p.asked_by);
-            if (later == 0) continue;
-            out.asked.push_back({p.id(), p.at, later});
+            const std::uint64_t later = number_slices::after(slice_asked_, p.asked_by);
+            const std::uint64_t in = p.stands_in | slices_.bit_of(p.id);
+            if (later == 0 || !number_slices::has(in, slice_asked_)) continue;
+            out.asked.push_back({slice_asked_, p.at, later});
             const auto values = open_.values_of(next_asked_, agree_.size());
             out.asked_values.insert(out.asked_values.end(), values.begin(), values.end());
         }
-        return next_asked_ < open_.cells.size();
+        if (next_asked_ == open_.cells.size()) {
+            next_asked_ = 0;
+            ++slice_asked_;
+        }
+        return slice_asked_ < number_slices::most;
     }
 
   private:
-    static constexpr std::uint64_t stands_for_others = 1;
     static constexpr double largest = 0x1p1000;
 
     struct arrival {
@@ -187,9 +184,9 @@ class first_pass {
         } else if (!a.own || a.unsure || around.some_open) {
             if (a.own) put(at(a, border_kind::open), a, out);
             if (around.covering != nullptr)
-                around.covering->stand();
+                around.covering->stands_in |= slices_.bit_of(a.id);
             else
-                open_.add(open_point::make(a.id, a.at), values_of(a), a.salt);
+                open_.add({.at = a.at, .id = a.id}, values_of(a), a.salt);
         } else {
             keep(a, out);
         }
@@ -241,8 +238,8 @@ class first_pass {
                 found.standing_square = std::min(
                     {found.standing_square, rounded_squared_distance(p, q.at), largest_square});
             else
-                found.open.consider(q.id(), q.at);
-            if (within_fourth_.holds(p, q.at) && slices_.of(q.id()) == slices_.of(a.id) &&
+                found.open.consider(q.id, q.at);
+            if (within_fourth_.holds(p, q.at) &&
                 agree_.same(a.values, open_.values.data() + number * agree_.size()))
                 found.covering = &q;
         });
@@ -297,6 +294,7 @@ class first_pass {
     remembered<open_point> open_;
     std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of what a dropped one has met
     std::size_t next_asked_ = 0;
+    std::size_t slice_asked_ = 0;
 };
 
 }  // namespace treeform::detail::weld

@@ -24,9 +24,12 @@ class number_slices {
     [[nodiscard]] std::uint64_t bit_of(std::uint64_t number) const {
         return std::uint64_t{1} << of(number);
     }
-    /// Those of a set that come after the slice of a number.
-    [[nodiscard]] std::uint64_t after(std::uint64_t number, std::uint64_t set) const {
-        return set >> of(number) >> 1 << of(number) << 1;
+    [[nodiscard]] static bool has(std::uint64_t set, std::size_t slice) {
+        return (set >> slice & 1) != 0;
+    }
+    /// Those of a set that come after a slice.
+    [[nodiscard]] static std::uint64_t after(std::size_t slice, std::uint64_t set) {
+        return set >> slice >> 1 << slice << 1;
     }
 
   private:

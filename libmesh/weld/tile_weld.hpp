@@ -51,8 +51,8 @@
 /// the earlier ones that decide the fate of its own. These are asked for: when an own point is open
 /// or leans, a tile marks the open points that are near it with its slice. To each slice that asks
 /// for an open point, what the border pass has made of it is handed over, and of those it stands
-/// for, which are of the same slice. That is all a slice needs: an earlier neighbor that is kept in
-/// the end is open in the point's own tile, or dropped the point there. The same holds for a pass
+/// for, by each slice that has some of them. That is all a slice needs: an earlier neighbor that is
+/// kept in the end is open in the point's own tile, or dropped the point there. The same holds for a pass
 /// of some tiles, which marks its own open points, and the one for what these leave: of what tiles
 /// ask for, that has to know where an outer point is asked for.
 
@@ -118,11 +118,11 @@ struct border_point {
     [[nodiscard]] border_kind kind() const { return static_cast<border_kind>(tag & 3); }
 };
 
-/// An open point whose fate may decide that of points in later slices.
+/// A place near which the fate of points of a slice may decide that of points in later ones.
 struct asked_point {
-    std::uint64_t id = 0;
+    std::uint64_t slice = 0;
     point3 at{};
-    std::uint64_t slices = 0;  ///< a bit for each that asks
+    std::uint64_t asked_by = 0;  ///< a bit for each slice
 };
 
 /// A point of a component that may be in several tiles, with the rule chain.
@@ -153,7 +153,7 @@ struct tile_result {
     std::vector<tile_drop> dropped{};    ///< by ascending numbers; for good with the rule first
     std::vector<border_point> border{};  ///< by ascending numbers
     std::vector<std::uint64_t> border_values{};  ///< of these with the rule first, as for `add`
-    std::vector<asked_point> asked{};            ///< with the rule first, by ascending numbers
+    std::vector<asked_point> asked{};            ///< with the rule first, by ascending slices
     std::vector<std::uint64_t> asked_values{};   ///< of these
     std::vector<tile_member> members{};          ///< with the rule chain
     /// Of `dropped`, with the rule chain except for the `members`.
@@ -210,13 +210,15 @@ class TREEFORM_API border_weld {
     void add(const border_point& p, std::span<const std::uint64_t> values, bool outer,
              tile_result& out);
 
-    /// Rule first: takes a point that a pass over an earlier slice `hand_over` has named, before any
-    /// of its own slice.
+    /// Rule first: takes what has been handed over by earlier slices, before any of its own slice,
+    /// and each point once. Of an open one several slices may know for whom it stands (`leader`, a
+    /// bit for each slice): all of them.
     void receive(const border_point& p, std::span<const std::uint64_t> values);
-    /// Rule first: appends to `out.border` what a slice that asks for that point has to know.
+    /// Rule first: appends to `out.border` what is kept or open in a slice within a fourth of the
+    /// tolerance of that place, of the same values.
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
                    tile_result& out);
-    /// Rule first: appends the open points that other slices ask for, a piece at a time: call it
+    /// Rule first: appends the open points that later slices ask for, a piece at a time: call it
     /// until it returns false.
     [[nodiscard]] bool finish(tile_result& out);
 

@@ -129,12 +129,23 @@ inline void check_equal(const tile_result& a, const tile_result& b) {
 
 /// What tiles leave to a border pass, or such a pass to the next one.
 struct left_to_borders {
-    std::vector<border_point> points;
-    std::vector<asked_point> asked;
+    struct asked {
+        asked_point point;
+        std::vector<std::uint64_t> values;
+    };
+    std::vector<border_point> points{};
+    std::vector<asked> asks{};
 
-    void add(const std::vector<border_point>& some, const std::vector<asked_point>& by) {
-        points.insert(points.end(), some.begin(), some.end());
-        asked.insert(asked.end(), by.begin(), by.end());
+    void add(const left_to_borders& other) {
+        points.insert(points.end(), other.points.begin(), other.points.end());
+        asks.insert(asks.end(), other.asks.begin(), other.asks.end());
+    }
+    void add(const tile_result& of, std::size_t width) {
+        points.insert(points.end(), of.border.begin(), of.border.end());
+        for (std::size_t i = 0; i < of.asked.size(); ++i) {
+            const auto values = std::span(of.asked_values).subspan(i * width, width);
+            asks.push_back({of.asked[i], {values.begin(), values.end()}});
+        }
     }
 };
 
@@ -158,14 +169,13 @@ struct passes {
         if (by_halves && last - first > 1) {
             const std::size_t middle = (first + last) / 2;
             from = over(first, middle);
-            const left_to_borders rest = over(middle, last);
-            from.add(rest.points, rest.asked);
+            from.add(over(middle, last));
         } else {
-            for (std::size_t t = first; t < last; ++t) from.add(tiles[t].border, tiles[t].asked);
+            for (std::size_t t = first; t < last; ++t) from.add(tiles[t], more.agree.size());
         }
         std::ranges::stable_sort(from.points, {}, &border_point::id);
         tile_result out;
-        std::vector<asked_point> asked;
+        left_to_borders left;
         std::array<std::vector<border_point>, number_slices::most> inbox;
         auto next = from.points.begin();
         for (std::size_t slice = 0; slice < number_slices::most; ++slice) {
@@ -174,19 +184,19 @@ struct passes {
             const auto begin = next;
             for (; next != from.points.end() && slices.of(next->id()) == slice; ++next)
                 pass.add(*next, values_of(next->id()), is_outer(next->at, first, last), out);
-            for (const asked_point& a : from.asked) {
-                if (slices.of(a.id) != slice) continue;
+            for (const left_to_borders::asked& a : from.asks) {
+                if (a.point.slice != slice) continue;
                 hand_over(pass, a, inbox);
-                if (is_outer(a.at, first, last)) asked.push_back(a);
+                if (is_outer(a.point.at, first, last)) left.asks.push_back(a);
             }
             while (pass.finish(out)) {
             }
             join(pass, {begin, next}, first, last, out);
         }
-        asked.insert(asked.end(), out.asked.begin(), out.asked.end());
+        left.add(out, more.agree.size());
         dropped.insert(dropped.end(), out.dropped.begin(), out.dropped.end());
         longest.consider(out.move);
-        return {out.border, asked};
+        return left;
     }
 
   private:
@@ -199,17 +209,21 @@ struct passes {
         return is_other(cuts.find(p, halos)) || std::ranges::any_of(halos, is_other);
     }
     /// Each once to a slice.
-    void hand_over(border_weld& pass, const asked_point& asked, auto& inbox) {
+    void hand_over(border_weld& pass, const left_to_borders::asked& asked, auto& inbox) {
         tile_result found;
-        pass.hand_over(asked, values_of(asked.id), found);
-        for (std::size_t slice = 0; slice < inbox.size(); ++slice)
+        pass.hand_over(asked.point, asked.values, found);
+        for (std::size_t slice = 0; slice < inbox.size(); ++slice) {
+            if (!number_slices::has(asked.point.asked_by, slice)) continue;
             for (const border_point& p : found.border) {
-                const auto is_same = [&](const border_point& q) { return p.tag == q.tag; };
-                if ((asked.slices >> slice & 1) == 0 || std::ranges::any_of(inbox[slice], is_same))
-                    continue;
-                inbox[slice].push_back(p);
-                ++handed_over;
+                const auto same = std::ranges::find(inbox[slice], p.tag, &border_point::tag);
+                if (same != inbox[slice].end()) {
+                    same->leader |= p.leader;
+                } else {
+                    inbox[slice].push_back(p);
+                    ++handed_over;
+                }
             }
+        }
     }
     void join(border_weld& pass, std::span<const border_point> border, std::size_t first,
               std::size_t last, tile_result& out) {
@@ -275,7 +289,7 @@ inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance
     passes pass{rule, tolerance, slabs, results, more, slices, way.by_halves};
     const left_to_borders left = pass.over(0, tiles.size());
     REQUIRE(left.points.empty());
-    REQUIRE((left.asked.empty() || way.by_slices));
+    REQUIRE(left.asks.empty());
     all.handed_over = pass.handed_over;
     longest.consider(pass.longest);
     for (const tile_member& m : members) pass.joined.measure(m, longest);

@@ -222,8 +222,9 @@ TEST_CASE("border_weld: an open point is handed over by the one that stands for 
     while (later.finish(out)) {
     }
     REQUIRE(out.asked.size() == 1);
-    CHECK(out.asked[0].id == 1);
-    CHECK(out.asked[0].slices == 2);
+    CHECK(out.asked[0].slice == 0);
+    CHECK(out.asked[0].at == point3{0.0, 0.0, 0.0});
+    CHECK(out.asked[0].asked_by == 2);
 }
 
 TEST_CASE("tile_weld: mixed scales, outliers and the ends of the doubles give the same groups") {
