@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -146,25 +147,39 @@ class first_pass {
     /// As `border_weld`.
     [[nodiscard]] bool put_asked(tile_result& out) {
         constexpr std::size_t piece = std::size_t{1} << 16;
-        const std::size_t end = std::min(open_.cells.size(), next_asked_ + piece);
+        if (next_asked_ == 0) list_asked();
+        const std::size_t end = std::min(asked_.size(), next_asked_ + piece);
         for (; next_asked_ < end; ++next_asked_) {
-            const open_point& p = open_.cells[next_asked_];
-            const std::uint64_t later = number_slices::after(slice_asked_, p.asked_by);
-            const std::uint64_t in = p.stands_in | slices_.bit_of(p.id);
-            if (later == 0 || !number_slices::has(in, slice_asked_)) continue;
-            out.asked.push_back({slice_asked_, p.at, later});
-            const auto values = open_.values_of(next_asked_, agree_.size());
+            const auto [slice, number] = asked_[next_asked_];
+            const open_point& p = open_.cells[number];
+            out.asked.push_back({slice, p.at, number_slices::after(slice, p.asked_by)});
+            const auto values = open_.values_of(number, agree_.size());
             out.asked_values.insert(out.asked_values.end(), values.begin(), values.end());
         }
-        if (next_asked_ == open_.cells.size()) {
-            next_asked_ = 0;
-            ++slice_asked_;
-        }
-        return slice_asked_ < number_slices::most;
+        return next_asked_ < asked_.size();
     }
 
   private:
     static constexpr double largest = 0x1p1000;
+
+    struct in_slice {
+        std::uint32_t slice;
+        std::uint32_t number;  ///< in `open_`
+
+        auto operator<=>(const in_slice&) const = default;
+    };
+    /// For each slice, the open points that later ones ask for and that stand for some of it.
+    void list_asked() {
+        for (std::uint32_t number = 0; number < open_.cells.size(); ++number) {
+            const open_point& p = open_.cells[number];
+            if (number_slices::after(slices_.of(p.id), p.asked_by) == 0) continue;
+            const std::uint64_t in = p.stands_in | slices_.bit_of(p.id);
+            for (std::uint32_t slice = 0; slice < number_slices::most; ++slice)
+                if (number_slices::has(in, slice) && number_slices::after(slice, p.asked_by) != 0)
+                    asked_.push_back({slice, number});
+        }
+        std::sort(asked_.begin(), asked_.end());
+    }
 
     struct arrival {
         std::uint64_t id;
@@ -293,8 +308,8 @@ class first_pass {
     remembered<kept_point> kept_;
     remembered<open_point> open_;
     std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of what a dropped one has met
+    std::vector<in_slice> asked_{};
     std::size_t next_asked_ = 0;
-    std::size_t slice_asked_ = 0;
 };
 
 }  // namespace treeform::detail::weld
