@@ -22,7 +22,6 @@ namespace treeform::detail::stream {
 namespace {
 
 constexpr std::size_t slices_of_all = weld::number_slices::most;
-constexpr std::uint64_t records_a_check = 65536;
 
 /// Rows that a process has for each slice; in a small cloud most slices have none.
 class rows_by_slice {
@@ -46,14 +45,15 @@ class rows_by_slice {
         return writers_[slice] ? writers_[slice]->finish_unsynced() : record_count{};
     }
 
-    /// Calls `take` with rows that a process has for a slice, some at a time.
+    /// Calls `take` with rows that a process has for a slice, some at a time, and removes them.
     template <class Take>
-    static void each(const work_folder& folder, const std::string& name, std::size_t by,
-                     std::size_t slice, const record_count& count, std::size_t width,
-                     const Take& take) {
+    static void drain(const work_folder& folder, const std::string& name, std::size_t by,
+                      std::size_t slice, const record_count& count, std::size_t width,
+                      const Take& take) {
         if (count.records == 0) return;
         record_reader<std::uint64_t> reader(path(folder, name, by, slice), count, piece, width);
         for (auto some = reader.next(); !some.empty(); some = reader.next()) take(some);
+        std::filesystem::remove(path(folder, name, by, slice));
     }
 
   private:
@@ -93,6 +93,7 @@ class tile_steps::slice_borders {
                            take(a, all_asked.front().subspan(border_numbers));
                        }
                    });
+        if (!all_asked.empty()) fail_damaged(steps.folder_.path());
         first.finish();
         if (team_.is_alone()) return;
         share_left(first);
@@ -108,12 +109,12 @@ class tile_steps::slice_borders {
 
     /// What a process hands on, slice by slice.
     struct left {
-        std::vector<std::uint64_t> ends{};  ///< of the rows of slices
+        std::vector<std::uint64_t> ends{};  ///< rows up to the end of each slice
         record_count points{};
         std::vector<record_count> asked{};
     };
 
-    /// One over some tiles.
+    /// A border pass over some tiles.
     class pass {
       public:
         pass(slice_borders& all, const share& tiles, std::string name)
@@ -147,6 +148,7 @@ class tile_steps::slice_borders {
                 });
                 for (bool more = true; more; write()) more = border.finish(out_);
             }
+            if (!rows.empty()) fail_damaged(steps_.folder_.path());
         }
         /// What others have for these slices is there, too.
         void add_inbox(std::size_t slice, std::size_t by, const record_count& count) {
@@ -175,7 +177,7 @@ class tile_steps::slice_borders {
             const std::size_t width = steps_.border_width();
             std::vector<std::uint64_t> rows;
             for (const auto& [by, count] : received_[slice])
-                rows_by_slice::each(
+                rows_by_slice::drain(
                     steps_.folder_, name_ + ".in", by, slice, count, width,
                     [&](numbers some) { rows.insert(rows.end(), some.begin(), some.end()); });
             std::vector<std::size_t> order(rows.size() / width);
@@ -192,12 +194,11 @@ class tile_steps::slice_borders {
 
         void hand_over(border_weld& border, const asked_point& asked, numbers values) {
             border.hand_over(asked, values, known_);
-            for (const border_point& p : known_.border)
+            for (const border_point& p : known_)
                 for (std::size_t slice = 0; slice < slices_of_all; ++slice)
                     if (weld::number_slices::has(asked.asked_by, slice))
                         inbox_.put(slice, row_of(p.tag, p.at, p.leader), values);
-            known_.border.clear();
-            known_.border_values.clear();
+            known_.clear();
             if (is_outer(asked.at)) asked_.put(asked.slice, row_of(asked), values);
             check();
         }
@@ -229,7 +230,7 @@ class tile_steps::slice_borders {
         std::array<std::vector<std::pair<std::size_t, record_count>>, slices_of_all> received_{};
         left left_{};
         weld::tile_result out_{};
-        weld::tile_result known_{};
+        std::vector<border_point> known_{};
         std::vector<std::uint32_t> halos_{};
         std::uint64_t records_ = 0;
     };
@@ -312,12 +313,12 @@ class tile_steps::slice_borders {
     void each_asked(std::size_t slice, const take_asked& take) const {
         const std::size_t width = steps_.border_width();
         for (std::size_t r = 0; r < left_.size(); ++r)
-            rows_by_slice::each(steps_.folder_, "border.asked", r, slice, left_[r].asked[slice],
-                                width, [&](numbers rows) {
-                                    for (; !rows.empty(); rows = rows.subspan(width))
-                                        take(asked_of(rows),
-                                             rows.first(width).subspan(border_numbers));
-                                });
+            rows_by_slice::drain(steps_.folder_, "border.asked", r, slice, left_[r].asked[slice],
+                                 width, [&](numbers rows) {
+                                     for (; !rows.empty(); rows = rows.subspan(width))
+                                         take(asked_of(rows),
+                                              rows.first(width).subspan(border_numbers));
+                                 });
     }
 
     const tile_steps& steps_;

@@ -10,12 +10,6 @@
 #include <utility>
 
 namespace treeform::detail::stream {
-namespace {
-
-constexpr std::uint64_t records_a_check = 65536;
-
-}  // namespace
-
 /// The passes over borders with the rule chain, and what they leave.
 class tile_steps::chain_borders {
   public:

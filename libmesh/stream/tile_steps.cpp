@@ -152,7 +152,7 @@ void tile_steps::say_plan() {
     cloud.tiles = cuts_->size();
     if (!tiles_.empty()) return;
     // Tiles' points are removed as their drops are written, which take half as much at most.
-    // Members, few mostly, are not counted.
+    // Borders and members, few mostly, are not counted.
     cloud.disk_bytes = cloud.points * (8 * point_width() + 2 + (has_order() ? 48 : 0));
     const std::uint64_t there = unpacked_ ? unpacked_->bytes() : 0;
     cloud.disk_bytes += there;
@@ -425,8 +425,11 @@ void tile_steps::weld_tile(std::size_t t) {
 void tile_steps::weld_held(std::size_t t, tile_files& files) {
     weld::tile_weld weld(rule(), tolerance_, keys_.agree(), slices());
     // With the rule first few are held; or all, which doubles memory twice, up to `bytes_per_point`.
+    // Of a crowded tile it is few, however many points it has.
+    constexpr std::uint64_t most = std::uint64_t{1} << 17;
     const std::uint64_t all = points_of(tiles_[t]);
-    weld.reserve(static_cast<std::size_t>(rule() == weld_rule::first ? all / 4 : all));
+    weld.reserve(
+        static_cast<std::size_t>(rule() == weld_rule::first ? std::min(all / 4, most) : all));
     each_point_of(t, files, [&](std::span<const tile_point> points, numbers values) {
         weld.add(points, files.result, values);
         files.write();

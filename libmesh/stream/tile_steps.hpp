@@ -196,7 +196,7 @@ class tile_steps {
 
     class chain_borders;
     class slice_borders;
-    /// Also names the longest way there. What they come to, for what is told of all points.
+    /// Returns the files of drops, and considers their longest way.
     [[nodiscard]] std::vector<tiles_welded::file> weld_borders_by_slices(
         longest_move& longest) const;
     [[nodiscard]] bool is_outer(const point3& p, const share& tiles,
@@ -250,6 +250,7 @@ class tile_steps {
     std::vector<tile> tiles_{};
 };
 
+inline constexpr std::uint64_t records_a_check = 65536;
 inline constexpr double bytes_of_border = 100.0;  ///< of a point in the border pass, about
 inline constexpr double bytes_of_cube = 200.0;    ///< of a cube in `crowded_chain`, about
 inline constexpr std::size_t piece = std::size_t{1} << 20;  ///< bytes read or written at a time

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using detail::stream::work_folder;
 
-/// Other than in versions that leave other files in the folder.
+/// Changes whenever the files in the folder do.
 constexpr std::uint64_t layout_of_folder = 2;
 
 std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o) {

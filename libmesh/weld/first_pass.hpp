@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,10 +38,6 @@ struct remembered {
     near_cells<Point> cells;
     std::vector<std::uint64_t> values{};  ///< in the order of the numbers in `cells`
 
-    void reserve(std::size_t points, std::size_t width) {
-        cells.reserve(points);
-        values.reserve(points * width);
-    }
     void add(const Point& point, std::span<const std::uint64_t> its_values, std::uint64_t salt) {
         cells.add(point, salt);
         values.insert(values.end(), its_values.begin(), its_values.end());
@@ -62,14 +57,15 @@ class first_pass {
           within_(tolerance),
           // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
           within_fourth_(tolerance < largest ? 0.25 * tolerance : 0.0),
-          within_half_(tolerance < largest ? 0.5 * tolerance : 0.0),
+          within_half_(2.0 * within_fourth_.distance()),  // which denormals round
           within_more_(tolerance < largest ? 1.26 * tolerance : tolerance),
           kept_{near_cells<kept_point>(within_.distance(), agree.size() > 0)},
           open_{near_cells<open_point>(within_more_.distance(), agree.size() > 0)} {}
 
     void reserve(std::size_t points) {
-        kept_.reserve(points, agree_.size());
-        open_.reserve(points, agree_.size());
+        kept_.cells.reserve(points);
+        kept_.values.reserve(points * agree_.size());
+        open_.cells.reserve_entries(points);
     }
 
     void add(std::span<const tile_point> points, std::span<const std::uint64_t> values,
@@ -120,65 +116,61 @@ class first_pass {
     }
 
     /// As `border_weld`. An open point within a fourth of the tolerance of `asked` may have one that
-    /// stands for it and is as near to it.
+    /// stands for it and is as near to it. What was received, others have handed over.
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
-                   tile_result& out) {
+                   std::vector<border_point>& known) {
         const std::uint64_t salt = agree_.salt(values.data());
-        const auto put = [&](border_point b, const point3& p, std::uint64_t stands_in) {
-            b.at = p;
-            b.leader = stands_in;
-            out.border.push_back(b);
-            out.border_values.insert(out.border_values.end(), values.begin(), values.end());
-        };
         const auto is_same = [&](const std::vector<std::uint64_t>& all, std::size_t number) {
             return agree_.same(values.data(), all.data() + number * agree_.size());
         };
         kept_.cells.visit(asked.at, salt, [&](const kept_point& q, std::size_t number) {
-            if (within_fourth_.holds(asked.at, q.at) && is_same(kept_.values, number))
-                put(border_point::make(q.id, border_kind::kept), q.at, 0);
+            if (slices_.of(q.id) == asked.slice && within_fourth_.holds(asked.at, q.at) &&
+                is_same(kept_.values, number))
+                known.push_back({border_point::make(q.id, border_kind::kept).tag, q.at, 0, {}});
         });
         open_.cells.visit(asked.at, salt, [&](const open_point& q, std::size_t number) {
             const reach& near = q.stands() ? within_half_ : within_fourth_;
-            if (near.holds(asked.at, q.at) && is_same(open_.values, number))
-                put(border_point::make(q.id, border_kind::open), q.at, q.stands_in);
+            if (number_slices::has(slices_in(q), asked.slice) && near.holds(asked.at, q.at) &&
+                is_same(open_.values, number))
+                known.push_back(
+                    {border_point::make(q.id, border_kind::open).tag, q.at, q.stands_in, {}});
         });
     }
 
     /// As `border_weld`.
     [[nodiscard]] bool put_asked(tile_result& out) {
         constexpr std::size_t piece = std::size_t{1} << 16;
-        if (next_asked_ == 0) list_asked();
+        if (slice_asked_ == 0 && next_asked_ == 0) list_asked();
         const std::size_t end = std::min(asked_.size(), next_asked_ + piece);
         for (; next_asked_ < end; ++next_asked_) {
-            const auto [slice, number] = asked_[next_asked_];
+            const std::uint32_t number = asked_[next_asked_];
             const open_point& p = open_.cells[number];
-            out.asked.push_back({slice, p.at, number_slices::after(slice, p.asked_by)});
+            const std::uint64_t later = number_slices::after(slice_asked_, p.asked_by);
+            if (later == 0 || !number_slices::has(slices_in(p), slice_asked_)) continue;
+            out.asked.push_back({slice_asked_, p.at, later});
             const auto values = open_.values_of(number, agree_.size());
             out.asked_values.insert(out.asked_values.end(), values.begin(), values.end());
         }
-        return next_asked_ < asked_.size();
+        if (next_asked_ == asked_.size()) {
+            next_asked_ = 0;
+            ++slice_asked_;
+        }
+        return slice_asked_ < number_slices::most;
     }
 
   private:
     static constexpr double largest = 0x1p1000;
 
-    struct in_slice {
-        std::uint32_t slice;
-        std::uint32_t number;  ///< in `open_`
-
-        auto operator<=>(const in_slice&) const = default;
-    };
-    /// For each slice, the open points that later ones ask for and that stand for some of it.
+    /// Of an open point and those it stands for.
+    [[nodiscard]] std::uint64_t slices_in(const open_point& p) const {
+        return p.stands_in | slices_.bit_of(p.id);
+    }
+    /// Where none is asked for by a slice after its own, there is none after those it stands for.
     void list_asked() {
         for (std::uint32_t number = 0; number < open_.cells.size(); ++number) {
             const open_point& p = open_.cells[number];
-            if (number_slices::after(slices_.of(p.id), p.asked_by) == 0) continue;
-            const std::uint64_t in = p.stands_in | slices_.bit_of(p.id);
-            for (std::uint32_t slice = 0; slice < number_slices::most; ++slice)
-                if (number_slices::has(in, slice) && number_slices::after(slice, p.asked_by) != 0)
-                    asked_.push_back({slice, number});
+            if (number_slices::after(slices_.of(p.id), p.asked_by) != 0) asked_.push_back(number);
         }
-        std::sort(asked_.begin(), asked_.end());
     }
 
     struct arrival {
@@ -308,7 +300,8 @@ class first_pass {
     remembered<kept_point> kept_;
     remembered<open_point> open_;
     std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of what a dropped one has met
-    std::vector<in_slice> asked_{};
+    std::vector<std::uint32_t> asked_{};     ///< numbers in `open_` of those that are asked for
+    std::size_t slice_asked_ = 0;
     std::size_t next_asked_ = 0;
 };
 

@@ -111,11 +111,15 @@ class near_cells {
         : cubes_(reach), heads_(least_heads, nobody), salted_(salted) {}
 
     void reserve(std::size_t count) {
-        entries_.reserve(count);
-        next_.reserve(count);
+        reserve_entries(count);
         if (2 * count <= heads_.size()) return;
         heads_.assign(std::bit_ceil(2 * count), nobody);
         hang_all();
+    }
+    /// Where few are to be expected: looks still meet a small table.
+    void reserve_entries(std::size_t count) {
+        entries_.reserve(count);
+        next_.reserve(count);
     }
     [[nodiscard]] std::size_t size() const { return entries_.size(); }
     [[nodiscard]] Entry& operator[](std::size_t number) { return entries_[number]; }

@@ -8,13 +8,13 @@
 
 namespace treeform::detail::weld {
 
-/// Slices of as many numbers each; one of all, unless said otherwise.
+/// Slices of equal size; one of all numbers, unless said otherwise.
 class number_slices {
   public:
     static constexpr std::size_t most = 64;
 
     number_slices() = default;
-    /// As many slices as there may be, of the numbers below `count`.
+    /// At most 64 slices of the numbers below `count`.
     explicit number_slices(std::uint64_t count) : numbers_a_slice_(count / most + 1) {}
 
     [[nodiscard]] std::size_t of(std::uint64_t number) const {

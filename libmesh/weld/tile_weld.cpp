@@ -212,8 +212,8 @@ void border_weld::receive(const border_point& p, std::span<const std::uint64_t> 
 }
 
 void border_weld::hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
-                            tile_result& out) {
-    state_->first.hand_over(asked, values, out);
+                            std::vector<border_point>& known) {
+    state_->first.hand_over(asked, values, known);
 }
 
 bool border_weld::finish(tile_result& out) { return state_->first.put_asked(out); }

@@ -210,18 +210,17 @@ struct passes {
     }
     /// Each once to a slice.
     void hand_over(border_weld& pass, const left_to_borders::asked& asked, auto& inbox) {
-        tile_result found;
+        std::vector<border_point> found;
         pass.hand_over(asked.point, asked.values, found);
         for (std::size_t slice = 0; slice < inbox.size(); ++slice) {
             if (!number_slices::has(asked.point.asked_by, slice)) continue;
-            for (const border_point& p : found.border) {
+            handed_over += found.size();
+            for (const border_point& p : found) {
                 const auto same = std::ranges::find(inbox[slice], p.tag, &border_point::tag);
-                if (same != inbox[slice].end()) {
+                if (same != inbox[slice].end())
                     same->leader |= p.leader;
-                } else {
+                else
                     inbox[slice].push_back(p);
-                    ++handed_over;
-                }
             }
         }
     }

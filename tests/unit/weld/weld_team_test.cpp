@@ -236,6 +236,21 @@ TEST_CASE("weld_team: any number of processes write what one writes") {
     }
 }
 
+TEST_CASE("weld_team: more processes than there are slices") {
+    test::random random(24);
+    const team_folder folder;
+    folder.put(families(300, random)[7], random);
+    job work = folder.work("ply");
+    work.options.tolerance = 0.03;
+    work.options.points_per_tile = 20;
+    const auto one = weld_alone(work);
+    const auto expected = folder.take("ply");
+    const auto several = weld_as_team(work, 70);
+    REQUIRE(several);
+    check_counts(*several, one);
+    CHECK(folder.take("ply") == expected);
+}
+
 TEST_CASE("weld_team: killed at any step, another number of processes goes on to the same bytes") {
     test::random random(12);
     const team_folder folder;
