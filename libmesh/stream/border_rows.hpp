@@ -25,7 +25,7 @@ using border_row = std::array<std::uint64_t, border_numbers>;
     return {tag, bits(p.x), bits(p.y), bits(p.z), more};
 }
 [[nodiscard]] inline border_row row_of(const asked_point& a) {
-    return row_of(a.slice, a.at, a.asked_by);
+    return row_of(a.bundle, a.at, a.asked_by);
 }
 
 [[nodiscard]] inline point3 point_of(numbers row) {

@@ -126,7 +126,7 @@ tiles_welded tile_steps::weld_borders() {
     tiles_welded w(tolerance_, keys_.agree());
     longest_move longest;
     if (rule() == weld_rule::first)
-        w.drops = weld_borders_by_slices(longest);
+        w.drops = weld_borders_in_runs(longest);
     else
         w.drops = chain_borders(*this, w.border).drops();
     const share own = tiles_of(team_.rank());

@@ -45,9 +45,7 @@ tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
     double ignored = 0.0;
     sizes.points = count(survey_.sample, sizes.largest, ignored);
     static_cast<void>(count(places(), sizes.held, sizes.border));
-    if (rule() == weld_rule::first)  // a slice at a time
-        sizes.border = std::min(sizes.border, static_cast<double>(survey_.cloud.points) /
-                                                  static_cast<double>(weld::number_slices::most));
+    if (rule() == weld_rule::first) sizes.border = 0.0;  // in runs that fit
     return sizes;
 }
 

@@ -26,8 +26,9 @@ struct kept_point {
 struct open_point {
     point3 at{};
     std::uint64_t id = 0;
-    std::uint64_t stands_in = 0;  ///< slices of those it stands for
-    std::uint64_t asked_by = 0;   ///< slices with points that its fate may decide, or that of these
+    std::uint64_t stands_in = 0;  ///< bundles of those it stands for
+    /// Bundles with points of other slices that its fate may decide, or that of these.
+    std::uint64_t asked_by = 0;
 
     [[nodiscard]] bool stands() const { return stands_in != 0; }
 };
@@ -48,6 +49,12 @@ struct remembered {
     }
 };
 
+/// How far from its own points a pass looks at open ones: where 1.26 tolerances leave the doubles,
+/// they stand for equal ones only.
+[[nodiscard]] inline double reach_of_open(double tolerance) {
+    return tolerance < 0x1p1000 ? 1.26 * tolerance : tolerance;
+}
+
 /// The rule first, of the points of a tile or of the borders of some.
 class first_pass {
   public:
@@ -55,10 +62,9 @@ class first_pass {
         : agree_(agree),
           slices_(slices),
           within_(tolerance),
-          // Where 1.26 tolerances leave the doubles, open points stand for equal ones only.
-          within_fourth_(tolerance < largest ? 0.25 * tolerance : 0.0),
+          within_more_(reach_of_open(tolerance)),
+          within_fourth_(within_more_.distance() > tolerance ? 0.25 * tolerance : 0.0),
           within_half_(2.0 * within_fourth_.distance()),  // which denormals round
-          within_more_(tolerance < largest ? 1.26 * tolerance : tolerance),
           kept_{near_cells<kept_point>(within_.distance(), agree.size() > 0)},
           open_{near_cells<open_point>(within_more_.distance(), agree.size() > 0)} {}
 
@@ -110,6 +116,7 @@ class first_pass {
         const std::uint64_t salt = agree_.salt(values.data());
         if (p.kind() == border_kind::kept) {
             kept_.add({.at = p.at, .id = p.id()}, values, salt);
+            received_ = kept_.cells.size();
             return;
         }
         open_.add({.at = p.at, .id = p.id(), .stands_in = p.leader}, values, salt);
@@ -124,13 +131,13 @@ class first_pass {
             return agree_.same(values.data(), all.data() + number * agree_.size());
         };
         kept_.cells.visit(asked.at, salt, [&](const kept_point& q, std::size_t number) {
-            if (slices_.of(q.id) == asked.slice && within_fourth_.holds(asked.at, q.at) &&
-                is_same(kept_.values, number))
+            if (number >= received_ && slices_.bundle_of(q.id) == asked.bundle &&
+                within_fourth_.holds(asked.at, q.at) && is_same(kept_.values, number))
                 known.push_back({border_point::make(q.id, border_kind::kept).tag, q.at, 0, {}});
         });
         open_.cells.visit(asked.at, salt, [&](const open_point& q, std::size_t number) {
             const reach& near = q.stands() ? within_half_ : within_fourth_;
-            if (number_slices::has(slices_in(q), asked.slice) && near.holds(asked.at, q.at) &&
+            if (number_slices::has(bundles_of(q), asked.bundle) && near.holds(asked.at, q.at) &&
                 is_same(open_.values, number))
                 known.push_back(
                     {border_point::make(q.id, border_kind::open).tag, q.at, q.stands_in, {}});
@@ -140,36 +147,34 @@ class first_pass {
     /// As `border_weld`.
     [[nodiscard]] bool put_asked(tile_result& out) {
         constexpr std::size_t piece = std::size_t{1} << 16;
-        if (slice_asked_ == 0 && next_asked_ == 0) list_asked();
+        if (bundle_asked_ == 0 && next_asked_ == 0) list_asked();
         const std::size_t end = std::min(asked_.size(), next_asked_ + piece);
         for (; next_asked_ < end; ++next_asked_) {
             const std::uint32_t number = asked_[next_asked_];
             const open_point& p = open_.cells[number];
-            const std::uint64_t later = number_slices::after(slice_asked_, p.asked_by);
-            if (later == 0 || !number_slices::has(slices_in(p), slice_asked_)) continue;
-            out.asked.push_back({slice_asked_, p.at, later});
+            const std::uint64_t later = slices_.after(bundle_asked_, p.asked_by);
+            if (later == 0 || !number_slices::has(bundles_of(p), bundle_asked_)) continue;
+            out.asked.push_back({bundle_asked_, p.at, later});
             const auto values = open_.values_of(number, agree_.size());
             out.asked_values.insert(out.asked_values.end(), values.begin(), values.end());
         }
         if (next_asked_ == asked_.size()) {
             next_asked_ = 0;
-            ++slice_asked_;
+            ++bundle_asked_;
         }
-        return slice_asked_ < number_slices::most;
+        return bundle_asked_ < number_slices::bundles;
     }
 
   private:
-    static constexpr double largest = 0x1p1000;
-
     /// Of an open point and those it stands for.
-    [[nodiscard]] std::uint64_t slices_in(const open_point& p) const {
+    [[nodiscard]] std::uint64_t bundles_of(const open_point& p) const {
         return p.stands_in | slices_.bit_of(p.id);
     }
-    /// Where none is asked for by a slice after its own, there is none after those it stands for.
+    /// Where none asks that comes after its own bundle, none does after those it stands for.
     void list_asked() {
         for (std::uint32_t number = 0; number < open_.cells.size(); ++number) {
             const open_point& p = open_.cells[number];
-            if (number_slices::after(slices_.of(p.id), p.asked_by) != 0) asked_.push_back(number);
+            if (slices_.after(slices_.bundle_of(p.id), p.asked_by) != 0) asked_.push_back(number);
         }
     }
 
@@ -220,6 +225,11 @@ class first_pass {
         open_point* covering;
     };
 
+    /// What begins in the slice stands for none of another one.
+    void ask_for(open_point& q, const arrival& a) const {
+        if (slices_.slice_of(q.id) != slices_.slice_of(a.id)) q.asked_by |= slices_.bit_of(a.id);
+    }
+
     neighbors look(const arrival& a) {
         const point3& p = a.at;
         neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, nullptr};
@@ -231,7 +241,6 @@ class first_pass {
             if (within_.holds(p, q.at) && agrees(kept_.values, number))
                 found.kept.consider(q.id, q.at);
         });
-        const std::uint64_t slice = a.own ? slices_.bit_of(a.id) : 0;
         met_open_.clear();
         open_.cells.visit(p, a.salt, [&](open_point& q, std::uint32_t number) {
             if (!(q.stands() ? within_more_ : within_).holds(p, q.at)) return;
@@ -239,8 +248,8 @@ class first_pass {
             found.some_open = true;
             if (found.kept.any())
                 met_open_.push_back(number);
-            else
-                q.asked_by |= slice;
+            else if (a.own)
+                ask_for(q, a);
             if (q.stands())
                 found.standing_square = std::min(
                     {found.standing_square, rounded_squared_distance(p, q.at), largest_square});
@@ -264,8 +273,7 @@ class first_pass {
         leaning.leader = kept.id();
         leaning.leader_at = kept.at();
         put(leaning, a, out);
-        for (const std::uint32_t number : met_open_)
-            open_.cells[number].asked_by |= slices_.bit_of(a.id);
+        for (const std::uint32_t number : met_open_) ask_for(open_.cells[number], a);
     }
 
     /// What stands for others is nearer by a fourth of the tolerance, as far as is known.
@@ -294,14 +302,15 @@ class first_pass {
     const agreement& agree_;
     number_slices slices_;
     reach within_;
+    reach within_more_;
     reach within_fourth_;
     reach within_half_;
-    reach within_more_;
     remembered<kept_point> kept_;
     remembered<open_point> open_;
     std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of what a dropped one has met
     std::vector<std::uint32_t> asked_{};     ///< numbers in `open_` of those that are asked for
-    std::size_t slice_asked_ = 0;
+    std::size_t received_ = 0;               ///< kept points that others have
+    std::size_t bundle_asked_ = 0;
     std::size_t next_asked_ = 0;
 };
 

@@ -2,38 +2,69 @@
 /// \file
 /// The points of a cloud by their numbers, cut into slices: all of one come before those of the next.
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 namespace treeform::detail::weld {
 
-/// Slices of equal size; one of all numbers, unless said otherwise.
+/// Slices of equal size, which follow each other in bundles; one of all numbers, unless said
+/// otherwise. A set of bundles is a number with a bit for each.
 class number_slices {
   public:
-    static constexpr std::size_t most = 64;
+    static constexpr std::size_t bundles = 64;
+    /// A slice may take memory, a bundle need not.
+    static constexpr unsigned bits_of_slice = 15;
 
     number_slices() = default;
-    /// At most 64 slices of the numbers below `count`.
-    explicit number_slices(std::uint64_t count) : numbers_a_slice_(count / most + 1) {}
+    /// Of the numbers below `count`: 64 bundles at most of one slice; or of several that have at
+    /// least `1 << least_bits` numbers, and are 1024 at most.
+    explicit number_slices(std::uint64_t count, unsigned least_bits = bits_of_slice)
+        : bundle_bits_(bits_for(count, 6)),
+          slice_bits_(std::min(bundle_bits_, std::max(least_bits, bits_for(count, 10)))) {}
 
-    [[nodiscard]] std::size_t of(std::uint64_t number) const {
-        return static_cast<std::size_t>(number / numbers_a_slice_);
+    [[nodiscard]] std::uint64_t slice_of(std::uint64_t number) const {
+        return number >> slice_bits_;
     }
-    /// One of a set, whose bit is set.
+    [[nodiscard]] std::size_t bundle_of(std::uint64_t number) const {
+        return static_cast<std::size_t>(number >> bundle_bits_);
+    }
+    /// The first number of a slice, or of a bundle.
+    [[nodiscard]] std::uint64_t slice_begin(std::uint64_t slice) const {
+        return slice << slice_bits_;
+    }
+    [[nodiscard]] std::uint64_t bundle_begin(std::uint64_t bundle) const {
+        return bundle << bundle_bits_;
+    }
+
+    /// The number's bundle alone.
     [[nodiscard]] std::uint64_t bit_of(std::uint64_t number) const {
-        return std::uint64_t{1} << of(number);
+        return std::uint64_t{1} << bundle_of(number);
     }
-    [[nodiscard]] static bool has(std::uint64_t set, std::size_t slice) {
-        return (set >> slice & 1) != 0;
+    [[nodiscard]] static bool has(std::uint64_t set, std::size_t bundle) {
+        return (set >> bundle & 1) != 0;
     }
-    /// Those of a set that come after a slice.
-    [[nodiscard]] static std::uint64_t after(std::size_t slice, std::uint64_t set) {
-        return set >> slice >> 1 << slice << 1;
+    /// Those of a set with slices that come after some of the bundle's.
+    [[nodiscard]] std::uint64_t after(std::size_t bundle, std::uint64_t set) const {
+        return bundle_bits_ > slice_bits_ ? set >> bundle << bundle
+                                          : set >> bundle >> 1 << bundle << 1;
+    }
+    /// Those of a set with slices that do not come before `number`, which begins one.
+    [[nodiscard]] std::uint64_t from(std::uint64_t number, std::uint64_t set) const {
+        const std::size_t bundle = bundle_of(number);
+        return bundle < bundles ? set >> bundle << bundle : 0;
     }
 
   private:
-    std::uint64_t numbers_a_slice_ = std::numeric_limits<std::uint64_t>::max();
+    /// Of a part, when there are at most `1 << part_bits` of them.
+    [[nodiscard]] static unsigned bits_for(std::uint64_t count, unsigned part_bits) {
+        return static_cast<unsigned>(
+            std::bit_width((std::max<std::uint64_t>(count, 1) - 1) >> part_bits));
+    }
+
+    unsigned bundle_bits_ = 63;
+    unsigned slice_bits_ = 63;
 };
 
 }  // namespace treeform::detail::weld

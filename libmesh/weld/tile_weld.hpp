@@ -45,16 +45,18 @@
 /// none. With the rule chain, a pass hands on the links of outer points, with the lowest of what it
 /// has joined.
 ///
-/// And with the rule first it may be taken slice by slice of the numbers, each by a `border_weld` of
-/// its own, so that memory holds one slice only: where points come row by row, what is open along a
-/// border may leave all later points of the rows open. A later slice has to know of those points of
-/// the earlier ones that decide the fate of its own. These are asked for: when an own point is open
-/// or leans, a tile marks the open points that are near it with its slice. To each slice that asks
-/// for an open point, what the border pass has made of it is handed over, and of those it stands
-/// for, by each slice that has some of them. That is all a slice needs: an earlier neighbor that is
-/// kept in the end is open in the point's own tile, or dropped the point there. A pass of some tiles
-/// asks the next one likewise, for its own open points. It hands on what a tile asks for when that is
-/// outer: a place within a fourth of the tolerance of a point of another tile is.
+/// And with the rule first it may be taken in runs of slices of the numbers, each by a `border_weld`
+/// of its own, so that memory holds one run only, and that may be a slice: where points come row by
+/// row, what is open along a border may leave all later points of the rows open. A later run has to
+/// know of those points of the earlier ones that decide the fate of its own. These are asked for:
+/// when an own point is open or leans, a tile marks the open points near it that are of another
+/// slice, or stand for some since then, with the bundle of its slice. To each bundle that asks for an
+/// open point, what the border pass has made of it is handed over, and of those it stands for, by
+/// each run that has some of them. That is all a run needs: an earlier neighbor that is kept in the
+/// end is open in the point's own tile, or dropped the point there. Of what a bundle gets, a run that
+/// has not all of it takes what is near its own points. A pass of some tiles asks the next one
+/// likewise, for its own open points. It hands on what a tile asks for when that is outer: a place
+/// within a fourth of the tolerance of a point of another tile is.
 
 #include <libmesh/weld/agreement.hpp>
 #include <libmesh/weld/number_slices.hpp>
@@ -118,11 +120,11 @@ struct border_point {
     [[nodiscard]] border_kind kind() const { return static_cast<border_kind>(tag & 3); }
 };
 
-/// A place near which the fate of points of a slice may decide that of points in later ones.
+/// A place near which the fate of points of a bundle may decide that of points in later slices.
 struct asked_point {
-    std::uint64_t slice = 0;
+    std::uint64_t bundle = 0;
     point3 at{};
-    std::uint64_t asked_by = 0;  ///< a bit for each slice
+    std::uint64_t asked_by = 0;  ///< a set of bundles
 };
 
 /// A point of a component that may be in several tiles, with the rule chain.
@@ -153,7 +155,7 @@ struct tile_result {
     std::vector<tile_drop> dropped{};    ///< by ascending numbers; for good with the rule first
     std::vector<border_point> border{};  ///< by ascending numbers
     std::vector<std::uint64_t> border_values{};  ///< of these with the rule first, as for `add`
-    std::vector<asked_point> asked{};            ///< with the rule first, by ascending slices
+    std::vector<asked_point> asked{};            ///< with the rule first, by ascending bundles
     std::vector<std::uint64_t> asked_values{};   ///< of these
     std::vector<tile_member> members{};          ///< with the rule chain
     /// Of `dropped`, with the rule chain except for the `members`.
@@ -185,7 +187,7 @@ class TREEFORM_API tile_weld {
     /// The end of the tile, a piece of the result at a time: call it until it returns false.
     /// \throws std::invalid_argument for the rule chain and more than 2^32 - 2 points
     /// \cost as `group_points` with the rule chain; with the rule first, O(1) an open point that is
-    /// asked for and slice
+    /// asked for and bundle
     [[nodiscard]] bool finish(tile_result& out);
 
   private:
@@ -211,15 +213,15 @@ class TREEFORM_API border_weld {
     void add(const border_point& p, std::span<const std::uint64_t> values, bool outer,
              tile_result& out);
 
-    /// Rule first: takes what has been handed over by earlier slices, before any of its own slice,
-    /// and each point once. Of an open one several slices may know for whom it stands (`leader`, a
-    /// bit for each slice): all of them.
+    /// Rule first: takes what has been handed over by earlier runs, before any of its own, and each
+    /// point once. Of an open one several runs may know for whom it stands (`leader`, a set of
+    /// bundles): all of them. What is farther than `reach_of_open` from all of its own is not needed.
     void receive(const border_point& p, std::span<const std::uint64_t> values);
-    /// Rule first: appends to `known` what is kept or open in a slice within a fourth of the
-    /// tolerance of that place, of the same values.
+    /// Rule first: appends to `known` what is kept or open in a bundle within a fourth of the
+    /// tolerance of that place, of the same values, and has not been received.
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
                    std::vector<border_point>& known);
-    /// Rule first: appends the open points that later slices ask for, a piece at a time: call it
+    /// Rule first: appends the open points that later bundles ask for, a piece at a time: call it
     /// until it returns false.
     [[nodiscard]] bool finish(tile_result& out);
 

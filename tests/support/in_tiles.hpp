@@ -3,6 +3,8 @@
 /// Clouds welded in tiles, with what lies along the borders settled in any way that may be chosen.
 
 #include <libmesh/weld/crowded_chain.hpp>
+#include <libmesh/weld/first_pass.hpp>
+#include <libmesh/weld/near_places.hpp>
 #include <libmesh/weld/tile_cuts.hpp>
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/tf.hpp>
@@ -16,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -28,7 +31,9 @@ using tf::detail::weld::asked_point;
 using tf::detail::weld::border_point;
 using tf::detail::weld::border_weld;
 using tf::detail::weld::longest_move;
+using tf::detail::weld::near_places;
 using tf::detail::weld::number_slices;
+using tf::detail::weld::reach_of_open;
 using tf::detail::weld::tile_cuts;
 using tf::detail::weld::tile_drop;
 using tf::detail::weld::tile_member;
@@ -45,7 +50,7 @@ struct tiled {
     std::vector<std::uint64_t> leader;
     double longest = 0.0;
     std::size_t border = 0;
-    std::size_t handed_over = 0;  ///< from slice to slice
+    std::size_t handed_over = 0;  ///< from run to run
 };
 
 inline std::vector<std::vector<tile_point>> scatter(const cloud& points, const tile_cuts& cuts) {
@@ -150,7 +155,7 @@ struct left_to_borders {
 };
 
 /// What tiles [first, last) leave to others: by one pass, or by one over what two passes leave, each
-/// over a half of them, and so on; each of them a slice of the numbers at a time.
+/// over a half of them, and so on; each of them a run of slices of the numbers at a time.
 struct passes {
     weld_rule rule;
     double tolerance;
@@ -158,7 +163,9 @@ struct passes {
     const std::vector<tile_result>& tiles;
     const values_of_points& more;
     number_slices slices;
+    std::uint64_t slices_a_run;
     bool by_halves;
+    std::uint64_t count;  ///< points
     std::vector<tile_drop> dropped{};
     longest_move longest{};
     border_weld joined{0.0};  ///< by all passes
@@ -176,18 +183,22 @@ struct passes {
         std::ranges::stable_sort(from.points, {}, &border_point::id);
         tile_result out;
         left_to_borders left;
-        std::array<std::vector<border_point>, number_slices::most> inbox;
+        std::array<std::vector<border_point>, number_slices::bundles> inbox;
         auto next = from.points.begin();
-        for (std::size_t slice = 0; slice < number_slices::most; ++slice) {
-            border_weld pass(tolerance, more.agree, slices);
-            for (const border_point& p : inbox[slice]) pass.receive(p, values_of(p.id()));
+        for (std::uint64_t slice = 0; slices.slice_begin(slice) < count; slice += slices_a_run) {
+            const run mine{slices.slice_begin(slice),
+                           std::min(count, slices.slice_begin(slice + slices_a_run))};
             const auto begin = next;
-            for (; next != from.points.end() && slices.of(next->id()) == slice; ++next)
-                pass.add(*next, values_of(next->id()), is_outer(next->at, first, last), out);
+            while (next != from.points.end() && next->id() < mine.end) ++next;
+            border_weld pass(tolerance, more.agree, slices);
+            receive(pass, mine, {begin, next}, inbox);
+            for (const border_point& p : std::span(begin, next))
+                pass.add(p, values_of(p.id()), is_outer(p.at, first, last), out);
             for (const left_to_borders::asked& a : from.asks) {
-                if (a.point.slice != slice) continue;
-                hand_over(pass, a, inbox);
-                if (is_outer(a.point.at, first, last)) left.asks.push_back(a);
+                if (!mine.meets(a.point.bundle, slices)) continue;
+                hand_over(pass, a, mine, inbox);
+                const bool is_first = slices.bundle_begin(a.point.bundle) >= mine.begin;
+                if (is_first && is_outer(a.point.at, first, last)) left.asks.push_back(a);
             }
             while (pass.finish(out)) {
             }
@@ -208,19 +219,47 @@ struct passes {
         const auto is_other = [&](std::uint32_t t) { return t < first || t >= last; };
         return is_other(cuts.find(p, halos)) || std::ranges::any_of(halos, is_other);
     }
-    /// Each once to a slice.
-    void hand_over(border_weld& pass, const left_to_borders::asked& asked, auto& inbox) {
+    struct run {
+        std::uint64_t begin;
+        std::uint64_t end;
+
+        [[nodiscard]] bool meets(std::uint64_t bundle, const number_slices& slices) const {
+            return slices.bundle_of(begin) <= bundle && bundle <= slices.bundle_of(end - 1);
+        }
+    };
+    using inboxes = std::array<std::vector<border_point>, number_slices::bundles>;
+
+    /// Of each bundle that the run has some of, what may be near the run's own, once.
+    void receive(border_weld& pass, const run& mine, std::span<const border_point> own,
+                 const inboxes& inbox) const {
+        near_places places(reach_of_open(tolerance), own.size());
+        for (const border_point& p : own) places.add(p.at);
+        std::map<std::uint64_t, border_point> received;
+        for (std::size_t bundle = 0; bundle < inbox.size(); ++bundle) {
+            if (!mine.meets(bundle, slices)) continue;
+            for (const border_point& p : inbox[bundle]) {
+                if (!places.may_have(p.at)) continue;
+                const auto [same, is_new] = received.emplace(p.tag, p);
+                if (!is_new) same->second.leader |= p.leader;
+            }
+        }
+        for (const auto& [tag, p] : received) pass.receive(p, values_of(p.id()));
+    }
+    /// Each once to a bundle.
+    void hand_over(border_weld& pass, const left_to_borders::asked& asked, const run& mine,
+                   inboxes& inbox) {
         std::vector<border_point> found;
         pass.hand_over(asked.point, asked.values, found);
-        for (std::size_t slice = 0; slice < inbox.size(); ++slice) {
-            if (!number_slices::has(asked.point.asked_by, slice)) continue;
+        const std::uint64_t later = slices.from(mine.end, asked.point.asked_by);
+        for (std::size_t bundle = 0; bundle < inbox.size(); ++bundle) {
+            if (!number_slices::has(later, bundle)) continue;
             handed_over += found.size();
             for (const border_point& p : found) {
-                const auto same = std::ranges::find(inbox[slice], p.tag, &border_point::tag);
-                if (same != inbox[slice].end())
+                const auto same = std::ranges::find(inbox[bundle], p.tag, &border_point::tag);
+                if (same != inbox[bundle].end())
                     same->leader |= p.leader;
                 else
-                    inbox[slice].push_back(p);
+                    inbox[bundle].push_back(p);
             }
         }
     }
@@ -239,10 +278,11 @@ struct passes {
 /// How the border is settled.
 struct border_way {
     bool by_halves = false;
-    bool by_slices = false;
+    std::uint64_t slices_a_run = 0;  ///< 0: one run of all
+    unsigned least_bits = number_slices::bits_of_slice;
 };
-inline constexpr std::array<border_way, 4> border_ways{
-    {{false, false}, {false, true}, {true, false}, {true, true}}};
+inline constexpr std::array<border_way, 6> border_ways{
+    {{false, 0}, {false, 1}, {false, 7, 0}, {true, 0}, {true, 1}, {true, 3, 0}}};
 
 /// The leader of each point by `count` tiles, done in an order of `random`, in blocks of any size.
 inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::size_t count,
@@ -253,8 +293,9 @@ inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance
     const tile_cuts planned(sample, tolerance, count);
     const tile_cuts slabs({planned.nodes().begin(), planned.nodes().end()}, tolerance);
     const auto tiles = scatter(points, slabs);
+    const bool in_runs = way.slices_a_run > 0 && rule == weld_rule::first;
     const number_slices slices =
-        way.by_slices && rule == weld_rule::first ? number_slices(points.size()) : number_slices();
+        in_runs ? number_slices(points.size(), way.least_bits) : number_slices();
     std::vector<std::size_t> order(tiles.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     random.shuffle(order);
@@ -285,7 +326,9 @@ inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance
         longest.consider(result.move);
     }
 
-    passes pass{rule, tolerance, slabs, results, more, slices, way.by_halves};
+    passes pass{
+        rule,          tolerance,    slabs, results, more, slices, in_runs ? way.slices_a_run : 1,
+        way.by_halves, points.size()};
     const left_to_borders left = pass.over(0, tiles.size());
     REQUIRE(left.points.empty());
     REQUIRE(left.asks.empty());

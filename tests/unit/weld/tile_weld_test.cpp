@@ -21,6 +21,7 @@
 namespace {
 
 using test::border_way;
+using test::border_ways;
 using test::check_equal;
 using test::cloud;
 using test::number_slices;
@@ -55,10 +56,12 @@ void check_same(const cloud& points, double tolerance, test::random& random) {
         for (const std::size_t count : {1U, 2U, 3U, 7U, 50U}) {
             CAPTURE(static_cast<int>(rule));
             CAPTURE(count);
-            for (const bool by_slices : {false, true}) {
-                const border_way way{.by_halves = random.below(2) == 1, .by_slices = by_slices};
+            for (int turn = 0; turn < 2; ++turn) {
+                border_way way = border_ways[random.below(border_ways.size())];
+                way.slices_a_run *= 1 + random.below(4);
                 CAPTURE(way.by_halves);
-                CAPTURE(by_slices);
+                CAPTURE(way.slices_a_run);
+                CAPTURE(way.least_bits);
                 CHECK(weld_in_tiles(points, rule, tolerance, count, random, {}, way).leader ==
                       expected);
             }
@@ -162,7 +165,7 @@ TEST_CASE("tile_weld: decisions that hang on each other from tile to tile come o
     check_same(points, 1.0, random);
 }
 
-TEST_CASE("tile_weld: of rows that hang on those before, a slice knows only the last ones") {
+TEST_CASE("tile_weld: of rows that hang on those before, a run knows only the last ones") {
     test::random random(17);
     cloud points;
     constexpr std::size_t side = 80;
@@ -172,12 +175,12 @@ TEST_CASE("tile_weld: of rows that hang on those before, a slice knows only the 
     const auto expected = leaders(points, weld_rule::first, 1.9);
     for (const bool by_halves : {false, true}) {
         const tiled found = weld_in_tiles(points, weld_rule::first, 1.9, 9, random, {},
-                                          {.by_halves = by_halves, .by_slices = true});
+                                          {.by_halves = by_halves, .slices_a_run = 1});
         CHECK(found.leader == expected);
         CHECK(found.border > points.size() / 2);
-        // Each slice asks for about a row; several passes do where halves are settled first.
-        CHECK(found.handed_over > number_slices::most);
-        CHECK(found.handed_over < number_slices::most * side * (by_halves ? 5 : 1));
+        // Each of 50 slices asks for about a row; several passes do where halves are settled first.
+        CHECK(found.handed_over > 50);
+        CHECK(found.handed_over < 50 * side * (by_halves ? 5 : 1));
     }
 }
 
@@ -195,43 +198,64 @@ TEST_CASE("tile_weld: rows of small heaps, of which an open point stands for oth
     }
 }
 
-TEST_CASE("tile_weld: of a crowd in any order, slices know few points, and each once") {
+TEST_CASE("tile_weld: of a crowd in any order, runs know few points, and each once") {
     test::random random(19);
     cloud points;
     for (int i = 0; i < 20000; ++i)
         points.push_back({random.unit(), 0.3 * random.unit(), 0.3 * random.unit()});
     const auto expected = leaders(points, weld_rule::first, 0.2);
     const tiled found = weld_in_tiles(points, weld_rule::first, 0.2, 2, random, {},
-                                      {.by_halves = false, .by_slices = true});
+                                      {.by_halves = false, .slices_a_run = 1});
     CHECK(found.leader == expected);
     CHECK(found.handed_over > 0);
     // Of the 50 to 150 points kept each is handed to 63 slices at most, for each of the few places
     // within a fourth of the tolerance that stand for some of its slice.
     std::size_t kept = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) kept += expected[i] == i ? 1 : 0;
-    CHECK(found.handed_over < kept * number_slices::most * 8);
+    CHECK(found.handed_over < kept * number_slices::bundles * 8);
 }
 
-TEST_CASE("number_slices: all numbers are in one of 64, in order") {
-    for (const std::uint64_t count : {0U, 1U, 63U, 64U, 65U, 127U, 128U, 6400U, 6401U}) {
-        const number_slices slices(count);
-        std::size_t last = 0;
-        for (std::uint64_t i = 0; i < count; ++i) {
-            CHECK((slices.of(i) == last || slices.of(i) == last + 1));
-            last = slices.of(i);
-            CHECK(slices.bit_of(i) == std::uint64_t{1} << last);
+TEST_CASE("number_slices: all numbers are in one of few slices, in order, and these in bundles") {
+    for (const unsigned least_bits : {0U, 3U, number_slices::bits_of_slice})
+        for (const std::uint64_t count : {0U, 1U, 63U, 64U, 65U, 128U, 6400U, 6401U, 100000U}) {
+            const number_slices slices(count, least_bits);
+            std::uint64_t slice = 0;
+            std::uint64_t bundle = 0;
+            bool in_order = true;
+            for (std::uint64_t i = 0; i < count; ++i) {
+                if (i == slices.slice_begin(slice + 1)) ++slice;
+                if (i == slices.bundle_begin(bundle + 1)) {
+                    ++bundle;
+                    in_order = in_order && i == slices.slice_begin(slice);
+                }
+                in_order = in_order && slices.slice_of(i) == slice &&
+                           slices.bundle_of(i) == bundle &&
+                           slices.bit_of(i) == std::uint64_t{1} << bundle;
+            }
+            CHECK(in_order);
+            CHECK(bundle < number_slices::bundles);
+            CHECK(slice < 1024);
+            if (slice > bundle) CHECK(slices.slice_begin(1) >= std::uint64_t{1} << least_bits);
         }
-        CHECK(last < number_slices::most);
-    }
-    CHECK(number_slices().of(std::numeric_limits<std::uint64_t>::max() - 1) == 0);
-    CHECK(number_slices::after(0, 7) == 6);
-    CHECK(number_slices::after(62, ~std::uint64_t{0}) == std::uint64_t{1} << 63);
-    CHECK(number_slices::after(63, ~std::uint64_t{0}) == 0);
+    CHECK(number_slices().slice_of((std::uint64_t{1} << 62) - 1) == 0);
+    CHECK(number_slices().bundle_of((std::uint64_t{1} << 62) - 1) == 0);
+    constexpr std::uint64_t all = ~std::uint64_t{0};
+    const number_slices small(6400);  // bundles of a slice of 128
+    CHECK(small.after(0, 7) == 6);
+    CHECK(small.after(62, all) == std::uint64_t{1} << 63);
+    CHECK(small.after(63, all) == 0);
+    CHECK(small.from(small.bundle_begin(1), 7) == 6);
+    CHECK(small.from(small.bundle_begin(64), all) == 0);
+    const number_slices split(6400, 0);  // of slices of 8
+    CHECK(split.after(1, 7) == 6);
+    CHECK(split.after(63, all) == std::uint64_t{1} << 63);
+    CHECK(split.from(split.bundle_begin(1), 7) == 6);
+    CHECK(split.from(split.bundle_begin(1) + 8, 7) == 6);
 }
 
 TEST_CASE("border_weld: an open point is handed over by the one that stands for it") {
     using tf::detail::weld::border_kind;
-    const number_slices slices(640);  // of 11 numbers
+    const number_slices slices(640);  // of 16 numbers
     const auto open = [](std::uint64_t id, double x) {
         border_point p = border_point::make(id, border_kind::open);
         p.at = {x, 0.0, 0.0};
@@ -250,13 +274,13 @@ TEST_CASE("border_weld: an open point is handed over by the one that stands for 
     border_weld later(1.0, {}, slices);
     later.receive(known[0], {});
     out = {};
-    later.add(open(12, 1.25), {}, false, out);  // within the tolerance of the second one only
+    later.add(open(17, 1.25), {}, false, out);  // within the tolerance of the second one only
     REQUIRE(out.border.size() == 1);
     CHECK(out.border[0].kind() == border_kind::open);
     while (later.finish(out)) {
     }
     REQUIRE(out.asked.size() == 1);
-    CHECK(out.asked[0].slice == 0);
+    CHECK(out.asked[0].bundle == 0);
     CHECK(out.asked[0].at == point3{0.0, 0.0, 0.0});
     CHECK(out.asked[0].asked_by == 2);
 }
@@ -318,7 +342,7 @@ TEST_CASE("tile_weld: the longest move is that from a point to its leader") {
         for (const double tolerance : {0.0, 0.05, 0.15, 0.3}) {
             CAPTURE(tolerance);
             const tiled found = weld_in_tiles(points, rule, tolerance, 6, random, {},
-                                              test::border_ways[random.below(4)]);
+                                              border_ways[random.below(border_ways.size())]);
             const auto apart = [&](std::size_t i, double x) {
                 const point3& leader = points[found.leader[i]];
                 return tf::compare_distance(points[i], leader, {}, {x, 0.0, 0.0});
@@ -369,7 +393,7 @@ TEST_CASE("tile_weld: points whose values do not agree stay apart, as in the who
                 for (const std::uint32_t g : groups.group_of_point)
                     expected.push_back(groups.first_of_group[g]);
                 for (const std::size_t count : {1U, 2U, 7U, 50U})
-                    for (const border_way& way : test::border_ways)
+                    for (const border_way& way : border_ways)
                         CHECK(weld_in_tiles(points, rule, tolerance, count, random, more, way)
                                   .leader == expected);
             }

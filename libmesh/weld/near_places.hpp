@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// Whether a point may be near some others, told by little memory.
+
+#include <libmesh/weld/near_cells.hpp>
+#include <treeform/mesh/mesh.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace treeform::detail::weld {
+
+/// The cubes near some points, a bit for each, which it shares with others now and then.
+class near_places {
+  public:
+    /// For about `count` points.
+    near_places(double reach, std::size_t count)
+        : cubes_(reach), bits_(std::bit_ceil(count / 4 + 1), 0) {
+        while (cubes_.can_shrink()) cubes_.shrink();
+    }
+
+    void add(const point3& p) {
+        const auto [low, high] = cubes_.around(p);
+        for (const std::int64_t x : {low[0], high[0]})
+            for (const std::int64_t y : {low[1], high[1]})
+                for (const std::int64_t z : {low[2], high[2]}) {
+                    const std::uint64_t h = cube_map::hash(x, y, z);
+                    bits_[word(h)] |= bit(h);
+                }
+    }
+    /// False only where none of the points is within reach.
+    [[nodiscard]] bool may_have(const point3& p) const {
+        const auto cube = cubes_.of(p);
+        const std::uint64_t h = cube_map::hash(cube[0], cube[1], cube[2]);
+        return (bits_[word(h)] & bit(h)) != 0;
+    }
+
+  private:
+    [[nodiscard]] std::size_t word(std::uint64_t h) const { return h >> 6 & (bits_.size() - 1); }
+    [[nodiscard]] static std::uint64_t bit(std::uint64_t h) { return std::uint64_t{1} << (h & 63); }
+
+    cube_map cubes_;
+    std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace treeform::detail::weld
