@@ -218,7 +218,9 @@ class tile_steps::run_borders {
         /// with takes some ten times as much. Returns where those begin that are left.
         [[nodiscard]] std::uint64_t hold(row_merge& rows, std::uint64_t end) {
             const weld::number_slices& slices = all_.slices_;
-            const std::uint64_t room = steps_.task_.options.memory / 16 / sizeof(std::uint64_t);
+            const std::uint64_t room =
+                std::min<std::uint64_t>(steps_.task_.options.memory / 16, 8 * piece) /
+                sizeof(std::uint64_t);
             std::uint64_t next = 0;  // slice
             for (; !rows.empty(); rows.pop()) {
                 const std::uint64_t id = rows.front()[0] >> 2;
@@ -232,19 +234,26 @@ class tile_steps::run_borders {
             return end;
         }
 
-        /// Of what bundles of the run ask for, what is near the run's points: each once, in order.
+        /// What bundles of the run ask for: each once, in order. Of a run without all of a bundle, what
+        /// is near its own points.
         void receive(const share& run, border_weld& border) {
             const std::size_t width = steps_.border_width();
-            weld::near_places places(weld::reach_of_open(steps_.tolerance_), held_.size() / width);
-            for (held_rows left = held(); !left.empty(); left.pop())
-                places.add(point_of(left.front()));
+            bool has_all =
+                all_.slices_.bundle_begin(all_.slices_.bundle_of(run.first)) == run.first;
+            each_bundle_of(run, [&](std::size_t, bool is_last) { has_all = has_all && is_last; });
+            std::optional<weld::near_places> own;
+            if (!has_all) {
+                own.emplace(weld::reach_of_open(steps_.tolerance_), held_.size() / width);
+                for (held_rows left = held(); !left.empty(); left.pop())
+                    own->add(point_of(left.front()));
+            }
             std::vector<std::uint64_t> rows;
             each_bundle_of(run, [&](std::size_t bundle, bool is_last) {
                 received_[bundle].push_back(inbox_.next_file(bundle));
                 for (const rows_file& from : received_[bundle]) {
                     from.each(width, [&](numbers some) {
                         for (held_rows left{some, width}; !left.empty(); left.pop())
-                            if (places.may_have(point_of(left.front())))
+                            if (!own || own->may_have(point_of(left.front())))
                                 rows.insert(rows.end(), left.front().begin(), left.front().end());
                     });
                     if (is_last) from.remove();

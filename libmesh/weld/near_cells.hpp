@@ -53,6 +53,22 @@ class cube_map {
         return ends;
     }
 
+    /// Calls `meet(x, y, z)` for the cubes between these ends, each once.
+    template <class Meet>
+    static void each(const std::array<cube, 2>& ends, const Meet& meet) {
+        const auto& [low, high] = ends;
+        for (const std::int64_t x : {low[0], high[0]}) {
+            for (const std::int64_t y : {low[1], high[1]}) {
+                for (const std::int64_t z : {low[2], high[2]}) {
+                    meet(x, y, z);
+                    if (low[2] == high[2]) break;
+                }
+                if (low[1] == high[1]) break;
+            }
+            if (low[0] == high[0]) break;
+        }
+    }
+
     [[nodiscard]] static std::uint64_t hash(std::int64_t x, std::int64_t y, std::int64_t z) {
         std::uint64_t h = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15;
         h = (h ^ h >> 32 ^ static_cast<std::uint64_t>(y)) * 0xd1342543de82ef95;
@@ -140,19 +156,11 @@ class near_cells {
     /// Calls `meet(entry, number)` for those within reach of `p` and others; for some more than once.
     template <class Meet>
     void visit(const point3& p, std::uint64_t salt, const Meet& meet) {
-        const auto [low, high] = cubes_.around(p);
         std::size_t met = 0;
-        for (std::int64_t x : {low[0], high[0]}) {
-            for (std::int64_t y : {low[1], high[1]}) {
-                for (std::int64_t z : {low[2], high[2]}) {
-                    for (std::uint32_t i = head(x, y, z, salt); i != nobody; i = next_[i], ++met)
-                        meet(entries_[i], i);
-                    if (low[2] == high[2]) break;
-                }
-                if (low[1] == high[1]) break;
-            }
-            if (low[0] == high[0]) break;
-        }
+        cube_map::each(cubes_.around(p), [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+            for (std::uint32_t i = head(x, y, z, salt); i != nobody; i = next_[i], ++met)
+                meet(entries_[i], i);
+        });
         count(met);
     }
 

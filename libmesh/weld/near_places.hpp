@@ -18,17 +18,15 @@ class near_places {
     /// For about `count` points.
     near_places(double reach, std::size_t count)
         : cubes_(reach), bits_(std::bit_ceil(count / 4 + 1), 0) {
-        while (cubes_.can_shrink()) cubes_.shrink();
+        // To two times the least edge: most intervals meet one cube then.
+        for (int i = 0; i < 2 && cubes_.can_shrink(); ++i) cubes_.shrink();
     }
 
     void add(const point3& p) {
-        const auto [low, high] = cubes_.around(p);
-        for (const std::int64_t x : {low[0], high[0]})
-            for (const std::int64_t y : {low[1], high[1]})
-                for (const std::int64_t z : {low[2], high[2]}) {
-                    const std::uint64_t h = cube_map::hash(x, y, z);
-                    bits_[word(h)] |= bit(h);
-                }
+        cube_map::each(cubes_.around(p), [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+            const std::uint64_t h = cube_map::hash(x, y, z);
+            bits_[word(h)] |= bit(h);
+        });
     }
     /// False only where none of the points is within reach.
     [[nodiscard]] bool may_have(const point3& p) const {
