@@ -180,6 +180,7 @@ class tile_steps::run_borders {
                 held_.clear();
                 hand_over(run, border, each_asked);
                 for (bool more = true; more; write()) more = border.finish(out_);
+                all_.show(run.last);
             }
             if (!rows.empty()) fail_damaged(steps_.folder_.path());
         }
@@ -195,6 +196,7 @@ class tile_steps::run_borders {
             all_.drops_.push_back(
                 {all_.path(name_ + ".drops", all_.team_.rank()), dropped_.finish_unsynced()});
             all_.move_.consider(out_.move);
+            ++all_.passes_;
             left_.points = points_.finish_unsynced();
             std::uint64_t end = 0;
             for (std::size_t bundle = 0; bundle < bundles; ++bundle) {
@@ -350,6 +352,14 @@ class tile_steps::run_borders {
         std::uint64_t records_ = 0;
     };
 
+    /// How far the pass has come.
+    void show(std::uint64_t settled) const {
+        const double points = static_cast<double>(steps_.survey_.cloud.points);
+        steps_.pace_.show("borders",
+                          (passes_ + std::min(1.0, static_cast<double>(settled) / points)) /
+                              (team_.is_alone() ? 1.0 : 2.0));
+    }
+
     [[nodiscard]] std::filesystem::path path(const std::string& name, std::size_t by) const {
         return steps_.folder_.file(name + "." + std::to_string(by));
     }
@@ -439,6 +449,7 @@ class tile_steps::run_borders {
     std::vector<left> left_{};  ///< by each of the team
     std::vector<file> drops_{};
     longest_move move_{};
+    int passes_ = 0;  ///< that are done
 };
 
 std::vector<tiles_welded::file> tile_steps::weld_borders_in_runs(longest_move& longest) const {

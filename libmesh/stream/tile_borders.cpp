@@ -125,6 +125,7 @@ class tile_steps::chain_borders {
 tiles_welded tile_steps::weld_borders() {
     tiles_welded w(tolerance_, keys_.agree());
     longest_move longest;
+    pace_.show("borders", 0.0);
     if (rule() == weld_rule::first)
         w.drops = weld_borders_in_runs(longest);
     else

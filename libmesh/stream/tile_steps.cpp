@@ -53,8 +53,7 @@ class unpacked {
 
     void put(numbers rows) {
         for (; !rows.empty(); rows = rows.subspan(width_)) {
-            const auto at = [&](std::size_t k) { return std::bit_cast<double>(rows[k]); };
-            points_.push_back({rows[0], {at(1), at(2), at(3)}});
+            points_.push_back({rows[0], point_of(rows)});
             values_.insert(values_.end(), rows.begin() + 4,
                            rows.begin() + static_cast<std::ptrdiff_t>(width_));
         }

@@ -340,6 +340,23 @@ class Large(WeldTest):
                 os.remove(self.path("out.ply"))
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_of_rows_that_hang_on_those_before_too_what_is_said_is_enough(self):
+        rng = random.Random(9)
+        line = [(0.3 * (i % 300000) + 0.2 * rng.random(), 20.0 * (i // 300000), 0.0)
+                for i in range(2400000)]
+        for points in (line, line[::2] + line[1::2]):  # a second look at the same places
+            self.binary("in.ply", points)
+            command = ["in.ply", "-t", "0.52", "-f"]
+            self.run_tool(*command, "-o", "memory.ply", status=0)
+            run = self.run_tool(*command, "-o", "out.ply", "--memory", "33M", status=5)
+            enough = re.search("([0-9]+M) would be enough", run.err)[1]
+            self.run_tool(*command, "-o", "out.ply", "--memory", enough, status=0)
+            self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+            if MPIRUN:
+                self.mpi(3, *command, "-o", "out.ply", "--memory", enough)
+                self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_what_tiles_cannot_do_is_refused_where_memory_is_limited(self):
         self.binary("in.ply", [(i % 100, i // 100 % 100, i // 10000) for i in range(400000)])
         run = self.run_tool("in.ply", "-o", "out.ply", "--borders", "--memory", "40M", status=5)

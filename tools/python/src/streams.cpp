@@ -23,11 +23,11 @@ namespace {
 
 using conditions = std::vector<std::pair<std::string, double>>;
 
-/// The share of all four steps that is done.
+/// The share of all steps that is done.
 double whole_share(std::string_view step, double share) {
-    constexpr std::array<std::string_view, 4> steps{"look", "scatter", "weld", "write"};
+    constexpr std::array<std::string_view, 5> steps{"look", "scatter", "weld", "borders", "write"};
     for (std::size_t i = 0; i < steps.size(); ++i)
-        if (step == steps[i]) return (static_cast<double>(i) + share) / 4.0;
+        if (step == steps[i]) return (static_cast<double>(i) + share) / steps.size();
     return 0.0;
 }
 

@@ -54,8 +54,8 @@ struct weld_stream_options {
     std::uint64_t points_per_tile = 0;  ///< at most about this many; 0: as the memory allows
     process_team team{};
     bool shared = false;  ///< see `stream_weld`
-    /// Called with the step ("look", "scatter", "weld", "write") and the share of it that is done.
-    /// Returning false cancels.
+    /// Called with the step ("look", "scatter", "weld", "borders", "write") and the share of it that
+    /// is done. Returning false cancels.
     std::function<bool(std::string_view, double)> progress{};
     std::function<void()> step_done{};  ///< called after what an interruption does not undo
 };
