@@ -216,12 +216,12 @@ class tile_steps::run_borders {
         }
         [[nodiscard]] held_rows held() const { return {held_, steps_.border_width()}; }
 
-        /// Rows of whole slices, one at least, and more while there is room: what they are welded
-        /// with takes some ten times as much. Returns where those begin that are left.
+        /// Rows of whole slices, one at least, and more while there is room: welding them takes some
+        /// ten times as much. Returns where those begin that are left.
         [[nodiscard]] std::uint64_t hold(row_merge& rows, std::uint64_t end) {
             const weld::number_slices& slices = all_.slices_;
             const std::uint64_t room =
-                std::min<std::uint64_t>(steps_.task_.options.memory / 16, 8 * piece) /
+                std::min<std::uint64_t>(steps_.task_.options.memory / 32, 8 * piece) /
                 sizeof(std::uint64_t);
             std::uint64_t next = 0;  // slice
             for (; !rows.empty(); rows.pop()) {

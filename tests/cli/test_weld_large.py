@@ -344,9 +344,12 @@ class Large(WeldTest):
         rng = random.Random(9)
         line = [(0.3 * (i % 300000) + 0.2 * rng.random(), 20.0 * (i // 300000), 0.0)
                 for i in range(2400000)]
-        for points in (line, line[::2] + line[1::2]):  # a second look at the same places
+        sheet = [(i % 1550 + 0.7 * rng.random(), i // 1550 + 0.7 * rng.random(), 0.0)
+                 for i in range(1550 * 1550)]
+        # The second one is looked at twice.
+        for points, tolerance in ((line, "0.52"), (sheet[::2] + sheet[1::2], "2.5")):
             self.binary("in.ply", points)
-            command = ["in.ply", "-t", "0.52", "-f"]
+            command = ["in.ply", "-t", tolerance, "-f"]
             self.run_tool(*command, "-o", "memory.ply", status=0)
             run = self.run_tool(*command, "-o", "out.ply", "--memory", "33M", status=5)
             enough = re.search("([0-9]+M) would be enough", run.err)[1]
