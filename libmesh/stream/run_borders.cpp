@@ -1,11 +1,10 @@
 /// \file
 /// What lies along the borders of tiles with the rule first, in runs of slices of the ranks of points:
-/// as many at a time as memory takes. Each of a team settles what it can of its own tiles; then each
+/// a few megabytes of rows at a time. Each of a team settles what it can of its own tiles; then each
 /// in turn takes some bundles of what is left, and tells those behind it what theirs ask for.
 
 #include <libmesh/stream/border_rows.hpp>
 #include <libmesh/stream/tile_steps.hpp>
-#include <libmesh/weld/first_pass.hpp>
 #include <libmesh/weld/near_places.hpp>
 
 #include <algorithm>
@@ -168,7 +167,7 @@ class tile_steps::run_borders {
             const std::uint64_t end = slices.bundle_begin(some.last);
             for (share run{slices.bundle_begin(some.first), 0}; run.first < end;
                  run.first = run.last) {
-                run.last = hold(rows, end);
+                run.last = hold(rows, {run.first, end});
                 border_weld border(steps_.tolerance_, steps_.keys_.agree(), slices);
                 receive(run, border);
                 for (held_rows left = held(); !left.empty(); left.pop()) {
@@ -217,8 +216,8 @@ class tile_steps::run_borders {
         [[nodiscard]] held_rows held() const { return {held_, steps_.border_width()}; }
 
         /// Rows of whole slices, one at least, and more while there is room: welding them takes some
-        /// ten times as much. Returns where those begin that are left.
-        [[nodiscard]] std::uint64_t hold(row_merge& rows, std::uint64_t end) {
+        /// ten times as much, and many leave the caches. Returns where those begin that are left.
+        [[nodiscard]] std::uint64_t hold(row_merge& rows, const share& of) {
             const weld::number_slices& slices = all_.slices_;
             const std::uint64_t room =
                 std::min<std::uint64_t>(steps_.task_.options.memory / 32, 8 * piece) /
@@ -226,25 +225,25 @@ class tile_steps::run_borders {
             std::uint64_t next = 0;  // slice
             for (; !rows.empty(); rows.pop()) {
                 const std::uint64_t id = rows.front()[0] >> 2;
-                if (id >= end) break;
+                if (id < of.first || id >= of.last) break;
                 if (slices.slice_of(id) >= next) {
                     if (held_.size() > room) return slices.slice_begin(slices.slice_of(id));
                     next = slices.slice_of(id) + 1;
                 }
                 held_.insert(held_.end(), rows.front().begin(), rows.front().end());
             }
-            return end;
+            return of.last;
         }
 
         /// What bundles of the run ask for: each once, in order. Of a run without all of a bundle, what
         /// is near its own points.
         void receive(const share& run, border_weld& border) {
             const std::size_t width = steps_.border_width();
-            bool has_all =
-                all_.slices_.bundle_begin(all_.slices_.bundle_of(run.first)) == run.first;
-            each_bundle_of(run, [&](std::size_t, bool is_last) { has_all = has_all && is_last; });
+            const auto cuts_bundle = [&](std::uint64_t number) {
+                return all_.slices_.bundle_begin(all_.slices_.bundle_of(number)) != number;
+            };
             std::optional<weld::near_places> own;
-            if (!has_all) {
+            if (cuts_bundle(run.first) || cuts_bundle(run.last)) {
                 own.emplace(weld::reach_of_open(steps_.tolerance_), held_.size() / width);
                 for (held_rows left = held(); !left.empty(); left.pop())
                     own->add(point_of(left.front()));

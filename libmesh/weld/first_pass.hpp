@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,12 +49,6 @@ struct remembered {
         return std::span(values).subspan(number * width, width);
     }
 };
-
-/// How far from its own points a pass looks at open ones: where 1.26 tolerances leave the doubles,
-/// they stand for equal ones only.
-[[nodiscard]] inline double reach_of_open(double tolerance) {
-    return tolerance < 0x1p1000 ? 1.26 * tolerance : tolerance;
-}
 
 /// The rule first, of the points of a tile or of the borders of some.
 class first_pass {
@@ -120,10 +115,12 @@ class first_pass {
             return;
         }
         open_.add({.at = p.at, .id = p.id(), .stands_in = p.leader}, values, salt);
+        is_news_.push_back(false);
     }
 
     /// As `border_weld`. An open point within a fourth of the tolerance of `asked` may have one that
-    /// stands for it and is as near to it. What was received, others have handed over.
+    /// stands for it and is as near to it. What was received, others have handed over; it is news
+    /// that it stands for points of another bundle.
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
                    std::vector<border_point>& known) {
         const std::uint64_t salt = agree_.salt(values.data());
@@ -137,8 +134,8 @@ class first_pass {
         });
         open_.cells.visit(asked.at, salt, [&](const open_point& q, std::size_t number) {
             const reach& near = q.stands() ? within_half_ : within_fourth_;
-            if (number_slices::has(bundles_of(q), asked.bundle) && near.holds(asked.at, q.at) &&
-                is_same(open_.values, number))
+            if (number_slices::has(bundles_of(q), asked.bundle) && is_news(number) &&
+                near.holds(asked.at, q.at) && is_same(open_.values, number))
                 known.push_back(
                     {border_point::make(q.id, border_kind::open).tag, q.at, q.stands_in, {}});
         });
@@ -170,12 +167,18 @@ class first_pass {
     [[nodiscard]] std::uint64_t bundles_of(const open_point& p) const {
         return p.stands_in | slices_.bit_of(p.id);
     }
-    /// Where none asks that comes after its own bundle, none does after those it stands for.
     void list_asked() {
-        for (std::uint32_t number = 0; number < open_.cells.size(); ++number) {
-            const open_point& p = open_.cells[number];
-            if (slices_.after(slices_.bundle_of(p.id), p.asked_by) != 0) asked_.push_back(number);
-        }
+        for (std::uint32_t number = 0; number < open_.cells.size(); ++number)
+            if (open_.cells[number].asked_by != 0) asked_.push_back(number);
+    }
+    [[nodiscard]] bool is_news(std::size_t number) const {
+        return number >= is_news_.size() || is_news_[number];
+    }
+    void stand_in(std::uint32_t number, std::uint64_t id) {
+        open_point& q = open_.cells[number];
+        const std::uint64_t bit = slices_.bit_of(id);
+        if (number < is_news_.size() && (q.stands_in & bit) == 0) is_news_[number] = true;
+        q.stands_in |= bit;
     }
 
     struct arrival {
@@ -195,8 +198,8 @@ class first_pass {
             if (a.own) drop(a, around, out);
         } else if (!a.own || a.unsure || around.some_open) {
             if (a.own) put(at(a, border_kind::open), a, out);
-            if (around.covering != nullptr)
-                around.covering->stands_in |= slices_.bit_of(a.id);
+            if (around.covering)
+                stand_in(*around.covering, a.id);
             else
                 open_.add({.at = a.at, .id = a.id}, values_of(a), a.salt);
         } else {
@@ -222,17 +225,18 @@ class first_pass {
         nearest_kept open;       ///< of those that stand for themselves
         double standing_square;  ///< of the distance of the nearest other one, rounded; or infinity
         bool some_open;
-        open_point* covering;
+        std::optional<std::uint32_t> covering;  ///< number in `open_`
     };
 
-    /// What begins in the slice stands for none of another one.
+    /// What `q` stands for lies between it and the newest point. If these are of one slice, one run
+    /// has them all.
     void ask_for(open_point& q, const arrival& a) const {
         if (slices_.slice_of(q.id) != slices_.slice_of(a.id)) q.asked_by |= slices_.bit_of(a.id);
     }
 
     neighbors look(const arrival& a) {
         const point3& p = a.at;
-        neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, nullptr};
+        neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, {}};
         if (a.leaning != nullptr) found.kept.consider(a.leaning->leader, a.leaning->leader_at);
         const auto agrees = [&](const std::vector<std::uint64_t>& values, std::size_t number) {
             return agree_.holds(a.values, values.data() + number * agree_.size());
@@ -257,7 +261,7 @@ class first_pass {
                 found.open.consider(q.id, q.at);
             if (within_fourth_.holds(p, q.at) &&
                 agree_.same(a.values, open_.values.data() + number * agree_.size()))
-                found.covering = &q;
+                found.covering = number;
         });
         return found;
     }
@@ -309,7 +313,8 @@ class first_pass {
     remembered<open_point> open_;
     std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of what a dropped one has met
     std::vector<std::uint32_t> asked_{};     ///< numbers in `open_` of those that are asked for
-    std::size_t received_ = 0;               ///< kept points that others have
+    std::size_t received_ = 0;     ///< kept points that others have
+    std::vector<bool> is_news_{};  ///< of open points that others have
     std::size_t bundle_asked_ = 0;
     std::size_t next_asked_ = 0;
 };

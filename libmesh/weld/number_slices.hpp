@@ -14,12 +14,12 @@ namespace treeform::detail::weld {
 class number_slices {
   public:
     static constexpr std::size_t bundles = 64;
-    /// A slice may take memory, a bundle need not.
+    /// Smaller slices save little memory, and more points lie where two of them meet.
     static constexpr unsigned bits_of_slice = 15;
 
     number_slices() = default;
-    /// Of the numbers below `count`: 64 bundles at most of one slice; or of several that have at
-    /// least `1 << least_bits` numbers, and are 1024 at most.
+    /// Cuts the numbers below `count` into 64 bundles at most. A bundle of more than
+    /// `1 << least_bits` numbers is cut into slices of at least as many; there are 1024 at most.
     explicit number_slices(std::uint64_t count, unsigned least_bits = bits_of_slice)
         : bundle_bits_(bits_for(count, 6)),
           slice_bits_(std::min(bundle_bits_, std::max(least_bits, bits_for(count, 10)))) {}
@@ -45,12 +45,12 @@ class number_slices {
     [[nodiscard]] static bool has(std::uint64_t set, std::size_t bundle) {
         return (set >> bundle & 1) != 0;
     }
-    /// Those of a set with slices that come after some of the bundle's.
+    /// The bundles of a set that have a slice after the first one of `bundle`.
     [[nodiscard]] std::uint64_t after(std::size_t bundle, std::uint64_t set) const {
         return bundle_bits_ > slice_bits_ ? set >> bundle << bundle
                                           : set >> bundle >> 1 << bundle << 1;
     }
-    /// Those of a set with slices that do not come before `number`, which begins one.
+    /// The bundles of a set that have a slice at or after `number`, where a slice begins.
     [[nodiscard]] std::uint64_t from(std::uint64_t number, std::uint64_t set) const {
         const std::size_t bundle = bundle_of(number);
         return bundle < bundles ? set >> bundle << bundle : 0;

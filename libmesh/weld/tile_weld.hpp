@@ -45,18 +45,18 @@
 /// none. With the rule chain, a pass hands on the links of outer points, with the lowest of what it
 /// has joined.
 ///
-/// And with the rule first it may be taken in runs of slices of the numbers, each by a `border_weld`
-/// of its own, so that memory holds one run only, and that may be a slice: where points come row by
-/// row, what is open along a border may leave all later points of the rows open. A later run has to
-/// know of those points of the earlier ones that decide the fate of its own. These are asked for:
-/// when an own point is open or leans, a tile marks the open points near it that are of another
-/// slice, or stand for some since then, with the bundle of its slice. To each bundle that asks for an
-/// open point, what the border pass has made of it is handed over, and of those it stands for, by
-/// each run that has some of them. That is all a run needs: an earlier neighbor that is kept in the
-/// end is open in the point's own tile, or dropped the point there. Of what a bundle gets, a run that
-/// has not all of it takes what is near its own points. A pass of some tiles asks the next one
-/// likewise, for its own open points. It hands on what a tile asks for when that is outer: a place
-/// within a fourth of the tolerance of a point of another tile is.
+/// With the rule first, the border pass may have much to do: where points come row by row, what is
+/// open along a border may leave all later points of the rows open. So that memory need not hold
+/// them all, it may be taken in runs. A run has some slices of the numbers, which follow each other,
+/// and a `border_weld` of its own. It has to know of those points of earlier runs that decide the fate
+/// of its own. These are asked for: when an own point is open or leans, a tile marks the open points
+/// near it that are of another slice with the bundle of its slice. What the border pass has made of a
+/// marked point is handed over to each bundle that marked it, and so is what it has made of those the
+/// point stands for. That is all a run needs: an earlier neighbor that is kept in the end is open in
+/// the point's own tile, or dropped the point there. A run that has a part of a bundle takes, of what
+/// the bundle gets, what is near its own points. A pass of some tiles asks the next one likewise, for
+/// its own open points. It hands on what a tile asks for when that is outer: a place within a fourth
+/// of the tolerance of a point of another tile is.
 
 #include <libmesh/weld/agreement.hpp>
 #include <libmesh/weld/number_slices.hpp>
@@ -195,6 +195,12 @@ class TREEFORM_API tile_weld {
     std::unique_ptr<state> state_;
 };
 
+/// How far from a point an open one may be that matters to it. Where 1.26 tolerances leave the
+/// doubles, open points stand for equal ones only.
+[[nodiscard]] inline double reach_of_open(double tolerance) {
+    return tolerance < 0x1p1000 ? 1.26 * tolerance : tolerance;
+}
+
 /// A border pass: what the `border` of tiles leads to.
 class TREEFORM_API border_weld {
   public:
@@ -218,7 +224,7 @@ class TREEFORM_API border_weld {
     /// bundles): all of them. What is farther than `reach_of_open` from all of its own is not needed.
     void receive(const border_point& p, std::span<const std::uint64_t> values);
     /// Rule first: appends to `known` what is kept or open in a bundle within a fourth of the
-    /// tolerance of that place, of the same values, and has not been received.
+    /// tolerance of that place, of the same values, except for what others have handed over.
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
                    std::vector<border_point>& known);
     /// Rule first: appends the open points that later bundles ask for, a piece at a time: call it

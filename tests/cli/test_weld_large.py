@@ -344,8 +344,8 @@ class Large(WeldTest):
         rng = random.Random(9)
         line = [(0.3 * (i % 300000) + 0.2 * rng.random(), 20.0 * (i // 300000), 0.0)
                 for i in range(2400000)]
-        sheet = [(i % 1550 + 0.7 * rng.random(), i // 1550 + 0.7 * rng.random(), 0.0)
-                 for i in range(1550 * 1550)]
+        sheet = [(i % 2080 + 0.7 * rng.random(), i // 2080 + 0.7 * rng.random(), 0.0)
+                 for i in range(2080 * 2080)]
         # The second one is looked at twice.
         for points, tolerance in ((line, "0.52"), (sheet[::2] + sheet[1::2], "2.5")):
             self.binary("in.ply", points)

@@ -50,7 +50,8 @@ struct tiled {
     std::vector<std::uint64_t> leader;
     double longest = 0.0;
     std::size_t border = 0;
-    std::size_t handed_over = 0;  ///< from run to run
+    std::size_t handed_over = 0;  ///< from runs to bundles
+    std::size_t received = 0;     ///< by runs, each point once
 };
 
 inline std::vector<std::vector<tile_point>> scatter(const cloud& points, const tile_cuts& cuts) {
@@ -170,6 +171,7 @@ struct passes {
     longest_move longest{};
     border_weld joined{0.0};  ///< by all passes
     std::size_t handed_over = 0;
+    std::size_t received = 0;
 
     left_to_borders over(std::size_t first, std::size_t last) {
         left_to_borders from;
@@ -231,19 +233,20 @@ struct passes {
 
     /// Of each bundle that the run has some of, what may be near the run's own, once.
     void receive(border_weld& pass, const run& mine, std::span<const border_point> own,
-                 const inboxes& inbox) const {
+                 const inboxes& inbox) {
         near_places places(reach_of_open(tolerance), own.size());
         for (const border_point& p : own) places.add(p.at);
-        std::map<std::uint64_t, border_point> received;
+        std::map<std::uint64_t, border_point> all;
         for (std::size_t bundle = 0; bundle < inbox.size(); ++bundle) {
             if (!mine.meets(bundle, slices)) continue;
             for (const border_point& p : inbox[bundle]) {
                 if (!places.may_have(p.at)) continue;
-                const auto [same, is_new] = received.emplace(p.tag, p);
+                const auto [same, is_new] = all.emplace(p.tag, p);
                 if (!is_new) same->second.leader |= p.leader;
             }
         }
-        for (const auto& [tag, p] : received) pass.receive(p, values_of(p.id()));
+        for (const auto& [tag, p] : all) pass.receive(p, values_of(p.id()));
+        received += all.size();
     }
     /// Each once to a bundle.
     void hand_over(border_weld& pass, const left_to_borders::asked& asked, const run& mine,
@@ -333,6 +336,7 @@ inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance
     REQUIRE(left.points.empty());
     REQUIRE(left.asks.empty());
     all.handed_over = pass.handed_over;
+    all.received = pass.received;
     longest.consider(pass.longest);
     for (const tile_member& m : members) pass.joined.measure(m, longest);
     all.longest = longest.length();

@@ -204,15 +204,22 @@ TEST_CASE("tile_weld: of a crowd in any order, runs know few points, and each on
     for (int i = 0; i < 20000; ++i)
         points.push_back({random.unit(), 0.3 * random.unit(), 0.3 * random.unit()});
     const auto expected = leaders(points, weld_rule::first, 0.2);
-    const tiled found = weld_in_tiles(points, weld_rule::first, 0.2, 2, random, {},
-                                      {.by_halves = false, .slices_a_run = 1});
-    CHECK(found.leader == expected);
-    CHECK(found.handed_over > 0);
-    // Of the 50 to 150 points kept each is handed to 63 slices at most, for each of the few places
-    // within a fourth of the tolerance that stand for some of its slice.
     std::size_t kept = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) kept += expected[i] == i ? 1 : 0;
-    CHECK(found.handed_over < kept * number_slices::bundles * 8);
+    for (const bool by_halves : {false, true}) {
+        border_way way{.by_halves = by_halves, .slices_a_run = 1};
+        const tiled whole = weld_in_tiles(points, weld_rule::first, 0.2, 2, random, {}, way);
+        way.least_bits = 0;
+        const tiled split = weld_in_tiles(points, weld_rule::first, 0.2, 2, random, {}, way);
+        CHECK(whole.leader == expected);
+        CHECK(split.leader == expected);
+        CHECK(whole.handed_over > 0);
+        // Of a bundle, only the first run that an open point stands for has something to say of it.
+        CHECK(split.handed_over < 2 * whole.handed_over);
+        // Each point kept is handed to 63 bundles at most, for each of the few places within a
+        // fourth of the tolerance that stand for some of its bundle.
+        if (!by_halves) CHECK(whole.handed_over < kept * number_slices::bundles * 8);
+    }
 }
 
 TEST_CASE("number_slices: all numbers are in one of few slices, in order, and these in bundles") {
@@ -237,6 +244,17 @@ TEST_CASE("number_slices: all numbers are in one of few slices, in order, and th
             CHECK(slice < 1024);
             if (slice > bundle) CHECK(slices.slice_begin(1) >= std::uint64_t{1} << least_bits);
         }
+    for (const std::uint64_t count : {std::uint64_t{100000000}, std::uint64_t{1} << 62}) {
+        const number_slices slices(count);
+        CHECK(slices.bundle_of(count - 1) < number_slices::bundles);
+        CHECK(slices.slice_of(count - 1) < 1024);
+        CHECK(slices.slice_of(count - 1) >= 512);
+        CHECK(slices.slice_of(slices.bundle_begin(5)) == 5 * 16);
+        CHECK(slices.slice_begin(5 * 16) == slices.bundle_begin(5));
+        CHECK(slices.bundle_of(slices.bundle_begin(number_slices::bundles)) ==
+              number_slices::bundles);
+    }
+    CHECK(number_slices(2400000).slice_begin(1) == std::uint64_t{1} << 15);
     CHECK(number_slices().slice_of((std::uint64_t{1} << 62) - 1) == 0);
     CHECK(number_slices().bundle_of((std::uint64_t{1} << 62) - 1) == 0);
     constexpr std::uint64_t all = ~std::uint64_t{0};

@@ -1,5 +1,6 @@
 #include <libmesh/weld/dense.hpp>
 #include <libmesh/weld/near_cells.hpp>
+#include <libmesh/weld/near_places.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
@@ -115,6 +116,29 @@ TEST_CASE("near_cells: an interval meets the first and the last of its cubes onl
                 const bool met = cube[0] == ends[0][0] || cube[0] == ends[1][0];
                 if (!met) FAIL_CHECK(reach << " at " << at << ": " << other << " is not met");
             }
+    }
+}
+
+TEST_CASE("near_places: what is within reach is never missed, what is far seldom taken for near") {
+    test::random random(11);
+    for (const double reach : {0.0, 0x1p-890, 0x1p-30, 1.0, 0x1p960}) {
+        CAPTURE(reach);
+        const double size = reach > 0.0 ? 1000.0 * reach : 1.0;
+        const auto somewhere = [&] {
+            return point3{random.in(0, size), random.in(0, size), random.in(0, size)};
+        };
+        tf::detail::weld::near_places places(reach, 1'000);
+        CHECK_FALSE(places.may_have(somewhere()));
+        cloud points;
+        for (int i = 0; i < 1'000; ++i) places.add(points.emplace_back(somewhere()));
+        for (const point3& p : points) {
+            const double part = 0.57 * reach;  // along each axis: below 0.99 in all
+            CHECK(places.may_have({p.x + part * random.in(-1, 1), p.y + part * random.in(-1, 1),
+                                   p.z + part * random.in(-1, 1)}));
+        }
+        int taken = 0;
+        for (int i = 0; i < 1'000; ++i) taken += places.may_have(somewhere()) ? 1 : 0;
+        CHECK(taken < 300);
     }
 }
 

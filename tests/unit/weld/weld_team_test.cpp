@@ -236,7 +236,7 @@ TEST_CASE("weld_team: any number of processes write what one writes") {
     }
 }
 
-TEST_CASE("weld_team: more processes than there are slices") {
+TEST_CASE("weld_team: more processes than there are bundles") {
     test::random random(24);
     const team_folder folder;
     folder.put(families(300, random)[7], random);
