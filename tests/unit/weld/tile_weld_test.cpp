@@ -303,6 +303,34 @@ TEST_CASE("border_weld: an open point is handed over by the one that stands for 
     CHECK(out.asked[0].asked_by == 2);
 }
 
+TEST_CASE("border_weld: what was received is handed over when it stands for another bundle, too") {
+    using tf::detail::weld::border_kind;
+    const number_slices slices(640, 0);  // of 1 number, 16 in a bundle
+    const auto open = [](std::uint64_t id, double x) {
+        border_point p = border_point::make(id, border_kind::open);
+        p.at = {x, 0.0, 0.0};
+        return p;
+    };
+    /// What a run that has received `q` and then has `own` hands over.
+    const auto after = [&](const border_point& q, const border_point& own) {
+        border_weld run(1.0, {}, slices);
+        tile_result out;
+        run.receive(q, {});
+        run.add(own, {}, true, out);
+        std::vector<border_point> known;
+        run.hand_over({1, own.at, 4}, {}, known);
+        return known;
+    };
+    const auto first = after(open(1, 0.0), open(17, 0.25));
+    REQUIRE(first.size() == 1);
+    CHECK(first[0].id() == 1);
+    CHECK(first[0].leader == 2);
+    CHECK(after(first[0], open(18, 0.25)).empty());
+    const auto other = after(open(1, 0.0), open(17, 0.5));  // for which it does not stand
+    REQUIRE(other.size() == 1);
+    CHECK(other[0].id() == 17);
+}
+
 TEST_CASE("tile_weld: mixed scales, outliers and the ends of the doubles give the same groups") {
     test::random random(8);
     cloud points;
