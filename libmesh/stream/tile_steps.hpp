@@ -197,8 +197,7 @@ class tile_steps {
     class chain_borders;
     class run_borders;
     /// Returns the files of drops, and considers their longest way.
-    [[nodiscard]] std::vector<tiles_welded::file> weld_borders_in_runs(
-        longest_move& longest) const;
+    [[nodiscard]] std::vector<tiles_welded::file> weld_borders_in_runs(longest_move& longest) const;
     [[nodiscard]] bool is_outer(const point3& p, const share& tiles,
                                 std::vector<std::uint32_t>& halos) const;
     void tell(tiles_welded& w, kept_points& followed) const;
@@ -251,8 +250,8 @@ class tile_steps {
 };
 
 inline constexpr std::uint64_t records_a_check = 65536;
-inline constexpr double bytes_of_border = 100.0;  ///< of a link in the border pass, about
-inline constexpr double bytes_of_cube = 200.0;    ///< of a cube in `crowded_chain`, about
+inline constexpr double bytes_of_border = 100.0;            ///< of a link in the border pass, about
+inline constexpr double bytes_of_cube = 200.0;              ///< of a cube in `crowded_chain`, about
 inline constexpr std::size_t piece = std::size_t{1} << 20;  ///< bytes read or written at a time
 
 }  // namespace treeform::detail::stream

@@ -313,8 +313,8 @@ class first_pass {
     remembered<open_point> open_;
     std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of what a dropped one has met
     std::vector<std::uint32_t> asked_{};     ///< numbers in `open_` of those that are asked for
-    std::size_t received_ = 0;     ///< kept points that others have
-    std::vector<bool> is_news_{};  ///< of open points that others have
+    std::size_t received_ = 0;               ///< kept points that others have
+    std::vector<bool> is_news_{};            ///< of open points that others have
     std::size_t bundle_asked_ = 0;
     std::size_t next_asked_ = 0;
 };

@@ -242,7 +242,7 @@ class TREEFORM_API stream_weld {
                                                         std::uint64_t points);
 
 /// The least `weld_stream_options::memory` with which `points` points can be welded in tiles. Where
-/// points are crowded, the limit may turn out to be higher (`stream_error`).
+/// points are crowded, and by `weld_rule::chain`, the limit may turn out higher (`stream_error`).
 [[nodiscard]] TREEFORM_API std::uint64_t memory_to_stream(const mesh_file& header,
                                                           std::uint64_t points);
 
