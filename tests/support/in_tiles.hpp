@@ -225,8 +225,8 @@ struct passes {
         std::uint64_t begin;
         std::uint64_t end;
 
-        [[nodiscard]] bool meets(std::uint64_t bundle, const number_slices& slices) const {
-            return slices.bundle_of(begin) <= bundle && bundle <= slices.bundle_of(end - 1);
+        [[nodiscard]] bool meets(std::uint64_t bundle, const number_slices& of) const {
+            return of.bundle_of(begin) <= bundle && bundle <= of.bundle_of(end - 1);
         }
     };
     using inboxes = std::array<std::vector<border_point>, number_slices::bundles>;
