@@ -26,6 +26,11 @@ struct tile_steps::cut_sizes {
     double border = 0.0;   ///< places in several tiles that are held at a time
 };
 
+struct tile_steps::least_plan {
+    tile_cuts cuts;
+    std::uint64_t memory = 0;  ///< of the process
+};
+
 tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
     std::vector<std::uint32_t> halos;
     const auto count = [&](const point_survey::part& sample, double& largest, double& several) {
@@ -55,16 +60,20 @@ const point_survey::part& tile_steps::places() const {
 
 /// Crowds take room on the disk, but not where they are welded. With the rule first they are best
 /// not cut; chains are welded crowd by crowd only where there is no other way.
-tile_cuts tile_steps::plan() {
+tile_cuts tile_steps::plan(std::uint64_t least_memory) {
     point_survey::part uncrowded = uncrowded_sample();
     const bool crowded = 4 * uncrowded.points.size() <= 3 * survey_.sample.points.size();
     if (!survey_.places) survey_.places = std::move(uncrowded);
+    if (least_memory > task_.memory)
+        fail_for_memory(std::max(least_memory, plan_for_least_memory().memory));
     if (crowded && rule() == weld_rule::first)
         if (const auto cuts = plan_by(true)) return *cuts;
     if (const auto cuts = plan_by(false)) return *cuts;
     if (rule() == weld_rule::first || values() == 0)
         if (const auto cuts = plan_by(true)) return *cuts;
-    return plan_for_least_memory();
+    least_plan least = plan_for_least_memory();
+    if (least.memory > task_.memory && !task_.options.relative) fail_for_memory(least.memory);
+    return std::move(least.cuts);
 }
 
 /// Small tiles stay in the caches while they are welded. Where halos are much of them, larger
@@ -106,8 +115,14 @@ std::optional<tile_cuts> tile_steps::plan_by(bool by_places) const {
     return std::nullopt;
 }
 
-/// As many tiles as hold least at a time. \throws stream_error where that is too much
-tile_cuts tile_steps::plan_for_least_memory() const {
+/// By chain, it depends on what lies along the borders.
+bool tile_steps::needs_look() const {
+    const weld_stream_options& o = task_.options;
+    return o.rule == weld_rule::chain && o.tolerance > 0.0;
+}
+
+/// As many tiles as hold least at a time.
+tile_steps::least_plan tile_steps::plan_for_least_memory() const {
     std::optional<tile_cuts> best;
     double least = std::numeric_limits<double>::infinity();
     const double points = static_cast<double>(places().points.size());
@@ -124,16 +139,14 @@ tile_cuts tile_steps::plan_for_least_memory() const {
         least = bytes;
         best.emplace(std::move(cuts));
     }
-    const std::uint64_t needed =
-        task_.memory - task_.options.memory + static_cast<std::uint64_t>(std::min(least, 1e18));
-    if (needed > task_.memory && !task_.options.relative) fail_for_memory(needed);
-    return std::move(*best);
+    return {std::move(*best), memory_with(static_cast<std::uint64_t>(std::min(least, 1e18)))};
 }
 
-void tile_steps::fail_for_memory(std::uint64_t needed) const {
+void tile_steps::fail_for_memory(std::uint64_t needed, bool may_be_more) const {
     throw stream_error(stream_error::reason::memory, folder_.path(),
                        "--memory " + in_megabytes(task_.memory) + " is too little; " +
-                           in_megabytes(needed) + " would be enough",
+                           (may_be_more ? "at least " + in_megabytes(needed) + " is needed"
+                                        : in_megabytes(needed) + " would be enough"),
                        needed);
 }
 

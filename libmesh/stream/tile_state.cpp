@@ -65,7 +65,8 @@ std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }
 void tile_steps::look() {
     const auto points = source_.count();
     const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
-    if (least > task_.memory) fail_for_memory(least);
+    const bool can_look = task_.memory >= base_memory && !has_plan();
+    if (least > task_.memory && !(needs_look() && can_look)) fail_for_memory(least, needs_look());
     if (task_.options.shared && has_tiles()) {
         look_at_tiles();
     } else if (!task_.options.shared && take_over()) {
@@ -87,7 +88,7 @@ void tile_steps::look() {
         survey_.cloud.started_anew = anew;
         survey_.cloud.damaged = damaged;
         set_tolerance();
-        if (team_.leads()) cuts_ = plan();
+        if (team_.leads()) cuts_ = plan(least);
         share_cuts();
     }
     say_plan();

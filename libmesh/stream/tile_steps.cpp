@@ -403,8 +403,7 @@ void tile_steps::weld_tile(std::size_t t) {
     const std::uint64_t room = task_.options.memory / 10 * 7 / bytes_per_point();
     const bool held = rule() == weld_rule::first || points_of(mine) <= room;
     if (!held && values() > 0)
-        fail_for_memory(task_.memory - task_.options.memory +
-                        points_of(mine) * bytes_per_point() / 7 * 10 + piece);
+        fail_for_memory(memory_with(points_of(mine) * bytes_per_point() / 7 * 10 + piece));
     if (!held)
         weld_crowded(t, files);
     else

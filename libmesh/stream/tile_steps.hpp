@@ -17,6 +17,7 @@
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -35,6 +36,16 @@ using weld::tile_drop;
 using weld::tile_member;
 using weld::tile_point;
 using weld::tile_role;
+
+/// Of an empty cloud: the program, its threads and what is read and written.
+inline constexpr std::uint64_t base_memory = std::uint64_t{32} << 20;
+/// What is left for the points, of a process that may take `memory`; and the other way around.
+[[nodiscard]] inline std::uint64_t left_for_points(std::uint64_t memory) {
+    return memory - std::min(base_memory, memory / 2);
+}
+[[nodiscard]] inline std::uint64_t memory_with(std::uint64_t for_points) {
+    return for_points + std::min(base_memory, for_points);
+}
 
 struct tile_task {
     cloud_inputs inputs{};
@@ -156,10 +167,14 @@ class tile_steps {
     [[nodiscard]] share tiles_of(std::size_t rank, bool unfinished = false) const;
 
     struct cut_sizes;
-    [[nodiscard]] tile_cuts plan();
+    /// Whether a look at the points tells more of the memory that is needed than their number.
+    [[nodiscard]] bool needs_look() const;
+    /// \throws stream_error with what would be enough, and at least that much, where it is too much
+    [[nodiscard]] tile_cuts plan(std::uint64_t least_memory);
     [[nodiscard]] std::optional<tile_cuts> plan_by(bool by_places) const;
-    [[nodiscard]] tile_cuts plan_for_least_memory() const;
-    [[noreturn]] void fail_for_memory(std::uint64_t needed) const;
+    struct least_plan;
+    [[nodiscard]] least_plan plan_for_least_memory() const;
+    [[noreturn]] void fail_for_memory(std::uint64_t needed, bool may_be_more = false) const;
     [[nodiscard]] point_survey::part uncrowded_sample() const;
     [[nodiscard]] const point_survey::part& places() const;
     [[nodiscard]] cut_sizes sizes_of(const tile_cuts& cuts) const;

@@ -59,9 +59,6 @@ cloud_inputs named(cloud_inputs inputs) {
     return inputs;
 }
 
-/// Of an empty cloud: the program, its threads and what is read and written.
-constexpr std::uint64_t base_memory = std::uint64_t{32} << 20;
-
 detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options options) {
     if (!(options.tolerance >= 0.0) || !std::isfinite(options.tolerance))
         throw std::invalid_argument(
@@ -69,7 +66,7 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
     inputs = named(std::move(inputs));
     if (options.memory == 0) options.memory = default_memory();
     const std::uint64_t memory = options.memory;
-    options.memory -= std::min(base_memory, options.memory / 2);
+    options.memory = detail::stream::left_for_points(memory);
     if (options.folder.empty()) options.folder = inputs.paths.front().string() + ".tiles";
     std::string identity = identity_of(inputs, options);
     return {std::move(inputs), std::move(options), std::move(identity), memory};
@@ -321,7 +318,7 @@ std::uint64_t memory_to_stream(const mesh_file& header, std::uint64_t points) {
     // Pieces of rows that are sorted are fewer than their number has bytes for.
     const auto pieces = static_cast<std::uint64_t>(
         8.0 * std::sqrt(32.0 * 4096.0 * static_cast<double>(points)) / 4.0);
-    return base_memory + samples_and_buffers + blocks + bits + pieces;
+    return detail::stream::base_memory + samples_and_buffers + blocks + bits + pieces;
 }
 
 }  // namespace treeform
