@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -26,9 +25,9 @@ struct tile_steps::cut_sizes {
     double border = 0.0;   ///< places in several tiles that are held at a time
 };
 
-struct tile_steps::least_plan {
+struct tile_steps::planned {
     tile_cuts cuts;
-    std::uint64_t memory = 0;  ///< of the process
+    memory_needs needs{};
 };
 
 tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
@@ -60,38 +59,62 @@ const point_survey::part& tile_steps::places() const {
 
 /// Crowds take room on the disk, but not where they are welded. With the rule first they are best
 /// not cut; chains are welded crowd by crowd only where there is no other way.
-tile_cuts tile_steps::plan(std::uint64_t least_memory) {
+void tile_steps::plan() {
     point_survey::part uncrowded = uncrowded_sample();
     const bool crowded = 4 * uncrowded.points.size() <= 3 * survey_.sample.points.size();
     if (!survey_.places) survey_.places = std::move(uncrowded);
-    if (least_memory > task_.memory)
-        fail_for_memory(std::max(least_memory, plan_for_least_memory().memory));
-    if (crowded && rule() == weld_rule::first)
-        if (const auto cuts = plan_by(true)) return *cuts;
-    if (const auto cuts = plan_by(false)) return *cuts;
-    if (rule() == weld_rule::first || values() == 0)
-        if (const auto cuts = plan_by(true)) return *cuts;
-    least_plan least = plan_for_least_memory();
-    if (least.memory > task_.memory && !task_.options.relative) fail_for_memory(least.memory);
-    return std::move(least.cuts);
+    const std::uint64_t least = memory_to_stream(source_.header(), survey_.cloud.points);
+    std::optional<planned> best;
+    if (least <= task_.memory || task_.options.points_per_tile > 0) {
+        if (crowded && rule() == weld_rule::first) best = plan_by(true);
+        if (!best) best = plan_by(false);
+        if (!best && (rule() == weld_rule::first || values() == 0)) best = plan_by(true);
+    }
+    if (!best) best = plan_for_least_memory();
+    const std::uint64_t needed = std::max(best->needs.tiles, best->needs.borders);
+    // Who comes back with the memory that was said has other samples. In percent, they say little.
+    const bool is_enough = task_.options.relative || needed <= task_.memory + task_.memory / 8;
+    if (least > task_.memory || !is_enough) fail_for_memory(std::max(least, needed));
+    needs_ = {std::min(best->needs.tiles, task_.memory),
+              std::min(best->needs.borders, task_.memory)};
+    cuts_ = std::move(best->cuts);
+}
+
+tile_steps::memory_needs tile_steps::needs_of(const cut_sizes& sizes) const {
+    const auto each = static_cast<double>(bytes_per_point());
+    double held = sizes.held * each;
+    if (rule() == weld_rule::chain)  // or cube by cube, which conditions rule out
+        held = values() > 0 ? sizes.largest * each
+                            : std::min(sizes.largest * each, sizes.held * bytes_of_cube);
+    const auto memory = [](double bytes) {
+        return memory_with(static_cast<std::uint64_t>(std::min(bytes / 0.7, 1e18)));
+    };
+    return {memory(held), memory(sizes.border * bytes_of_border)};
+}
+
+tile_steps::memory_needs tile_steps::needs_of_one_tile(std::uint64_t points) const {
+    const auto all = static_cast<double>(points);
+    return needs_of({.points = all, .largest = all, .held = all});
 }
 
 /// Small tiles stay in the caches while they are welded. Where halos are much of them, larger
 /// ones; where they are most of all, the tolerance is large and little will be kept: one tile.
-std::optional<tile_cuts> tile_steps::plan_by(bool by_places) const {
+std::optional<tile_steps::planned> tile_steps::plan_by(bool by_places) const {
     const auto all = static_cast<double>(survey_.cloud.points);
     const std::vector<point3>& sample = by_places ? places().points : survey_.sample.points;
     const auto cuts_of = [&](double count) {
         return tile_cuts(sample, tolerance_,
                          static_cast<std::size_t>(std::ceil(std::max(count, 1.0))));
     };
-    if (task_.options.points_per_tile > 0)
-        return cuts_of(all / static_cast<double>(task_.options.points_per_tile));
+    if (task_.options.points_per_tile > 0) {
+        tile_cuts cuts = cuts_of(all / static_cast<double>(task_.options.points_per_tile));
+        const memory_needs needs = needs_of(sizes_of(cuts));
+        return planned{std::move(cuts), needs};
+    }
     constexpr double small = 250000.0;
     constexpr double tiles = 1024.0;
     const auto points_in_memory = task_.options.memory / bytes_per_point();
     const double room = 0.6 * static_cast<double>(points_in_memory);
-    const double border_room = 0.5 * static_cast<double>(task_.options.memory) / bytes_of_border;
     struct way {
         double most;       ///< points in a tile, about
         double with_halo;  ///< points of all tiles, of all points
@@ -103,50 +126,70 @@ std::optional<tile_cuts> tile_steps::plan_by(bool by_places) const {
         cut_sizes sizes;
         for (double count = all / w.most; sizes.points <= w.with_halo * all;
              count = 1.25 * count + 1.0) {
-            const tile_cuts cuts = cuts_of(count);
+            tile_cuts cuts = cuts_of(count);
             sizes = sizes_of(cuts);
             const double held = by_places ? sizes.held : sizes.largest;
+            const memory_needs needs = needs_of(sizes);
             if (sizes.points <= w.with_halo * all && held <= 1.25 * w.most &&
-                sizes.border <= border_room)
-                return cuts;
+                std::max(needs.tiles, needs.borders) <= task_.memory)
+                return planned{std::move(cuts), needs};
             if (count > static_cast<double>(sample.size())) break;  // equal points
         }
     }
     return std::nullopt;
 }
 
-/// By chain, it depends on what lies along the borders.
+/// By chain, it depends on what lies along the borders; with tiles of a given size, on their halos.
 bool tile_steps::needs_look() const {
     const weld_stream_options& o = task_.options;
-    return o.rule == weld_rule::chain && o.tolerance > 0.0;
+    return o.points_per_tile > 0 || (o.rule == weld_rule::chain && o.tolerance > 0.0);
 }
 
 /// As many tiles as hold least at a time.
-tile_steps::least_plan tile_steps::plan_for_least_memory() const {
-    std::optional<tile_cuts> best;
-    double least = std::numeric_limits<double>::infinity();
+tile_steps::planned tile_steps::plan_for_least_memory() const {
+    std::optional<planned> best;
+    const auto needed = [](const memory_needs& n) { return std::max(n.tiles, n.borders); };
     const double points = static_cast<double>(places().points.size());
     for (double count = 1.0; count <= std::max(1.0, points / 64.0); count *= 2.0) {
         tile_cuts cuts(places().points, tolerance_, static_cast<std::size_t>(count));
-        const cut_sizes sizes = sizes_of(cuts);
-        const double each = static_cast<double>(bytes_per_point());
-        double held = sizes.held * each;
-        if (rule() == weld_rule::chain)  // or cube by cube, which conditions rule out
-            held = values() > 0 ? sizes.largest * each
-                                : std::min(sizes.largest * each, sizes.held * bytes_of_cube);
-        const double bytes = std::max(held / 0.7, sizes.border * bytes_of_border / 0.7);
-        if (bytes >= least) continue;
-        least = bytes;
-        best.emplace(std::move(cuts));
+        const memory_needs needs = needs_of(sizes_of(cuts));
+        if (best && needed(needs) >= needed(best->needs)) continue;
+        best = {std::move(cuts), needs};
     }
-    return {std::move(*best), memory_with(static_cast<std::uint64_t>(std::min(least, 1e18)))};
+    return std::move(*best);
 }
 
-void tile_steps::fail_for_memory(std::uint64_t needed, bool may_be_more) const {
+void tile_steps::check_before_look() {
+    const auto points = source_.count();
+    const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
+    if (!task_.options.shared && load_plan()) {
+        const std::uint64_t needed = std::max({least, needs_.tiles, needs_.borders});
+        if (needed > task_.memory)
+            fail_for_memory(needed, " for the tiles in " + folder_.path().string());
+        return;
+    }
+    if (least <= task_.memory) return;
+    if (!needs_look()) fail_for_memory(least);
+    if (task_.memory >= base_memory && !has_plan()) return;
+    fail_for_memory(std::max(least, needs_of_one_tile(*points).tiles),
+                    " in any case, and at least " + in_megabytes(least) + " is needed");
+}
+
+void tile_steps::check_before_tile() const {
+    if (needs_.tiles > task_.memory)
+        fail_for_memory(needs_.tiles, " for the tiles in " + folder_.path().string());
+}
+
+void tile_steps::check_before_borders() const {
+    const std::uint64_t needed =
+        std::max(needs_.borders, memory_to_stream(source_.header(), survey_.cloud.points));
+    if (needed > task_.memory) fail_for_memory(needed);
+}
+
+void tile_steps::fail_for_memory(std::uint64_t needed, const std::string& more) const {
     throw stream_error(stream_error::reason::memory, folder_.path(),
                        "--memory " + in_megabytes(task_.memory) + " is too little; " +
-                           (may_be_more ? "at least " + in_megabytes(needed) + " is needed"
-                                        : in_megabytes(needed) + " would be enough"),
+                           in_megabytes(needed) + " would be enough" + more,
                        needed);
 }
 

@@ -63,13 +63,13 @@ std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }
 }  // namespace
 
 void tile_steps::look() {
-    const auto points = source_.count();
-    const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
-    const bool can_look = task_.memory >= base_memory && !has_plan();
-    if (least > task_.memory && !(needs_look() && can_look)) fail_for_memory(least, needs_look());
     if (task_.options.shared && has_tiles()) {
         look_at_tiles();
-    } else if (!task_.options.shared && take_over()) {
+        say_plan();
+        return;
+    }
+    check_before_look();
+    if (!task_.options.shared && take_over()) {
         unpack();
     } else {
         const bool anew = has_plan();
@@ -88,7 +88,7 @@ void tile_steps::look() {
         survey_.cloud.started_anew = anew;
         survey_.cloud.damaged = damaged;
         set_tolerance();
-        if (team_.leads()) cuts_ = plan(least);
+        if (team_.leads()) plan();
         share_cuts();
     }
     say_plan();
@@ -116,6 +116,8 @@ void tile_steps::store_plan() const {
     state.number(numbers_.size());
     for (const record_count& part : numbers_) store_count(part, state);
     store_cuts(*cuts_, state);
+    state.number(needs_.tiles);
+    state.number(needs_.borders);
     state.number(team_.size());
     for (const tile& t : tiles_) {
         for (const record_count& part : t.points) store_count(part, state);
@@ -134,6 +136,8 @@ bool tile_steps::load_plan() {
     for (std::uint64_t left = state->number(); left > 0 && state->whole(); --left)
         numbers_.push_back(load_count(*state));
     cuts_ = load_cuts(*state, tolerance_);
+    needs_.tiles = state->number();
+    needs_.borders = state->number();
     tiles_.assign(cuts_->size(), {});
     const std::uint64_t parts = state->number();
     for (tile& t : tiles_) {

@@ -88,7 +88,8 @@ std::filesystem::path tile_steps::file(std::size_t t, const char* what) const {
 
 weld_rule tile_steps::rule() const {
     const bool chains_of_equal_points = !keys_.agree().is_transitive();
-    return tolerance_ > 0.0 || chains_of_equal_points ? task_.options.rule : weld_rule::first;
+    return task_.options.tolerance > 0.0 || chains_of_equal_points ? task_.options.rule
+                                                                   : weld_rule::first;
 }
 
 std::uint64_t tile_steps::bytes_per_point() const {
@@ -246,9 +247,14 @@ void tile_steps::share_counts(std::uint64_t read, const std::vector<record_count
                        input.string() + ": the file changed while it was read");
 }
 
+std::uint64_t tile_steps::most_points() const {
+    std::uint64_t most = 0;
+    for (const tile& t : tiles_) most = std::max(most, points_of(t));
+    return most;
+}
+
 std::size_t tile_steps::at_a_time() const {
-    std::uint64_t largest = 1;
-    for (const tile& t : tiles_) largest = std::max(largest, points_of(t));
+    const std::uint64_t largest = std::max<std::uint64_t>(most_points(), 1);
     const double room = 0.7 * static_cast<double>(task_.options.memory);
     const double each = static_cast<double>(largest * bytes_per_point() + 4 * piece);
     return static_cast<std::size_t>(std::clamp(room / each, 1.0, 64.0));
@@ -299,6 +305,7 @@ void tile_steps::weld_one(std::size_t t) {
     pace_.show("weld", 0.0);
     if (!find_tile(t, true)) folder_.fail_with_other_tiles();
     if (tiles_[t].finished) return;
+    check_before_tile();
     weld_tile(t);
     step_done();
 }
@@ -400,10 +407,10 @@ void tile_steps::weld_tile(std::size_t t) {
                      {folder_.file(own[2]), piece / 4},
                      {folder_.file(own[3]), piece / 4}};
     if (has_order()) sort_points(t, files);
-    const std::uint64_t room = task_.options.memory / 10 * 7 / bytes_per_point();
+    // More than is planned for: the plan knows samples only.
+    const std::uint64_t room = task_.options.memory / 10 * 8 / bytes_per_point();
     const bool held = rule() == weld_rule::first || points_of(mine) <= room;
-    if (!held && values() > 0)
-        fail_for_memory(memory_with(points_of(mine) * bytes_per_point() / 7 * 10 + piece));
+    if (!held && values() > 0) fail_for_memory(needs_of_one_tile(most_points()).tiles);
     if (!held)
         weld_crowded(t, files);
     else

@@ -101,6 +101,8 @@ class tile_steps {
     void weld_one(std::size_t tile);
     /// \throws stream_error naming the tiles that are not finished
     void check_finished();
+    /// \throws stream_error with what would be enough, where memory is not
+    void check_before_borders() const;
     [[nodiscard]] tiles_welded weld_borders();
     /// Whether each of a team reads its points, and is told of them.
     [[nodiscard]] bool is_divided() const { return source_.count().has_value(); }
@@ -169,12 +171,23 @@ class tile_steps {
     struct cut_sizes;
     /// Whether a look at the points tells more of the memory that is needed than their number.
     [[nodiscard]] bool needs_look() const;
-    /// \throws stream_error with what would be enough, and at least that much, where it is too much
-    [[nodiscard]] tile_cuts plan(std::uint64_t least_memory);
-    [[nodiscard]] std::optional<tile_cuts> plan_by(bool by_places) const;
-    struct least_plan;
-    [[nodiscard]] least_plan plan_for_least_memory() const;
-    [[noreturn]] void fail_for_memory(std::uint64_t needed, bool may_be_more = false) const;
+    /// Decides where to cut.
+    /// \throws stream_error with what would be enough, where memory is not
+    void plan();
+    struct planned;
+    [[nodiscard]] std::optional<planned> plan_by(bool by_places) const;
+    [[nodiscard]] planned plan_for_least_memory() const;
+    /// Memory of the process that is enough for a tile, and for the borders.
+    struct memory_needs {
+        std::uint64_t tiles = 0;
+        std::uint64_t borders = 0;
+    };
+    [[nodiscard]] memory_needs needs_of(const cut_sizes& sizes) const;
+    [[nodiscard]] memory_needs needs_of_one_tile(std::uint64_t points) const;
+    /// Each throws stream_error with what would be enough, where memory is not.
+    void check_before_look();
+    void check_before_tile() const;
+    [[noreturn]] void fail_for_memory(std::uint64_t needed, const std::string& more = {}) const;
     [[nodiscard]] point_survey::part uncrowded_sample() const;
     [[nodiscard]] const point_survey::part& places() const;
     [[nodiscard]] cut_sizes sizes_of(const tile_cuts& cuts) const;
@@ -244,6 +257,7 @@ class tile_steps {
                                          const record_count& count, const share& some = {}) const;
     [[nodiscard]] row_merge sorted_drops(const std::vector<tiles_welded::file>& files) const;
 
+    [[nodiscard]] std::uint64_t most_points() const;  ///< in a tile
     [[nodiscard]] std::size_t at_a_time() const;
     [[nodiscard]] std::uint64_t bytes_per_point() const;
     [[nodiscard]] std::size_t bytes_per_reader() const;
@@ -258,6 +272,7 @@ class tile_steps {
     point_survey survey_{};
     double tolerance_ = 0.0;
     std::optional<tile_cuts> cuts_{};
+    memory_needs needs_{};                 ///< of them
     bool scattered_ = false;               ///< the points are in their tiles
     std::vector<record_count> numbers_{};  ///< of points by rank, where there is an order
     record_count ranks_{};  ///< of the points that the process reads, while tiles get their points

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using detail::stream::work_folder;
 
 /// Changes whenever the files in the folder do.
-constexpr std::uint64_t layout_of_folder = 3;
+constexpr std::uint64_t layout_of_folder = 4;
 
 std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o) {
     detail::stream::state_writer state;
@@ -241,6 +241,7 @@ status stream_weld::weld() {
         if (s.task.options.shared) {
             s.check_tiles();
             s.steps.check_finished();
+            s.steps.check_before_borders();
             s.hold_alone();
             s.steps.unpack();
         } else {

@@ -4,6 +4,7 @@ from support import *
 
 import hashlib
 import random
+import re
 import signal
 
 # What is told of the way to the answer, not of the answer.
@@ -337,6 +338,11 @@ class Tiles(ToolTest):
         self.assertNotIn("tiles", run.err)
         run = self.run_tool("big.stl", "--memory", "64M", "--within", "-v")
         self.assertIn("--within needs the whole mesh in memory, about", run.err)
+        run = self.run_tool("big.stl", "--memory", "20M", status=5)
+        enough = re.search("([0-9]+M) would be enough", run.err)[1]
+        self.assertEqual(self.listing(), ["big.stl"])
+        self.run_tool("big.stl", "--memory", enough, status=0)
+        self.run_tool("big.stl", "--memory", enough, "--tile-faces", "1000", status=0)
 
     def test_what_tiles_cannot_do_is_refused(self):
         self.put_all(heap(3))

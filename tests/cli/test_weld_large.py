@@ -323,18 +323,47 @@ class Large(WeldTest):
     def test_memory_that_is_too_little_is_said_at_once_with_what_would_be_enough(self):
         rng = random.Random(8)
         self.binary("in.ply", [(rng.random(), rng.random(), rng.random()) for _ in range(500000)])
+        whole = ["--tile-points", "500000"]
         for rule in ("first", "chain"):
-            for tolerance in ("0.002", "0.008"):
+            for tolerance, size in (("0.002", []), ("0.008", []), ("0.008", whole)):
                 command = ["in.ply", "-t", tolerance, "--rule", rule, "-f"]
                 self.run_tool(*command, "-o", "memory.ply", status=0)
-                run = self.run_tool(*command, "-o", "out.ply", "--memory", "20M", status=5)
-                self.assertEqual("at least" in run.err, rule == "chain")  # not looked at
-                run = self.run_tool(*command, "-o", "out.ply", "--memory", "33M", status=5)
-                self.assertEqual(self.listing(), ["in.ply", "memory.ply"])
-                enough = re.search("([0-9]+M) would be enough", run.err)[1]
-                self.run_tool(*command, "-o", "out.ply", "--memory", enough, status=0)
-                self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
-                os.remove(self.path("out.ply"))
+                for memory in ("20M", "33M"):
+                    run = self.run_tool(*command, *size, "-o", "out.ply", "--memory", memory,
+                                        status=5)
+                    in_any_case = memory == "20M" and (rule == "chain" or size)  # not looked at
+                    self.assertEqual("in any case" in run.err, bool(in_any_case))
+                    self.assertEqual(self.listing(), ["in.ply", "memory.ply"])
+                    self.check_enough(run, *command, *size)
+
+    def check_enough(self, refused, *command):
+        """The memory that is said is enough the first time."""
+        enough = re.search("([0-9]+M) would be enough", refused.err)[1]
+        self.run_tool(*command, "-o", "out.ply", "--memory", enough, status=0)
+        self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+        os.remove(self.path("out.ply"))
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_memory_that_is_too_little_for_tiles_that_are_there_is_said_with_what_would_be_enough(self):
+        rng = random.Random(8)
+        self.binary("in.ply", [(rng.random(), rng.random(), rng.random()) for _ in range(500000)])
+        for rule in ("first", "chain"):
+            command = ["in.ply", "-t", "0.004", "--rule", rule, "-f"]
+            self.run_tool(*command, "-o", "memory.ply", status=0)
+            self.run_tool(*command, "-o", "out.ply", "--tile-points", "500000", "--stop-at", "1",
+                          status=-signal.SIGKILL)
+            run = self.run_tool(*command, "-o", "out.ply", "--memory", "46M", status=5)
+            self.assertIn("for the tiles in", run.err)
+            self.check_enough(run, *command)
+            command += ["--work", f"tiles_{rule}"]
+            shared = [*command, "--memory"]
+            self.run_tool(*shared, "1G", "--tile-points", "500000", "--plan", status=0)
+            run = self.run_tool(*shared, "46M", "--tile", "0", status=5)
+            enough = re.search("([0-9]+M) would be enough", run.err)[1]
+            self.run_tool(*shared, enough, "--tile", "0", status=0)
+            run = self.run_tool(*shared, "20M", "--finish", "-o", "out.ply", status=5)
+            self.assertNotIn("for the tiles", run.err)  # only borders are left
+            self.check_enough(run, *command, "--finish")
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_of_rows_that_hang_on_those_before_too_what_is_said_is_enough(self):
