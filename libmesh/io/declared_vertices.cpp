@@ -52,6 +52,13 @@ element declare_vertices(const write_job& job, bool text,
     return e;
 }
 
+std::array<bool, 3> outgrown_axes(const element& declared, std::span<const point3> points) {
+    std::array<bool, 3> outgrown{};
+    for (const column& c : declared.columns)
+        if (is_axis(c)) outgrown[axis_number(c.role)] = !fits(points, c.role, c.type);
+    return outgrown;
+}
+
 void check_axes(const write_job& job, bool text, const element& declared,
                 std::span<const point3> points) {
     if (job.options.precision) return;

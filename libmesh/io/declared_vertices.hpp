@@ -5,6 +5,7 @@
 #include <libmesh/io/writers.hpp>
 #include <treeform/mesh/attributes.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,6 +20,10 @@ namespace treeform::detail::io {
 /// text may have more digits than the type, bytes may not.
 [[nodiscard]] element declare_vertices(const write_job& job, bool text,
                                        std::optional<std::span<const point3>> points);
+
+/// Which coordinates have a column whose type does not hold all of `points`.
+[[nodiscard]] std::array<bool, 3> outgrown_axes(const element& declared,
+                                                std::span<const point3> points);
 
 /// Of points that come by runs the types were chosen before they were known.
 ///

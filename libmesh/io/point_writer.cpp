@@ -45,14 +45,16 @@ namespace {
     return e.name != "vertex" && e.rows > 0 && (e.name == "face" || !e.columns.empty());
 }
 
-/// True when the columns are those of the header's element "vertex".
+/// True when the columns are those of the header's element "vertex". Coordinates have no values in
+/// theirs, which may be of any type.
 [[nodiscard]] bool same_columns(const element& given, const element* declared) {
     const std::size_t count = declared == nullptr ? 0 : declared->columns.size();
     return given.columns.size() == count &&
            std::equal(given.columns.begin(), given.columns.end(),
                       declared == nullptr ? given.columns.begin() : declared->columns.begin(),
                       [](const column& a, const column& b) {
-                          return a.name == b.name && a.type == b.type && a.role == b.role &&
+                          return a.name == b.name && a.role == b.role &&
+                                 (a.type == b.type || detail::io::is_axis(a)) &&
                                  a.list_length == b.list_length;
                       });
 }

@@ -21,6 +21,10 @@ namespace treeform::detail::io {
     return static_cast<column_role>(static_cast<std::size_t>(column_role::x) + axis);
 }
 
+[[nodiscard]] inline bool is_axis(const column& c) {
+    return c.role == column_role::x || c.role == column_role::y || c.role == column_role::z;
+}
+
 [[nodiscard]] inline const column* with_role(const element& e, column_role role) {
     const auto at = std::find_if(e.columns.begin(), e.columns.end(),
                                  [&](const column& c) { return c.role == role; });

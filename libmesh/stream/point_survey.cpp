@@ -51,15 +51,20 @@ class sampler {
         }
         leave_one_a_key();
     }
-    /// Heaps of equal points count once, as they take no room where they are welded.
     [[nodiscard]] point_survey::part part() {
         leave_one_a_key();
         std::vector<point3> all;
         all.reserve(chosen_.size());
         for (const auto& c : chosen_) all.push_back(c.second);
         std::sort(all.begin(), all.end(), before);
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-        return {std::move(all), 1.0 / (static_cast<double>(mask_) + 1.0)};
+        point_survey::part some{.share = 1.0 / (static_cast<double>(mask_) + 1.0)};
+        for (const point3& p : all) {
+            const bool is_another = some.points.empty() || some.points.back() != p;
+            if (is_another) some.points.push_back(p);
+            if (is_another) some.counts.push_back(0);
+            ++some.counts.back();
+        }
+        return some;
     }
 
   private:

@@ -18,8 +18,9 @@ namespace treeform::detail::stream {
 struct point_survey {
     cloud_survey cloud{};
     struct part {
-        std::vector<point3> points{};  ///< finite, all different
-        double share = 1.0;            ///< of what it stands for
+        std::vector<point3> points{};         ///< finite, all different
+        std::vector<std::uint32_t> counts{};  ///< of equal ones, that each stands for; empty: of 1
+        double share = 1.0;                   ///< of what it stands for
     };
     part sample{};  ///< of all points
     /// Of the cubes whose diagonal is the tolerance, a point in each: about what is kept. None where

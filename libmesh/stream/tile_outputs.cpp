@@ -1,4 +1,7 @@
+#include <libmesh/io/declared_vertices.hpp>
+#include <libmesh/io/formats.hpp>
 #include <libmesh/io/las_plan.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/stream/joined_parts.hpp>
 #include <libmesh/stream/las_grid.hpp>
 #include <libmesh/stream/new_numbers.hpp>
@@ -7,6 +10,7 @@
 #include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -29,6 +33,13 @@ bool is_special(const fs::path& path) {
 class output_look {
   public:
     explicit output_look(std::function<void(points_view)> take = {}) : take_(std::move(take)) {}
+    /// `axes` are the coordinates whose types `head` has to be asked for.
+    output_look(const mesh_file& head, const std::array<bool, 3>& axes) : axes_(axes) {
+        if (const element* e = find_element(head.attributes, "vertex")) vertices_ = *e;
+    }
+
+    /// Whether more points can tell more of the types.
+    [[nodiscard]] bool asks() const { return axes_ != outgrown_; }
 
     void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
         point_block some;
@@ -38,20 +49,48 @@ class output_look {
     }
     void write(const point_block& block) {
         if (take_) take_(block.points);
+        if (asks()) {
+            const auto outgrown = io::outgrown_axes(vertices_, block.points);
+            for (std::size_t k = 0; k < 3; ++k)
+                outgrown_[k] = outgrown_[k] || (axes_[k] && outgrown[k]);
+        }
         single_ = single_ && fits_single(block.points);
         extended_ = extended_ || io::has_extended_values(block.properties);
     }
     void share(const team& all) {
         single_ = all.sum(single_ ? 0 : 1) == 0;
         extended_ = all.sum(extended_ ? 1 : 0) > 0;
+        for (bool& one : outgrown_) one = all.sum(one ? 1 : 0) > 0;
     }
+    /// \pre it has seen all points
     void tell(mesh_file& head) const {
         if (!single_) head.stored_as = precision::float64;
         if (extended_) io::extend(*head.las);
     }
+    /// As `write` chooses types when it has all points: one by one. Returns the precision that it
+    /// tells of, if types were asked for.
+    [[nodiscard]] std::optional<precision> tell_types(mesh_file& head) const {
+        if (axes_ == std::array<bool, 3>{}) return std::nullopt;
+        const precision as = head.stored_as;
+        element& e = obtain_element(head.attributes, "vertex", 0);
+        for (column& c : e.columns)
+            if (io::is_axis(c) && outgrown_[io::axis_number(c.role)])
+                c.type = head.stored_as == precision::float32 ? scalar_type::float32
+                                                              : scalar_type::float64;
+        const bool all_fit =
+            io::has_single_axes(e) && std::ranges::all_of(e.columns, [&](const column& c) {
+                const std::size_t k = io::is_axis(c) ? io::axis_number(c.role) : 0;
+                return !io::is_axis(c) || !io::keeps_digits(c) || (axes_[k] && !outgrown_[k]);
+            });
+        if (all_fit) head.stored_as = precision::float32;  // or they would be written as doubles
+        return as;
+    }
 
   private:
     std::function<void(points_view)> take_;
+    element vertices_{};
+    std::array<bool, 3> axes_{};      ///< coordinates whose types are asked for
+    std::array<bool, 3> outgrown_{};  ///< those of them that do not fit into it
     bool single_ = true;
     bool extended_ = false;
 };
@@ -84,7 +123,7 @@ class giving_back {
         const bool asked = asked_.welded || asked_.removed || wants_map();
         if (!asked || (!is_divided_ && !all_.leads())) return {};
         add_columns();
-        if (task_.options.as_las) look_at_outputs();
+        look_at_outputs();
         if (asked_.removed && !removed_head_.las && is_las(*asked_.removed)) look_at_removed();
         open_files();
         give_all();
@@ -165,7 +204,8 @@ class giving_back {
         return head;
     }
 
-    /// Calls `take` with each block, which `first_` is the number of the first point of.
+    /// Calls `take` with each block, which `first_` is the number of the first point of, until it
+    /// returns false.
     template <class Take>
     void each_block(const Take& take) {
         joined_points& source = steps_.source();
@@ -178,7 +218,7 @@ class giving_back {
         given_ = 0;
         point_block block;
         while (source.read(block, points_a_block)) {
-            take(block);
+            if (!take(block)) return;
             first_ += block.points.size();
         }
         const fs::path& input = task_.inputs.paths.front();
@@ -191,6 +231,45 @@ class giving_back {
 
     /// What makes of LAS another format, and of other formats doubles, as far as it is not known.
     void look_at_outputs() {
+        const bool of_las = task_.options.as_las && las_is_asked();
+        output_look welded(head_, axes_asked(asked_.welded, head_, has_means()));
+        output_look removed(removed_head_, axes_asked(asked_.removed, removed_head_, false));
+        if (!of_las && !welded.asks() && !removed.asks()) return;
+        each_block([&](point_block& block) {
+            give(block, asked_.welded ? &welded : nullptr, asked_.removed ? &removed : nullptr);
+            pace_.check();
+            return of_las || welded.asks() || removed.asks();
+        });
+        if (is_divided_) welded.share(all_);
+        if (is_divided_) removed.share(all_);
+        if (of_las) welded.tell(head_);
+        if (of_las) removed.tell(removed_head_);
+        welded_as_ = welded.tell_types(head_);
+        removed_as_ = removed.tell_types(removed_head_);
+    }
+
+    /// Coordinates with declared types that points may have outgrown: by their digits in text, as means,
+    /// or in another file.
+    [[nodiscard]] std::array<bool, 3> axes_asked(const std::optional<weld_stream_outputs::file>& to,
+                                                 const mesh_file& head, bool means) const {
+        std::array<bool, 3> asked{};
+        const element* const vertices = find_element(head.attributes, "vertex");
+        if (!to || vertices == nullptr) return asked;
+        const write_options options = points_out::options_of(*to);
+        const io::known_format& format = io::find_format(to->path, options);
+        const bool has_types = format.extension == "ply" || format.extension == "pcd";
+        if (!has_types || options.precision) return asked;
+        for (const column& c : vertices->columns) {
+            if (!io::is_axis(c) || c.type == scalar_type::float64) continue;
+            if (io::keeps_digits(c) && io::writes_text(format, options)) continue;
+            const bool may_be_long =
+                io::keeps_digits(c) ? !survey_.single : survey_.sources.size() > 1;
+            asked[io::axis_number(c.role)] = means || may_be_long;
+        }
+        return asked;
+    }
+
+    [[nodiscard]] bool las_is_asked() const {
         const auto may_extend = [](const mesh_file& head) {
             const element* const vertices = find_element(head.attributes, "vertex");
             return vertices != nullptr && !io::is_extended(*head.las) &&
@@ -201,17 +280,7 @@ class giving_back {
         };
         const bool all_las = std::ranges::all_of(
             survey_.sources, [](const auto& one) { return one.format.starts_with("la"); });
-        if (!survey_.single && (all_las || !may_extend(head_))) return;
-        output_look welded;
-        output_look removed;
-        each_block([&](point_block& block) {
-            give(block, &welded, asked_.removed ? &removed : nullptr);
-            pace_.check();
-        });
-        if (is_divided_) welded.share(all_);
-        if (is_divided_) removed.share(all_);
-        welded.tell(head_);
-        removed.tell(removed_head_);
+        return survey_.single || (!all_las && may_extend(head_));
     }
 
     [[nodiscard]] static bool is_las(const weld_stream_outputs::file& to) {
@@ -228,6 +297,7 @@ class giving_back {
             each_block([&](point_block& block) {
                 give(block, static_cast<output_look*>(nullptr), &seen);
                 pace_.check();
+                return true;
             });
         };
         removed_head_.las = las_grid_of(each, all);
@@ -243,11 +313,14 @@ class giving_back {
             if (map_) map_->write(asked_.map_text(first_, groups_));
             pace_.show("write", static_cast<double>(first_ - mine.first + block.points.size()) /
                                     static_cast<double>(mine.size()));
+            return true;
         });
         steps_.step_done();
         if (result_ && faces_ != nullptr) result_->write(*faces_, drops_nothing());
         if (removed_) written_.removed = removed_->commit();
         if (result_) written_.welded = result_->commit();
+        if (welded_as_) written_.welded->written_as = *welded_as_;
+        if (removed_as_) written_.removed->written_as = *removed_as_;
         if (map_) map_->commit();
         if (is_divided_) written_.las_moved = all_.most(written_.las_moved);
     }
@@ -323,6 +396,8 @@ class giving_back {
     mesh_file head_;
     mesh_file removed_head_{};
     weld_stream_written written_{};
+    std::optional<precision> welded_as_{};  ///< what is to be told of the file
+    std::optional<precision> removed_as_{};
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};
     std::optional<text_out> map_{};

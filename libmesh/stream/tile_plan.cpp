@@ -32,12 +32,14 @@ struct tile_steps::planned {
 
 tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
     std::vector<std::uint32_t> halos;
+    const bool by_chain = rule() == weld_rule::chain;  // equal points take room
     const auto count = [&](const point_survey::part& sample, double& largest, double& several) {
         std::vector<double> size(cuts.size(), 0.0);
-        const double each = 1.0 / sample.share;
         double sum = 0.0;
-        for (const point3& p : sample.points) {
-            size[cuts.find(p, halos)] += each;
+        for (std::size_t i = 0; i < sample.points.size(); ++i) {
+            const double each =
+                (by_chain && !sample.counts.empty() ? sample.counts[i] : 1) / sample.share;
+            size[cuts.find(sample.points[i], halos)] += each;
             for (const std::uint32_t t : halos) size[t] += each;
             if (!halos.empty()) several += each;
             sum += each * static_cast<double>(1 + halos.size());
@@ -49,7 +51,7 @@ tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
     double ignored = 0.0;
     sizes.points = count(survey_.sample, sizes.largest, ignored);
     static_cast<void>(count(places(), sizes.held, sizes.border));
-    if (rule() == weld_rule::first) sizes.border = 0.0;  // in runs that fit
+    if (!by_chain) sizes.border = 0.0;  // in runs that fit
     return sizes;
 }
 
@@ -63,7 +65,7 @@ void tile_steps::plan() {
     point_survey::part uncrowded = uncrowded_sample();
     const bool crowded = 4 * uncrowded.points.size() <= 3 * survey_.sample.points.size();
     if (!survey_.places) survey_.places = std::move(uncrowded);
-    const std::uint64_t least = memory_to_stream(source_.header(), survey_.cloud.points);
+    const std::uint64_t least = least_memory(survey_.cloud.points);
     std::optional<planned> best;
     if (least <= task_.memory || task_.options.points_per_tile > 0) {
         if (crowded && rule() == weld_rule::first) best = plan_by(true);
@@ -78,6 +80,12 @@ void tile_steps::plan() {
     needs_ = {std::min(best->needs.tiles, task_.memory),
               std::min(best->needs.borders, task_.memory)};
     cuts_ = std::move(best->cuts);
+}
+
+/// What others than first ones give is looked at once more, with coordinates that may be longer.
+std::uint64_t tile_steps::least_memory(std::uint64_t points) const {
+    const std::uint64_t row = task_.options.keep == weld_keep::first ? 0 : 3 * sizeof(float);
+    return memory_to_stream(source_.header(), points) + 4 * row * points_a_block;
 }
 
 tile_steps::memory_needs tile_steps::needs_of(const cut_sizes& sizes) const {
@@ -161,7 +169,7 @@ tile_steps::planned tile_steps::plan_for_least_memory() const {
 
 void tile_steps::check_before_look() {
     const auto points = source_.count();
-    const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
+    const std::uint64_t least = points ? least_memory(*points) : 0;
     if (!task_.options.shared && load_plan()) {
         const std::uint64_t needed = std::max({least, needs_.tiles, needs_.borders});
         if (needed > task_.memory)
@@ -181,8 +189,7 @@ void tile_steps::check_before_tile() const {
 }
 
 void tile_steps::check_before_borders() const {
-    const std::uint64_t needed =
-        std::max(needs_.borders, memory_to_stream(source_.header(), survey_.cloud.points));
+    const std::uint64_t needed = std::max(needs_.borders, least_memory(survey_.cloud.points));
     if (needed > task_.memory) fail_for_memory(needed);
 }
 

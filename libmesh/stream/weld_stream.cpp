@@ -82,6 +82,15 @@ void check_soup(const mesh_file& header, const weld_stream_options& o) {
             "tolerance or by weld_rule::chain; a PLY made of it is with all options");
 }
 
+bool has_properties(const mesh_file& header, const weld_stream_options& options) {
+    try {
+        static_cast<void>(detail::stream::point_keys(header, options));
+        return true;
+    } catch (const weld_property_error&) {
+        return false;
+    }
+}
+
 work_folder::use use_of(const weld_stream_options& o, const detail::stream::team& all) {
     if (o.shared) return work_folder::use::shared;
     if (!all.leads()) all.meet();  // the first one makes the folder
@@ -159,7 +168,15 @@ struct stream_weld::state {
         again.shared = false;
         again.same = keys.conditions();
         again.keep_seams = false;
-        const cloud_inputs input{.paths = {path}, .format = outputs.welded->options.format};
+        cloud_inputs input{.paths = {path}, .format = outputs.welded->options.format};
+        if (!has_properties(outline(input).header, again)) {  // the format has no place for them
+            weld_stream_outputs whole{.unfinished = outputs.unfinished};
+            whole.welded = {folder.file("whole.ply"),
+                            {.precision = outputs.welded->options.precision}};
+            static_cast<void>(detail::stream::give_back(pace, task, whole, steps, *welded,
+                                                        rows ? &*rows : nullptr, nullptr, folder));
+            input = {.paths = {whole.welded->path}};
+        }
         stream_weld twice(input, again);
         twice.state_->faces.reset();
         const weld_stream_result result = run(twice, {});

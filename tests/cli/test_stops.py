@@ -92,6 +92,16 @@ class Stops(ToolTest):
         self.assertNotIn("m.ply", self.listing())
         self.assertEqual([name for name in self.listing() if name.startswith(".")], [])
 
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_stacks_that_are_not_used_do_not_count(self):
+        part = write(self.path("small.obj"), CROSSING)
+        large = 256 << 20  # as those of many threads together
+        hard = resource.getrlimit(resource.RLIMIT_STACK)[1]
+        done = subprocess.run(
+            [TOOL, part, "--memory", "64M"], cwd=self.folder, capture_output=True, timeout=120,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_STACK, (large, hard)))
+        self.assertEqual(done.returncode, 1, msg=done.stderr)
+
     def test_a_generous_limit_changes_nothing(self):
         part = write(self.path("small.obj"), CROSSING)
         self.run_tool(part, "--memory", "1G", "--timeout", "100", status=1)

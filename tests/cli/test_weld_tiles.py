@@ -70,6 +70,37 @@ class Tiles(WeldTest):
                     self.check("in.ply", "-t", tolerance, "--rule", rule, *same, *which, size=size)
             options = options[len(options) // 7:] + options[:len(options) // 7]
 
+    def test_coordinates_get_the_types_that_memory_gives_them(self):
+        rng = self.rng
+        quarter = lambda: rng.randrange(40) / 4
+        clouds = {
+            "some.ply": ("float float float", [(round(10 * rng.random(), 4), quarter(), 0)
+                                               for _ in range(900)]),
+            "whole.ply": ("int float short", [(rng.randrange(20), quarter(), rng.randrange(3))
+                                              for _ in range(900)]),
+            # What has more digits goes, or stays.
+            "last.ply": ("float float float", [(0, 0, 0), *((quarter(), quarter(), 0)
+                                                            for _ in range(900)), (0.1, 0.1, 0.1)]),
+            "first.ply": ("float float float", [(0.1, 0.1, 0.1), *((quarter(), quarter(), 0)
+                                                                   for _ in range(900)), (0, 0, 0)]),
+        }
+        for name, (types, rows) in clouds.items():
+            self.write(name, ply_text([f"{t} {a}" for t, a in zip(types.split(), "xyz")], rows))
+        inputs = [[name] for name in clouds]
+        inputs += [["some.ply", "last.ply", "--join"], ["whole.ply", "some.ply", "--join"]]
+        for command in inputs:
+            for keep in ("first", "mean"):
+                for out, gone in (("out.ply", "gone.pcd"), ("out.pcd", "gone.ply")):
+                    for text in ([], ["--ascii"]):
+                        weld = [*command, "-t", "0.3", "--keep", keep, *text]
+                        self.check(*weld, size=200, out=out, also=("--removed", gone))
+        if not MPIRUN:
+            return
+        for name in clouds:
+            self.run_tool(name, "-t", "0.3", "-o", "memory.ply", "-f", status=0)
+            self.mpi(3, name, "-t", "0.3", "--tile-points", 200, "-o", "out.ply", "-f")
+            self.assertEqual(self.read_bytes("memory.ply"), self.read_bytes("out.ply"))
+
     def test_labels_and_flags_are_those_of_memory(self):
         self.write("in.ply", ply(list(families(self.rng, 600))[0][1], self.rng))
         self.run_tool("in.ply", "-o", "in.las", status=0)
@@ -175,6 +206,15 @@ class Tiles(WeldTest):
             self.assertEqual(formats, [[6, 0, 6, 0], [0, 6, 6, 0]][rank])
             self.check("in.ply", "-t", "0.05", "--label", "classification", size=30, out="out.las",
                        also=())
+
+    def test_what_the_format_has_no_place_for_counts_when_points_are_looked_at_again(self):
+        points = [tuple(round(2 * self.rng.random(), 3) for _ in range(3)) for _ in range(600)]
+        rows = [(*p, self.rng.randrange(2)) for p in points]
+        self.write("in.ply", ply_text([*XYZ, "uchar kind"], rows))
+        for keep in ("mean", "max:z"):
+            entry = self.check("in.ply", "-t", "0.3", "--same", "kind", "--keep", keep, size=90,
+                               out="out.xyz", also=())
+            self.assertGreater(entry["output"]["within_tolerance"], 0)
 
     def test_rounding_to_float_is_looked_at_again(self):
         points = [(1e5 + x, y, z) for x, y, z in list(families(self.rng, 500))[0][1]]

@@ -224,9 +224,7 @@ guard::guard(std::string tool, limits bounds) : state_(std::make_unique<state>()
     state_->tool = std::move(tool);
     state_->bounds = bounds;
     if (bounds.beside_others) state_->before = memory_of_process();
-    if (bounds.memory > 0)
-        bound_data(bounds.memory + state_->before.reserved +
-                   (bounds.as_free ? memory_of_stacks() : std::uint64_t{0}));
+    if (bounds.memory > 0) bound_data(bounds.memory + state_->before.reserved + memory_of_stacks());
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an output error like any other
     std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that may not get as large
     state_->signals = watched_signals();
