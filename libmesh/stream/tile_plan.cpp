@@ -65,7 +65,7 @@ void tile_steps::plan() {
     point_survey::part uncrowded = uncrowded_sample();
     const bool crowded = 4 * uncrowded.points.size() <= 3 * survey_.sample.points.size();
     if (!survey_.places) survey_.places = std::move(uncrowded);
-    const std::uint64_t least = least_memory(survey_.cloud.points);
+    const std::uint64_t least = memory_to_stream(source_.header(), survey_.cloud.points);
     std::optional<planned> best;
     if (least <= task_.memory || task_.options.points_per_tile > 0) {
         if (crowded && rule() == weld_rule::first) best = plan_by(true);
@@ -80,12 +80,6 @@ void tile_steps::plan() {
     needs_ = {std::min(best->needs.tiles, task_.memory),
               std::min(best->needs.borders, task_.memory)};
     cuts_ = std::move(best->cuts);
-}
-
-/// What others than first ones give is looked at once more, with coordinates that may be longer.
-std::uint64_t tile_steps::least_memory(std::uint64_t points) const {
-    const std::uint64_t row = task_.options.keep == weld_keep::first ? 0 : 3 * sizeof(float);
-    return memory_to_stream(source_.header(), points) + 4 * row * points_a_block;
 }
 
 tile_steps::memory_needs tile_steps::needs_of(const cut_sizes& sizes) const {
@@ -169,7 +163,7 @@ tile_steps::planned tile_steps::plan_for_least_memory() const {
 
 void tile_steps::check_before_look() {
     const auto points = source_.count();
-    const std::uint64_t least = points ? least_memory(*points) : 0;
+    const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
     if (!task_.options.shared && load_plan()) {
         const std::uint64_t needed = std::max({least, needs_.tiles, needs_.borders});
         if (needed > task_.memory)
@@ -189,7 +183,8 @@ void tile_steps::check_before_tile() const {
 }
 
 void tile_steps::check_before_borders() const {
-    const std::uint64_t needed = std::max(needs_.borders, least_memory(survey_.cloud.points));
+    const std::uint64_t needed =
+        std::max(needs_.borders, memory_to_stream(source_.header(), survey_.cloud.points));
     if (needed > task_.memory) fail_for_memory(needed);
 }
 

@@ -184,7 +184,6 @@ class tile_steps {
     };
     [[nodiscard]] memory_needs needs_of(const cut_sizes& sizes) const;
     [[nodiscard]] memory_needs needs_of_one_tile(std::uint64_t points) const;
-    [[nodiscard]] std::uint64_t least_memory(std::uint64_t points) const;
     /// Each throws stream_error with what would be enough, where memory is not.
     void check_before_look();
     void check_before_tile() const;

@@ -162,7 +162,7 @@ struct stream_weld::state {
         again.relative = false;
         again.keep = weld_keep::first;
         again.as_las = false;
-        again.memory = task.memory;
+        again.points_per_tile = 0;  // of the cloud
         again.folder += ".again";
         again.step_done = {};
         again.shared = false;
@@ -177,6 +177,8 @@ struct stream_weld::state {
                                                         rows ? &*rows : nullptr, nullptr, folder));
             input = {.paths = {whole.welded->path}};
         }
+        // What has been enough so far is so for fewer points, be their rows longer.
+        again.memory = std::max(task.memory, memory_to_stream(outline(input).header, counts.kept));
         stream_weld twice(input, again);
         twice.state_->faces.reset();
         const weld_stream_result result = run(twice, {});
