@@ -67,8 +67,8 @@ class output_look {
         if (!single_) head.stored_as = precision::float64;
         if (extended_) io::extend(*head.las);
     }
-    /// As `write` chooses types when it has all points: one by one. Returns the precision that it
-    /// tells of, if types were asked for.
+    /// As `write` chooses types when it has all points: each axis its own. `point_writer` keeps to that
+    /// only where `stored_as` is float32, so that changes; what `write` would tell of is returned.
     [[nodiscard]] std::optional<precision> tell_types(mesh_file& head) const {
         if (axes_ == std::array<bool, 3>{}) return std::nullopt;
         const precision as = head.stored_as;
@@ -229,7 +229,7 @@ class giving_back {
             throw std::logic_error("points in are not points kept and points removed");
     }
 
-    /// What makes of LAS another format, and of other formats doubles, as far as it is not known.
+    /// What makes of LAS another format, and of coordinates other types, as far as it is not known.
     void look_at_outputs() {
         const bool of_las = task_.options.as_las && las_is_asked();
         output_look welded(head_, axes_asked(asked_.welded, head_, has_means()));
@@ -249,7 +249,7 @@ class giving_back {
     }
 
     /// Coordinates with declared types that points may have outgrown: by their digits in text, as means,
-    /// or in another file.
+    /// rounded to the steps of LAS, or in another file.
     [[nodiscard]] std::array<bool, 3> axes_asked(const std::optional<weld_stream_outputs::file>& to,
                                                  const mesh_file& head, bool means) const {
         std::array<bool, 3> asked{};
@@ -259,6 +259,7 @@ class giving_back {
         const io::known_format& format = io::find_format(to->path, options);
         const bool has_types = format.extension == "ply" || format.extension == "pcd";
         if (!has_types || options.precision) return asked;
+        means = means || task_.options.as_las;
         for (const column& c : vertices->columns) {
             if (!io::is_axis(c) || c.type == scalar_type::float64) continue;
             if (io::keeps_digits(c) && io::writes_text(format, options)) continue;
@@ -396,7 +397,7 @@ class giving_back {
     mesh_file head_;
     mesh_file removed_head_{};
     weld_stream_written written_{};
-    std::optional<precision> welded_as_{};  ///< what is to be told of the file
+    std::optional<precision> welded_as_{};  ///< to be told of the file, where types were chosen
     std::optional<precision> removed_as_{};
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};

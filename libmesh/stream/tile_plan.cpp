@@ -75,7 +75,8 @@ void tile_steps::plan() {
     if (!best) best = plan_for_least_memory();
     const std::uint64_t needed = std::max(best->needs.tiles, best->needs.borders);
     // Who comes back with the memory that was said has other samples. In percent, they say little.
-    const bool is_enough = task_.options.relative || needed <= task_.memory + task_.memory / 8;
+    const bool is_enough =
+        task_.options.relative || left_for_points(needed) / 8 * 7 <= task_.options.memory;
     if (least > task_.memory || !is_enough) fail_for_memory(std::max(least, needed));
     needs_ = {std::min(best->needs.tiles, task_.memory),
               std::min(best->needs.borders, task_.memory)};
@@ -89,7 +90,9 @@ tile_steps::memory_needs tile_steps::needs_of(const cut_sizes& sizes) const {
         held = values() > 0 ? sizes.largest * each
                             : std::min(sizes.largest * each, sizes.held * bytes_of_cube);
     const auto memory = [](double bytes) {
-        return memory_with(static_cast<std::uint64_t>(std::min(bytes / 0.7, 1e18)));
+        constexpr std::uint64_t program = std::uint64_t{16} << 20;
+        return std::max(program,
+                        memory_with(static_cast<std::uint64_t>(std::min(bytes / 0.7, 1e18))));
     };
     return {memory(held), memory(sizes.border * bytes_of_border)};
 }
@@ -144,7 +147,7 @@ std::optional<tile_steps::planned> tile_steps::plan_by(bool by_places) const {
 /// By chain, it depends on what lies along the borders; with tiles of a given size, on their halos.
 bool tile_steps::needs_look() const {
     const weld_stream_options& o = task_.options;
-    return o.points_per_tile > 0 || (o.rule == weld_rule::chain && o.tolerance > 0.0);
+    return o.points_per_tile > 0 || rule() == weld_rule::chain;
 }
 
 /// As many tiles as hold least at a time.
@@ -164,17 +167,27 @@ tile_steps::planned tile_steps::plan_for_least_memory() const {
 void tile_steps::check_before_look() {
     const auto points = source_.count();
     const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
-    if (!task_.options.shared && load_plan()) {
-        const std::uint64_t needed = std::max({least, needs_.tiles, needs_.borders});
-        if (needed > task_.memory)
-            fail_for_memory(needed, " for the tiles in " + folder_.path().string());
+    const std::string of_tiles = " for the tiles in " + folder_.path().string();
+    if (!task_.options.shared && finds_tiles()) {
+        const bool all_finished = survey_.cloud.unfinished.empty();
+        const std::uint64_t needed =
+            std::max({least, all_finished ? 0 : needs_.tiles, needs_of_rest()});
+        if (needed > task_.memory) fail_for_memory(needed, of_tiles);
         return;
     }
     if (least <= task_.memory) return;
     if (!needs_look()) fail_for_memory(least);
     if (task_.memory >= base_memory && !has_plan()) return;
-    fail_for_memory(std::max(least, needs_of_one_tile(*points).tiles),
-                    " in any case, and at least " + in_megabytes(least) + " is needed");
+    const std::uint64_t enough = std::max(least, needs_of_one_tile(*points).tiles);
+    fail_for_memory(
+        enough,
+        enough == least ? "" : " in any case, and at least " + in_megabytes(least) + " is needed");
+}
+
+/// When tiles are finished: their borders, and a look at what is kept, which has tiles, too.
+std::uint64_t tile_steps::needs_of_rest() const {
+    return task_.options.keep == weld_keep::first ? needs_.borders
+                                                  : std::max(needs_.borders, needs_.tiles);
 }
 
 void tile_steps::check_before_tile() const {
@@ -184,7 +197,7 @@ void tile_steps::check_before_tile() const {
 
 void tile_steps::check_before_borders() const {
     const std::uint64_t needed =
-        std::max(needs_.borders, memory_to_stream(source_.header(), survey_.cloud.points));
+        std::max(needs_of_rest(), memory_to_stream(source_.header(), survey_.cloud.points));
     if (needed > task_.memory) fail_for_memory(needed);
 }
 

@@ -184,6 +184,7 @@ class tile_steps {
     };
     [[nodiscard]] memory_needs needs_of(const cut_sizes& sizes) const;
     [[nodiscard]] memory_needs needs_of_one_tile(std::uint64_t points) const;
+    [[nodiscard]] std::uint64_t needs_of_rest() const;
     /// Each throws stream_error with what would be enough, where memory is not.
     void check_before_look();
     void check_before_tile() const;
@@ -198,6 +199,8 @@ class tile_steps {
     [[nodiscard]] bool know();
     void look_at_tiles();
     [[nodiscard]] bool load_plan();
+    /// Whether the folder has tiles to go on from, as far as sizes of files tell.
+    [[nodiscard]] bool finds_tiles();
     [[nodiscard]] bool take_over();
     [[nodiscard]] bool find_tile(std::size_t t, bool check);
     void count_finished();

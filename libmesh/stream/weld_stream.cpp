@@ -82,13 +82,19 @@ void check_soup(const mesh_file& header, const weld_stream_options& o) {
             "tolerance or by weld_rule::chain; a PLY made of it is with all options");
 }
 
-bool has_properties(const mesh_file& header, const weld_stream_options& options) {
-    try {
-        static_cast<void>(detail::stream::point_keys(header, options));
-        return true;
-    } catch (const weld_property_error&) {
-        return false;
-    }
+/// Whether files with these headers have the same values of what conditions look at. Coordinates are
+/// doubles in any file.
+bool have_same_values(const mesh_file& a, const mesh_file& b,
+                      const std::vector<weld_condition>& conditions) {
+    const auto type_in = [](const mesh_file& header, const std::string& name) {
+        const element* const vertices = find_element(header.attributes, "vertex");
+        const column* const found = vertices == nullptr ? nullptr : find_column(*vertices, name);
+        return found == nullptr || found->role != column_role::data ? std::nullopt
+                                                                    : std::optional(found->type);
+    };
+    return std::ranges::all_of(conditions, [&](const weld_condition& c) {
+        return type_in(a, c.property) == type_in(b, c.property);
+    });
 }
 
 work_folder::use use_of(const weld_stream_options& o, const detail::stream::team& all) {
@@ -169,21 +175,23 @@ struct stream_weld::state {
         again.same = keys.conditions();
         again.keep_seams = false;
         cloud_inputs input{.paths = {path}, .format = outputs.welded->options.format};
-        if (!has_properties(outline(input).header, again)) {  // the format has no place for them
-            weld_stream_outputs whole{.unfinished = outputs.unfinished};
-            whole.welded = {folder.file("whole.ply"),
-                            {.precision = outputs.welded->options.precision}};
-            static_cast<void>(detail::stream::give_back(pace, task, whole, steps, *welded,
+        const fs::path whole = folder.file("whole.ply");
+        if (!again.same.empty() &&
+            !have_same_values(source.header(), outline(input, o.team).header, again.same)) {
+            weld_stream_outputs as_read{.unfinished = outputs.unfinished};
+            as_read.welded = {whole, {.precision = outputs.welded->options.precision}};
+            static_cast<void>(detail::stream::give_back(pace, task, as_read, steps, *welded,
                                                         rows ? &*rows : nullptr, nullptr, folder));
-            input = {.paths = {whole.welded->path}};
+            input = {.paths = {whole}};
         }
-        // What has been enough so far is so for fewer points, be their rows longer.
-        again.memory = std::max(task.memory, memory_to_stream(outline(input).header, counts.kept));
+        // What has been enough so far is so for fewer points, be their rows somewhat longer.
+        again.memory = task.memory + (std::uint64_t{8} << 20);
         stream_weld twice(input, again);
         twice.state_->faces.reset();
         const weld_stream_result result = run(twice, {});
         if (result.status == status::cancelled) throw detail::stream::cancelled{};
         written.still_within = result.survey.points - result.counts.kept;
+        if (all.leads()) fs::remove(whole);
     }
 
     [[nodiscard]] static weld_stream_result run(stream_weld& work,

@@ -312,7 +312,7 @@ class Large(WeldTest):
         self.assertNotIn("--memory", self.run_tool(*command, status=0).err)
         report = self.report(*command, "--memory", "55M", status=0)
         self.assertIn("in-memory", [w["code"] for w in report["files"][0]["warnings"]])
-        run = self.run_tool(*command, "--memory", "16M", status=5)
+        run = self.run_tool(*command, "--memory", "8M", status=5)
         self.assertIn("the output format off of a mesh needs the whole mesh in memory", run.err)
         self.write("in.stl", 80 * b" " + struct.pack("<I", 800000))
         os.truncate(self.path("in.stl"), 84 + 50 * 800000)  # more than the memory
@@ -335,6 +335,19 @@ class Large(WeldTest):
                     self.assertEqual("in any case" in run.err, bool(in_any_case))
                     self.assertEqual(self.listing(), ["in.ply", "memory.ply"])
                     self.check_enough(run, *command, *size)
+
+        # Chains of equal points, too.
+        kinds = [(0.5, 0.5, 0.5, i % 7) if i % 2 else (*(rng.random() for _ in range(3)), i % 7)
+                 for i in range(400000)]
+        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(kinds)}\nproperty double x\n"
+                "property double y\nproperty double z\nproperty uchar kind\nend_header\n")
+        self.write("in.ply", head.encode() + b"".join(struct.pack("<dddB", *row) for row in kinds))
+        for same, keep in (("kind=1", "first"), ("kind", "max:z")):
+            command = ["in.ply", "-t", "0", "--rule", "chain", "--same", same, "--keep", keep, "-f"]
+            self.run_tool(*command, "-o", "memory.ply", status=0)
+            for memory in ("20M", "33M"):
+                run = self.run_tool(*command, "-o", "out.ply", "--memory", memory, status=5)
+                self.check_enough(run, *command)
 
     def check_enough(self, refused, *command):
         """The memory that is said is enough the first time."""

@@ -90,7 +90,8 @@ class Tiles(WeldTest):
         inputs += [["some.ply", "last.ply", "--join"], ["whole.ply", "some.ply", "--join"]]
         for command in inputs:
             for keep in ("first", "mean"):
-                for out, gone in (("out.ply", "gone.pcd"), ("out.pcd", "gone.ply")):
+                for out, gone in (("out.ply", "gone.pcd"), ("out.pcd", "gone.ply"),
+                                  ("out.las", "gone.ply")):
                     for text in ([], ["--ascii"]):
                         weld = [*command, "-t", "0.3", "--keep", keep, *text]
                         self.check(*weld, size=200, out=out, also=("--removed", gone))
@@ -215,6 +216,14 @@ class Tiles(WeldTest):
             entry = self.check("in.ply", "-t", "0.3", "--same", "kind", "--keep", keep, size=90,
                                out="out.xyz", also=())
             self.assertGreater(entry["output"]["within_tolerance"], 0)
+
+    def test_values_count_as_in_the_input_when_points_are_looked_at_again(self):
+        places = [(0.1 * i, 0.1 * j, 0.1 * k) for i in range(8) for j in range(8) for k in range(4)]
+        rows = [(*p, self.rng.choice(("0", "0.1", "0.2", "0.3"))) for p in places]
+        self.write("in.ply", ply_text([*XYZ, "float kind"], rows))
+        for keep in ("mean", "last", "max:z"):  # text has no floats, and other ties
+            self.check("in.ply", "-t", "0.1", "--same", "kind=0.1", "--keep", keep, size=60,
+                       out="out.csv", also=())
 
     def test_rounding_to_float_is_looked_at_again(self):
         points = [(1e5 + x, y, z) for x, y, z in list(families(self.rng, 500))[0][1]]

@@ -58,7 +58,8 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
         work.options.memory > 0 ? work.options.memory : tf::default_memory();
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(work.path, error);
-    if (!asked && (error || size < allowed / bytes_per_byte)) {
+    const std::uint64_t program = std::min(allowed / 2, std::uint64_t{24} << 20);
+    if (!asked && (error || size < (allowed - program) / bytes_per_byte)) {
         const std::string remark = remark_on_folder(tiles);
         if (!remark.empty()) work.warn("in-memory", remark);
         return false;
