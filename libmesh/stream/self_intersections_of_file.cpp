@@ -101,6 +101,7 @@ stream_search_result self_intersections_of_file(const fs::path& input,
     work_folder folder(folder_of(input, options), "search",
                        all.leads() ? work_folder::use::alone : work_folder::use::member);
     if (all.leads()) all.meet();
+    all.meet();  // or one would make again what the first one has removed
     detail::stream::tile_search search(pace, folder, all, input, options);
     stream_search_result result;
     try {

@@ -124,6 +124,7 @@ struct stream_weld::state {
           folder(task.options.folder, "weld", use_of(task.options, all)),
           steps(pace, folder, task, all, source, keys) {
         if (all.leads()) all.meet();
+        all.meet();  // or one would make again what the first one has removed
         if (!detail::stream::has_rows_behind(source.header())) return;
         check_soup(source.header(), task.options);
         faces.emplace(pace, folder, task, steps);
