@@ -321,8 +321,9 @@ void tile_search::check_memory() const {
     const std::uint64_t needed = base_bytes + most * bytes_a_face;
     if (most * bytes_a_face <= memory_) return;
     throw stream_error(stream_error::reason::memory, folder_.path(),
-                       std::to_string(most) + " faces reach into one tile; with " +
-                           std::to_string(needed / 1'000'000 + 1) + " MB of memory they fit",
+                       "--memory is too little: " + std::to_string(most) +
+                           " faces reach into one tile; " + std::to_string((needed >> 20) + 1) +
+                           "M would be enough",
                        needed);
 }
 

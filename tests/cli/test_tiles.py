@@ -342,6 +342,13 @@ class Tiles(ToolTest):
         enough = re.search("([0-9]+M) would be enough", run.err)[1]
         self.assertEqual(self.listing(), ["big.stl"])
         self.run_tool("big.stl", "--memory", enough, status=0)
+        for memory in ("20M", "60M"):  # before and after faces have their tiles
+            run = self.run_tool("big.stl", "--memory", memory, "--tile-faces", "400000", status=5)
+            all_of_it = re.search("([0-9]+M) would be enough", run.err)[1]
+            self.run_tool("big.stl", "--memory", all_of_it, "--tile-faces", "400000", status=0)
+        with open(self.path("short.ply"), "wb") as file:  # few bytes a face, as much memory
+            file.write(ply_bytes(grid(550)))
+        self.run_tool("short.ply", "--memory", enough, status=0)
         self.run_tool("big.stl", "--memory", enough, "--tile-faces", "1000", status=0)
 
     def test_what_tiles_cannot_do_is_refused(self):

@@ -66,11 +66,14 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
     }
     const std::string why = what_needs_memory(work, settings, changes_mesh);
     constexpr std::uint64_t least = 48;  // MB, by measure; some 40 even with a tile of 1000 faces
-    if (why.empty() && allowed < least << 20)
+    if (why.empty() && allowed < least << 20) {
+        // A face takes 13 bytes of a file at least, and 250 in a tile; some tiles get more of them.
+        const std::uint64_t of_tile = std::min(tiles.per_tile, size / 13) * 320 >> 20;
         throw failure(stopped, "memory",
                       work.name + ": --memory " + std::to_string(allowed >> 20) +
-                          "M is too little; in tiles, " + std::to_string(least) +
+                          "M is too little; in tiles, " + std::to_string(least + of_tile) +
                           "M would be enough, and room for what is found");
+    }
     if (why.empty()) return true;
     std::string text = why + " needs the whole mesh in memory";
     if (!error) text += ", about " + grouped(size * bytes_per_byte / 1000000 + 1) + " MB";
