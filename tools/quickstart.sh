@@ -17,10 +17,8 @@ step "build"
 if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD
 fi
-# A build folder that the tests have set up serves as it is. Files of a folder compiled as one take
-# half the time.
-[[ -f build/release/build.ninja ]] || cmake --preset release -DTREEFORM_BUILD_TESTS=OFF \
-    -DCMAKE_UNITY_BUILD=ON >/dev/null
+# A build folder that the tests have set up serves as it is.
+[[ -f build/release/build.ninja ]] || cmake --preset release -DTREEFORM_BUILD_TESTS=OFF >/dev/null
 tools=()
 for main in tools/*/main.cpp; do
     tools+=("$(basename "$(dirname "$main")")")

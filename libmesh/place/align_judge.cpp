@@ -6,8 +6,6 @@
 namespace treeform::detail::place {
 namespace {
 
-using row6 = Eigen::Matrix<double, 6, 1>;
-using square6 = Eigen::Matrix<double, 6, 6>;
 using wide6 = Eigen::Matrix<double, 6, 12>;
 
 double signed_distance(const partner& p) { return (p.from - p.to).dot(p.normal); }
@@ -48,7 +46,7 @@ std::vector<freedom> freedoms_of(const std::vector<partner>& weighed, const Vect
         moves << 0.0, arm.z(), -arm.y(), 1.0, 0.0, 0.0,  //
             -arm.z(), 0.0, arm.x(), 0.0, 1.0, 0.0,       //
             arm.y(), -arm.x(), 0.0, 0.0, 0.0, 1.0;
-        const row6 along = moves.transpose() * p.normal;
+        const vector<6> along = moves.transpose() * p.normal;
         wide6 one;
         one.leftCols<6>() = p.weight * along * along.transpose();
         one.rightCols<6>() = p.weight * moves.transpose() * moves;
@@ -57,20 +55,19 @@ std::vector<freedom> freedoms_of(const std::vector<partner>& weighed, const Vect
     const double weights = sum_over(weighed, 0.0, [](const partner& p) { return p.weight; });
     if (!(weights > 0.0)) return {};
     sums /= weights;
-    const Eigen::SelfAdjointEigenSolver<square6> seen(square6(sums.rightCols<6>()));
-    const int first = static_cast<int>(
-        std::count_if(seen.eigenvalues().begin(), seen.eigenvalues().end(),
-                      [&](double v) { return v <= 1e-10 * seen.eigenvalues()(5); }));
+    const eigen_system<6> seen = eigen_of(square<6>(sums.rightCols<6>()));
+    const int first =
+        static_cast<int>(std::count_if(seen.values.begin(), seen.values.end(),
+                                       [&](double v) { return v <= 1e-10 * seen.values(5); }));
     // The motions as columns, each by 1.
-    Eigen::MatrixXd motions = seen.eigenvectors().rightCols(6 - first);
-    for (int i = first; i < 6; ++i) motions.col(i - first) /= std::sqrt(seen.eigenvalues()(i));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> held(
-        Eigen::MatrixXd(motions.transpose() * sums.leftCols<6>() * motions));
+    Eigen::MatrixXd motions = seen.vectors.rightCols(6 - first);
+    for (int i = first; i < 6; ++i) motions.col(i - first) /= std::sqrt(seen.values(i));
+    const eigen_system<Eigen::Dynamic> held =
+        eigen_of(Eigen::MatrixXd(motions.transpose() * sums.leftCols<6>() * motions));
     std::vector<freedom> found;
     for (int i = 0; i < 6 - first; ++i) {
-        const Eigen::VectorXd motion = motions * held.eigenvectors().col(i);
-        found.push_back(
-            {motion.head<3>(), motion.tail<3>(), std::clamp(held.eigenvalues()(i), 0.0, 1.0)});
+        const Eigen::VectorXd motion = motions * held.vectors.col(i);
+        found.push_back({motion.head<3>(), motion.tail<3>(), std::clamp(held.values(i), 0.0, 1.0)});
     }
     return found;
 }

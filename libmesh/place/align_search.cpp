@@ -14,7 +14,7 @@ constexpr double least_width = 1e-10;  ///< of Welsch's function: distances are 
 constexpr double least_share = 0.35;   ///< of the points to be within the width
 constexpr double nothing = 1e-28;      ///< costs differ by their rounding
 
-using row7 = Eigen::Matrix<double, 7, 1>;
+using row7 = vector<7>;
 
 /// Anderson acceleration of the steps, by the 5 before. Places are a turn from the first place, a
 /// shift and a growth. \source Zhang, Yao and Deng (2022), section 3.1
@@ -39,7 +39,7 @@ class acceleration {
             residuals.col(i) = residual - before.residual;
             goals.col(i) = goal - before.goal;
         }
-        const Eigen::VectorXd shares = residuals.colPivHouseholderQr().solve(residual);
+        const Eigen::VectorXd shares = least_squares(residuals, residual);
         const row7 better = goal - goals * shares;
         return better.allFinite() ? place_of(better) : plain;
     }
@@ -51,18 +51,13 @@ class acceleration {
     };
 
     [[nodiscard]] row7 row_of(const similarity& map) const {
-        const Eigen::AngleAxisd turn(Matrix3d(map.rotation * about_.transpose()));
         row7 row;
-        row << turn.angle() * turn.axis(), map.shift, std::log(map.scale);
+        row << turn_of(map.rotation * about_.transpose()), map.shift, std::log(map.scale);
         return row;
     }
     [[nodiscard]] similarity place_of(const row7& row) const {
         similarity map;
-        const Vector3d turn = row.head<3>();
-        const double angle = turn.norm();
-        map.rotation = about_;
-        if (angle > 0.0)
-            map.rotation = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * about_;
+        map.rotation = rotation_by(row.head<3>()) * about_;
         map.shift = row.segment<3>(3);
         map.scale = std::exp(row(6));
         return map;

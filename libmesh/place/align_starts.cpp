@@ -18,9 +18,7 @@ std::vector<Matrix3d> spread_turns(std::size_t count) {
         const double r = std::sqrt(t), q = std::sqrt(1.0 - t);
         const double a = 2.0 * std::numbers::pi * s / phi, b = 2.0 * std::numbers::pi * s / psi;
         turns.push_back(
-            Eigen::Quaterniond(q * std::cos(b), r * std::sin(a), r * std::cos(a), q * std::sin(b))
-                .normalized()
-                .toRotationMatrix());
+            rotation_of(q * std::cos(b), r * std::sin(a), r * std::cos(a), q * std::sin(b)));
     }
     std::stable_sort(turns.begin(), turns.end(),
                      [](const Matrix3d& x, const Matrix3d& y) { return x.trace() > y.trace(); });
@@ -47,8 +45,8 @@ inertia inertia_by(std::size_t count, const At& at, const Weight& weight) {
         const Vector3d arm = at(i) - of.center;
         sums += weight(i) * arm * arm.transpose();
     }
-    of.axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(sums).eigenvectors();
-    if (of.axes.determinant() < 0.0) of.axes.col(0) *= -1.0;
+    of.axes = eigen_of(sums).vectors;
+    if (is_mirrored(of.axes)) of.axes.col(0) *= -1.0;
     return of;
 }
 
@@ -65,7 +63,7 @@ inertia inertia_of(std::span<const Vector3d> points, std::span<const face> faces
         faces.size(),
         [&](std::size_t f) { return Vector3d((corner(f, 0) + corner(f, 1) + corner(f, 2)) / 3.0); },
         [&](std::size_t f) {
-            return (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0)).norm();
+            return cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0)).norm();
         });
 }
 
@@ -91,11 +89,8 @@ std::vector<similarity> starts_along(std::span<const freedom> motions, double mo
         if (one.stiffness >= most) continue;
         for (double by = 0.001; by < 0.1; by *= 2.0)
             for (const double way : {by * diagonal, -by * diagonal}) {
-                const Vector3d turn = way * one.turn;
-                const double angle = turn.norm();
                 similarity start = at;
-                if (angle > 0.0)
-                    start.rotation = Eigen::AngleAxisd(angle, turn / angle) * at.rotation;
+                start.rotation = rotation_by(way * one.turn) * at.rotation;
                 start.shift += way * one.shift;
                 starts.push_back(start);
             }

@@ -31,7 +31,6 @@ similarity about(const Vector3d& center, similarity step) {
     return step;
 }
 
-using row7 = Eigen::Matrix<double, 7, 1>;
 using system7 = Eigen::Matrix<double, 7, 8>;
 
 }  // namespace
@@ -100,13 +99,12 @@ similarity point_step(const std::vector<partner>& partners, bool scale) {
         one(0, 3) = p.weight * (p.from - from).squaredNorm();
         return one;
     });
-    const Eigen::JacobiSVD<Matrix3d> svd(sums.leftCols<3>(),
-                                         Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const singular_system svd = singular_of(sums.leftCols<3>());
     Vector3d signs(1.0, 1.0, 1.0);  // else flat points may come out mirrored
-    if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) signs.z() = -1.0;
+    if (svd.mirrored) signs.z() = -1.0;
     similarity step;
-    step.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-    if (scale && sums(0, 3) > 0.0) step.scale = svd.singularValues().dot(signs) / sums(0, 3);
+    step.rotation = svd.left * signs.asDiagonal() * svd.right.transpose();
+    if (scale && sums(0, 3) > 0.0) step.scale = svd.values.dot(signs) / sums(0, 3);
     step.shift = to - from;
     return about(from, step);
 }
@@ -115,23 +113,20 @@ similarity plane_step(const std::vector<partner>& partners, bool scale) {
     const Vector3d center = mean(partners, &partner::from);
     const system7 sums = sum_over(partners, system7(system7::Zero()), [&](const partner& p) {
         const Vector3d arm = p.from - center;
-        row7 row;
-        row << arm.cross(p.normal), p.normal, scale ? arm.dot(p.normal) : 0.0;
+        vector<7> row;
+        row << cross(arm, p.normal), p.normal, scale ? arm.dot(p.normal) : 0.0;
         system7 one;
         one.leftCols<7>() = p.weight * row * row.transpose();
         one.col(7) = p.weight * row * (p.to - p.from).dot(p.normal);
         return one;
     });
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> solver(sums.leftCols<7>());
-    const row7& values = solver.eigenvalues();
-    const row7 along = solver.eigenvectors().transpose() * sums.col(7);
-    row7 x = row7::Zero();
+    const auto [values, vectors] = eigen_of(square<7>(sums.leftCols<7>()));
+    const vector<7> along = vectors.transpose() * sums.col(7);
+    vector<7> x = vector<7>::Zero();
     for (int i = 0; i < 7; ++i)
-        if (values(i) > 1e-10 * values(6)) x += along(i) / values(i) * solver.eigenvectors().col(i);
+        if (values(i) > 1e-10 * values(6)) x += along(i) / values(i) * vectors.col(i);
     similarity step;
-    const Vector3d turn = x.head<3>();
-    const double angle = turn.norm();
-    if (angle > 0.0) step.rotation = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+    step.rotation = rotation_by(x.head<3>());
     step.shift = x.segment<3>(3);
     step.scale = std::max(1.0 + x(6), 0.1);
     return about(center, step);
@@ -140,8 +135,7 @@ similarity plane_step(const std::vector<partner>& partners, bool scale) {
 similarity after(const similarity& step, const similarity& map) {
     similarity both;
     both.scale = step.scale * map.scale;
-    both.rotation =
-        Eigen::Quaterniond(step.rotation * map.rotation).normalized().toRotationMatrix();
+    both.rotation = rotation_near(step.rotation * map.rotation);
     both.shift = step(map.shift);
     return both;
 }

@@ -2,19 +2,14 @@
 /// \file
 /// The least squares of an alignment: from partners to the step that brings them together.
 
+#include <libmesh/place/solvers.hpp>
 #include <treeform/tree/parallel.hpp>
-
-#define EIGEN_MPL2_ONLY
-#include <Eigen/Dense>
 
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 namespace treeform::detail::place {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 /// Sums are of blocks of this many points, added up in order: the same on any number of threads.
 constexpr std::size_t block = 4096;

@@ -47,9 +47,7 @@ Vector3d plane_normal(const std::vector<point3>& points, std::span<const near_po
         const Vector3d arm = vector_of(points[n.id]) - center;
         sums += arm * arm.transpose();
     }
-    Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
-    solver.computeDirect(sums);
-    return solver.eigenvectors().col(0);
+    return least_direction(sums);
 }
 
 }  // namespace
@@ -82,7 +80,7 @@ void align_target::find_normals() {
 Vector3d align_target::normal_of_face(std::uint32_t f) const {
     const Vector3d a = vector_of(points_[faces_[f][0]]);
     const Vector3d n =
-        (vector_of(points_[faces_[f][1]]) - a).cross(vector_of(points_[faces_[f][2]]) - a);
+        cross(vector_of(points_[faces_[f][1]]) - a, vector_of(points_[faces_[f][2]]) - a);
     const double length = n.norm();
     return length > 0.0 ? Vector3d(n / length) : Vector3d(Vector3d::Zero());
 }

@@ -1,7 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/place/fit_features.hpp>
-
-#include <Eigen/Dense>
+#include <libmesh/place/solvers.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,8 +12,8 @@
 namespace treeform::detail::place {
 namespace {
 
-using vector3 = Eigen::Vector3d;
-using square3 = Eigen::Matrix3d;
+using vector3 = vector<3>;
+using square3 = square<3>;
 
 vector3 eigen(const point3& p) { return {p.x, p.y, p.z}; }
 point3 point(const vector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -46,7 +45,7 @@ struct local_faces {
             for (std::size_t k = 0; k < 3; ++k)
                 face.corner[k] = (eigen(mesh.points[mesh.faces[f][k]]) - origin) / unit;
             const vector3 normal =
-                (face.corner[1] - face.corner[0]).cross(face.corner[2] - face.corner[0]);
+                cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
             face.area = 0.5 * normal.norm();
             if (!(face.area > 0.0)) continue;
             face.normal = normal / (2.0 * face.area);
@@ -105,10 +104,10 @@ struct cylinder {
 std::optional<cylinder> first_guess(const local_faces& local) {
     square3 normals = square3::Zero();
     for (const auto& f : local.faces) normals += f.area * (f.normal * f.normal.transpose());
-    const Eigen::SelfAdjointEigenSolver<square3> solved(normals);
-    if (!(solved.eigenvalues()[1] > 1e-12 * solved.eigenvalues()[2])) return std::nullopt;
-    cylinder c{vector3::Zero(), solved.eigenvectors().col(0), 0.0};
-    const vector3 e1 = solved.eigenvectors().col(1), e2 = solved.eigenvectors().col(2);
+    const auto [values, vectors] = eigen_of(normals);
+    if (!(values[1] > 1e-12 * values[2])) return std::nullopt;
+    cylinder c{vector3::Zero(), vectors.col(0), 0.0};
+    const vector3 e1 = vectors.col(1), e2 = vectors.col(2);
     square3 left = square3::Zero();
     vector3 right = vector3::Zero();
     for (const auto& f : local.faces)
@@ -118,7 +117,7 @@ std::optional<cylinder> first_guess(const local_faces& local) {
             left += f.area * (row * row.transpose());
             right += f.area * square * row;
         }
-    const vector3 x = left.ldlt().solve(right);
+    const vector3 x = solve(left, right);
     if (!x.allFinite()) return std::nullopt;
     c.origin = 0.5 * x[0] * e1 + 0.5 * x[1] * e2;
     c.radius = std::sqrt(std::max(0.0, x[2] + 0.25 * (x[0] * x[0] + x[1] * x[1])));
@@ -127,10 +126,10 @@ std::optional<cylinder> first_guess(const local_faces& local) {
 
 /// Gauss-Newton steps on the distances of the corners from the cylinder, each weighted by its area.
 void refine(const local_faces& local, cylinder& c) {
-    using row5 = Eigen::Matrix<double, 5, 1>;
+    using row5 = vector<5>;
     for (int step = 0; step < 30; ++step) {
-        const vector3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
-        Eigen::Matrix<double, 5, 5> left = Eigen::Matrix<double, 5, 5>::Zero();
+        const vector3 e1 = any_orthogonal(c.direction), e2 = cross(c.direction, e1);
+        square<5> left = square<5>::Zero();
         row5 right = row5::Zero();
         for (const auto& f : local.faces)
             for (const vector3& p : f.corner) {
@@ -144,7 +143,7 @@ void refine(const local_faces& local, cylinder& c) {
                 left += f.area * (row * row.transpose());
                 right -= f.area * (distance - c.radius) * row;
             }
-        const row5 change = left.ldlt().solve(right);
+        const row5 change = solve(left, right);
         if (!change.allFinite()) return;
         c.origin += change[0] * e1 + change[1] * e2;
         c.direction = (c.direction + change[2] * e1 + change[3] * e2).normalized();
@@ -169,7 +168,7 @@ double distance_from(const mesh_feature& feature, const point3& p) {
 }
 
 circle_arc arc_of(mesh_view mesh, const mesh_feature& axis) {
-    const vector3 d = eigen(axis.direction), e1 = d.unitOrthogonal(), e2 = d.cross(e1);
+    const vector3 d = eigen(axis.direction), e1 = any_orthogonal(d), e2 = cross(d, e1);
     std::vector<double> angles;
     for (const std::uint32_t f : axis.faces)
         for (const std::uint32_t i : mesh.faces[f]) {
@@ -192,8 +191,7 @@ std::optional<mesh_feature> fit_plane(mesh_view mesh, std::span<const std::uint3
     const local_faces local(mesh, ids);
     if (!(local.area > 0.0)) return std::nullopt;
     const vector3 center = local.center();
-    const Eigen::SelfAdjointEigenSolver<square3> solved(local.covariance(center));
-    vector3 normal = solved.eigenvectors().col(0), sum = vector3::Zero();
+    vector3 normal = eigen_of(local.covariance(center)).vectors.col(0), sum = vector3::Zero();
     bool all_alike = true;  // then their own normal is exact, which moments are not
     for (const auto& f : local.faces) {
         sum += f.area * f.normal;
