@@ -3,6 +3,7 @@
 #include "tools/common/exit_status.hpp"
 #include "tools/common/file_names.hpp"
 #include "tools/common/parse_value.hpp"
+#include "tools/manual/manual.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 
@@ -16,12 +17,6 @@ namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-}
 
 bool offers(const common_options& o, const std::string& format) {
     return std::find(o.mesh_formats.begin(), o.mesh_formats.end(), format) != o.mesh_formats.end();
@@ -47,7 +42,7 @@ void add_format_options(command_line& line, common_options& o, const common_feat
     line.option(o.format, {"--format", "EXT", "format of the inputs", "content, then extension"});
     if (features.output_formats.empty()) return;
     line.option(o.output_format,
-                {"--output-format", "EXT", joined(features.output_formats), "extension of -o"},
+                {"--output-format", "EXT", joined(features.output_formats, " "), "extension of -o"},
                 features.output_formats);
     line.flag(o.ascii, {.names = "--ascii",
                         .text = "text or binary where the format has both",
@@ -319,7 +314,7 @@ std::string mesh_format(const common_options& options, const fs::path& path) {
     std::string format = options.output_format.empty() ? extension_of(path) : options.output_format;
     if (format == "txt" || format == "asc") format = "xyz";
     if (!offers(options, format))
-        refuse(path.string() + ": the mesh can be written as " + joined(options.mesh_formats));
+        refuse(path.string() + ": the mesh can be written as " + joined(options.mesh_formats, " "));
     return format;
 }
 

@@ -10,7 +10,7 @@
 namespace tools {
 namespace {
 
-const char* const head = " completion of ";
+const char* const about = " completion of ";
 const char* const origin = ", made of what its --help says.\n";
 
 /// In one line, up to the end of its first sentence.
@@ -121,7 +121,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 std::string bash_completion(const command_text& command) {
     const std::string function = function_name(command.name);
     const std::vector<offered_option> options = options_of(command);
-    std::string text = "# bash" + std::string(head) + command.name + origin;
+    std::string text = "# bash" + std::string(about) + command.name + origin;
     text += replaced(bash_files, "FUNCTION", function);
     const std::vector<std::string> modes = mode_names(command);
     if (!modes.empty()) text += replaced(bash_mode, "MODES", joined(modes, " | "));
@@ -199,7 +199,7 @@ std::string zsh_specs(const offered_option& one) {
 
 std::string zsh_completion(const command_text& command) {
     const std::string function = function_name(command.name);
-    std::string text = "#compdef " + command.name + "\n# zsh" + std::string(head) + command.name +
+    std::string text = "#compdef " + command.name + "\n# zsh" + std::string(about) + command.name +
                        origin + "\n" + function + "() {\n    local mode\n    local -a specs\n";
     const std::vector<std::string> modes = mode_names(command);
     if (!modes.empty())
@@ -257,7 +257,7 @@ std::string fish_option(const std::string& tool, const std::vector<std::string>&
 }  // namespace
 
 std::string fish_completion(const command_text& command) {
-    std::string text = "# fish" + std::string(head) + command.name + origin;
+    std::string text = "# fish" + std::string(about) + command.name + origin;
     const std::string start = "complete -c " + command.name;
     const std::string before =
         "'not __fish_seen_subcommand_from " + joined(mode_names(command), " ") + "'";

@@ -10,7 +10,7 @@ namespace tools {
 namespace {
 
 /// As it stands, to troff.
-std::string plain(std::string_view text) {
+std::string escaped(std::string_view text) {
     std::string out;
     for (const char c : text) {
         if (c == '\\')
@@ -40,7 +40,7 @@ std::string filled(const std::string& text) {
     std::string out;
     for (const std::string& line : split(text, "\n")) {
         const std::string shown =
-            plain(line.substr(std::min(line.find_first_not_of(' '), line.size())));
+            escaped(line.substr(std::min(line.find_first_not_of(' '), line.size())));
         out += (shown.starts_with('.') ? "\\&" : "") + shown + "\n";
     }
     return out;
@@ -50,7 +50,7 @@ std::string filled(const std::string& text) {
 std::string kept(const std::string& text) {
     std::string out = ".nf\n";
     for (const std::string& line : split(text, "\n"))
-        out += (line.starts_with('.') ? "\\&" : "") + plain(line) + "\n";
+        out += (line.starts_with('.') ? "\\&" : "") + escaped(line) + "\n";
     return out + ".fi\n";
 }
 
@@ -88,10 +88,10 @@ std::string description(const std::string& text) {
 
 std::string entry(const option_text& option) {
     const std::string& names = option.label.empty() ? option.names : option.label;
-    std::string out = ".TP\n\\fB" + plain(names) + "\\fR";
-    if (!option.value.empty()) out += " \\fI" + plain(option.value) + "\\fR";
+    std::string out = ".TP\n\\fB" + escaped(names) + "\\fR";
+    if (!option.value.empty()) out += " \\fI" + escaped(option.value) + "\\fR";
     out += "\n" + filled(option.text);
-    if (!option.fallback.empty()) out += "[" + plain(option.fallback) + "]\n";
+    if (!option.fallback.empty()) out += "[" + escaped(option.fallback) + "]\n";
     return out;
 }
 
@@ -104,7 +104,7 @@ std::string options(const command_text& command) {
     std::string out = entry({.names = command.inputs_name + "...", .text = command.inputs_text});
     for (const option_group& group : command.groups) {
         if (is_of_modes(group, command)) continue;
-        if (!group.title.empty()) out += ".SS " + plain(group.title) + "\n";
+        if (!group.title.empty()) out += ".SS " + escaped(group.title) + "\n";
         for (const option_text& option : group.options)
             if (!option.text.empty()) out += entry(option);
     }
@@ -114,12 +114,12 @@ std::string options(const command_text& command) {
 std::string modes(const command_text& command) {
     std::string out;
     for (const mode_text& mode : command.modes) {
-        out += ".SS " + plain(mode.names) + "\n";
+        out += ".SS " + escaped(mode.names) + "\n";
         if (mode.usage.empty()) {  // a command line of its own, below
             out += filled(mode.text.substr(0, mode.text.find(": ")) + ": see below");
             continue;
         }
-        out += ".B " + plain(command.name + " " + mode.usage) + "\n.PP\n" + filled(mode.text);
+        out += ".B " + escaped(command.name + " " + mode.usage) + "\n.PP\n" + filled(mode.text);
         for (const std::string& paragraph : split(mode.more, "\n\n"))
             out += ".PP\n" + (paragraph.starts_with("Examples:\n") ? kept(paragraph.substr(10))
                                                                    : filled(paragraph));
@@ -139,20 +139,20 @@ std::string name_line(const std::string& purpose) {
 }  // namespace
 
 std::string man_page(const command_text& command, const std::string& version) {
-    std::string out = ".TH " + plain(capitals(command.name)) + " 1 \"\" \"" + plain(version) +
-                      "\" \"User Commands\"\n.SH NAME\n" + plain(command.name) + " \\- " +
-                      plain(name_line(command.purpose)) + "\n.SH SYNOPSIS\n.B " +
-                      plain(command.name + " " + command.usage) + "\n";
+    std::string out = ".TH " + escaped(capitals(command.name)) + " 1 \"\" \"" + escaped(version) +
+                      "\" \"User Commands\"\n.SH NAME\n" + escaped(command.name) + " \\- " +
+                      escaped(name_line(command.purpose)) + "\n.SH SYNOPSIS\n.B " +
+                      escaped(command.name + " " + command.usage) + "\n";
     for (const auto& [mode, own] : command.own)
-        out += ".br\n.B " + plain(own->name + " " + own->usage) + "\n";
+        out += ".br\n.B " + escaped(own->name + " " + own->usage) + "\n";
     out += ".SH DESCRIPTION\n" + filled(command.purpose) + description(command.epilogue);
     if (!command.modes.empty())
         out += ".SH " + std::string(command.needs_mode ? "MODES" : "OPERATIONS") + "\n" +
                modes(command);
     out += ".SH OPTIONS\n" + options(command);
     for (const auto& [mode, own] : command.own)
-        out += ".SH " + plain(capitals(command.name + " " + mode)) + "\n.B " +
-               plain(own->name + " " + own->usage) + "\n.PP\n" + filled(own->purpose) +
+        out += ".SH " + escaped(capitals(command.name + " " + mode)) + "\n.B " +
+               escaped(own->name + " " + own->usage) + "\n.PP\n" + filled(own->purpose) +
                description(own->epilogue) + ".SS Options\n" + options(*own) +
                epilogue(own->epilogue, ".SS", true);
     return out + epilogue(command.epilogue, ".SH", true);
