@@ -103,6 +103,24 @@ def check_headers(root):
         yield root / "libmesh/include", 0, f"{len(headers)} public headers, {PUBLIC_HEADERS} at most"
 
 
+DOOR, SHORT_NAME = "treeform/treeform.hpp", "treeform/tf.hpp"
+
+
+def check_whole_door(root):
+    """The door includes every public header; the short name `tf` comes with none of them."""
+    headers = {path.as_posix().rsplit("/include/")[-1]: path for path in public_headers(root)}
+    if DOOR not in headers:
+        yield root / "libmesh/include" / DOOR, 0, "there is no such header"
+        return
+    named = {name for _, name in includes(headers[DOOR])}
+    for name in sorted(headers.keys() - {DOOR, SHORT_NAME} - named):
+        yield headers[DOOR], 0, f"does not include <{name}>"
+    for path in headers.values():
+        for number, name in includes(path):
+            if name == SHORT_NAME:
+                yield path, number, f"a program asks for <{name}> itself"
+
+
 # ---- lists of CMake ----
 
 def commands(path):
@@ -254,8 +272,8 @@ def check_tools(root):
             yield folder, count, f"{count} lines of a tool, {most} at most"
 
 
-CHECKS = [check_door, check_headers, check_lists, check_listed, check_floors, check_packages,
-          check_silence, check_lengths, check_tools]
+CHECKS = [check_door, check_headers, check_whole_door, check_lists, check_listed, check_floors,
+          check_packages, check_silence, check_lengths, check_tools]
 
 
 def faults(root):
@@ -266,6 +284,9 @@ def faults(root):
 WRONG = {  # each file with what is to be said of it
     "libmesh/include/treeform/mesh/door.hpp": ("#include <libmesh/weld/a.hpp>\n" * 251,
                                                ["the inside", "more than 250"]),
+    "libmesh/include/treeform/treeform.hpp": ("#include <treeform/tf.hpp>\n",
+                                              ["not include <treeform/mesh/door.hpp>",
+                                               "asks for <treeform/tf.hpp>"]),
     "libmesh/weld/a.cpp": ("#include <libmesh/boolean/b.hpp>\n", ["weld is not above boolean"]),
     "libmesh/weld/reads.cpp": ("#include <treeform/mesh/read.hpp>\n", ["knows of files"]),
     "libmesh/io/read.cpp": ("int f() {\n" + "    g();\n" * 59 + "}\n", ["of 61 lines"]),
