@@ -103,6 +103,20 @@ def check_headers(root):
         yield root / "libmesh/include", 0, f"{len(headers)} public headers, {PUBLIC_HEADERS} at most"
 
 
+# What bindings may include of tools/, beside what is in their own folder.
+FOR_BINDINGS = {"python": ("bindings", "page", "picture"), "c": ("bindings",)}
+
+
+def check_bindings(root):
+    """The libraries in other languages share nothing with the commands but what is named there."""
+    for folder, allowed in FOR_BINDINGS.items():
+        for path in sources(root, f"tools/{folder}"):
+            for number, name in includes(path):
+                other = re.match(r"tools/(\w+)/", name)
+                if other and other[1] not in (*allowed, folder):
+                    yield path, number, f"a binding may not use tools/{other[1]}: <{name}>"
+
+
 DOOR, SHORT_NAME = "treeform/treeform.hpp", "treeform/tf.hpp"
 
 
@@ -272,8 +286,8 @@ def check_tools(root):
             yield folder, count, f"{count} lines of a tool, {most} at most"
 
 
-CHECKS = [check_door, check_headers, check_whole_door, check_lists, check_listed, check_floors,
-          check_packages, check_silence, check_lengths, check_tools]
+CHECKS = [check_door, check_headers, check_whole_door, check_bindings, check_lists,
+          check_listed, check_floors, check_packages, check_silence, check_lengths, check_tools]
 
 
 def faults(root):
@@ -299,6 +313,8 @@ WRONG = {  # each file with what is to be said of it
     "libtree/d.cpp": ("#include <treeform/mesh/mesh.hpp>\n", ["not listed", "nothing of meshes"]),
     "libtree/CMakeLists.txt": ("", []),
     "libmesh/CMakeLists.txt": ("", []),
+    "tools/python/src/own.cpp": ('#include "tools/page/a.hpp"\n#include "tools/common/b.hpp"\n',
+                                 ["2: a binding may not use tools/common"]),
     "tools/tf-x/e.cpp": ("#include <treeform/tree/detail/split.hpp>\n", ["no part of the door"]),
     "tools/tf-x/f.cpp": ("\n" * 450, []),
     "tools/tf-x/g.cpp": ("\n" * 450, []),

@@ -11,7 +11,7 @@
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
-#include <tools/common/pieces.hpp>
+#include <tools/bindings/pieces.hpp>
 #include <treeform.h>
 
 #include <cmath>

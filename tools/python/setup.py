@@ -17,7 +17,7 @@ from setuptools.command.sdist import sdist
 
 HERE = pathlib.Path(__file__).resolve().parent
 TREE = HERE.parents[1] if (HERE.parents[1] / "libmesh").is_dir() else HERE / "native"
-CARRIED = ["CMakeLists.txt", "LICENSE", "libtree", "libmesh", "tools/common/pieces.hpp",
+CARRIED = ["CMakeLists.txt", "LICENSE", "libtree", "libmesh", "tools/bindings",
            "tools/page", "tools/picture", "tools/python/CMakeLists.txt",
            "tools/python/find_python.cmake", "tools/python/src", "tools/viewer/viewer.css",
            "tools/viewer/viewer.min.js"]
