@@ -20,12 +20,12 @@ fi
 # A build folder that the tests have set up serves as it is. Files of a folder compiled as one take
 # half the time.
 [[ -f build/release/build.ninja ]] || cmake --preset release -DTREEFORM_BUILD_TESTS=OFF \
-    -DCMAKE_UNITY_BUILD=ON >/dev/null
+    -DTREEFORM_BUILD_C=OFF -DCMAKE_UNITY_BUILD=ON >/dev/null
+cmake --build build/release # with manual pages, and what mpirun needs: all that is installed
 tools=()
 for main in tools/*/main.cpp; do
     tools+=("$(basename "$(dirname "$main")")")
 done
-cmake --build build/release --target "${tools[@]}"
 mkdir -p build/bin
 for tool in "${tools[@]}"; do
     ln -sf "../release/tools/$tool/$tool" "build/bin/$tool"
@@ -64,6 +64,7 @@ cat <<MSG
   tf-boolean difference YOUR_MODEL.stl YOUR_OTHER.stl -o cut.ply
   tf-weld YOUR_SCAN.ply -t 0.5 -o thin.ply
   tf-place drop YOUR_MODEL.stl -o on_bed.stl
+  cmake --install build/release
   tests/run.sh
 MSG
 exit $status
