@@ -61,7 +61,7 @@ fi
 if in_there bash -e -c 'cmake --install /treeform/build/release --prefix /there >/dev/null
     cd /there/share/man/man1
     for page in *; do "../../../bin/${page%.1*}" --version >/dev/null; done
-    test -f tf-weld.1 -a -f tf-repair.1 -a -f /there/lib/*/libtreeform_mesh.a'; then
+    test -f tf-weld.1 && find /there/lib -name libtreeform_mesh.a | grep -q .'; then
     echo "1 passed: installed"
 else
     echo "1 failed: what the first command builds cannot be installed"
