@@ -174,7 +174,7 @@ std::string stl_ascii(const model& shape) {
 }
 
 std::string stl_binary(const model& shape) {
-    std::string bytes(80, ' ');
+    std::string bytes(80, '\0');
     append_little_endian(bytes, static_cast<std::uint32_t>(shape.faces.size()));
     for (const face& corners : shape.faces) {
         for (int i = 0; i < 3; ++i) append_little_endian(bytes, 0.0F);

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # first_picture.sh: what README.md says under "From a bare Debian to a picture", in a bare Debian and
-# with a model that is not of this project. As root; needs mmdebstrap. Fails if there is no picture.
+# with a model that is not of this project; then whether what was built can be installed. As root; needs
+# mmdebstrap. Fails if there is no picture.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 work=$(mktemp -d)
@@ -44,13 +45,25 @@ cat "$work/root/commands"
 status=0
 # Of the environment, only how the network is reached.
 mapfile -t reach < <(env | grep -i '^https\?_proxy=' || true)
-chroot "$work/root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin "${reach[@]}" \
-    bash -c '. /commands' || status=$?
+in_there() {
+    chroot "$work/root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin "${reach[@]}" "$@"
+}
+in_there bash -c '. /commands' || status=$?
 picture=$work/root/treeform/picture.png
 # 1: something was found.
 if ((status == 1)) && [[ $(head -c 4 "$picture" | tail -c 3) == PNG ]]; then
     echo "1 passed in a bare system"
 else
     echo "1 failed: status $status"
+    exit 1
+fi
+# shellcheck disable=SC2016 # expanded in there
+if in_there bash -e -c 'cmake --install /treeform/build/release --prefix /there >/dev/null
+    cd /there/share/man/man1
+    for page in *; do "../../../bin/${page%.1*}" --version >/dev/null; done
+    test -f tf-weld.1 && find /there/lib -name libtreeform_mesh.a | grep -q .'; then
+    echo "1 passed: installed"
+else
+    echo "1 failed: what the first command builds cannot be installed"
     exit 1
 fi

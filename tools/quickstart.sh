@@ -18,12 +18,13 @@ if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD
 fi
 # A build folder that the tests have set up serves as it is.
-[[ -f build/release/build.ninja ]] || cmake --preset release -DTREEFORM_BUILD_TESTS=OFF >/dev/null
+[[ -f build/release/build.ninja ]] || cmake --preset release -DTREEFORM_BUILD_TESTS=OFF \
+    -DTREEFORM_BUILD_C=OFF >/dev/null
+cmake --build build/release # with manual pages, and what mpirun needs: all that is installed
 tools=()
 for main in tools/*/main.cpp; do
     tools+=("$(basename "$(dirname "$main")")")
 done
-cmake --build build/release --target "${tools[@]}"
 mkdir -p build/bin
 for tool in "${tools[@]}"; do
     ln -sf "../release/tools/$tool/$tool" "build/bin/$tool"
@@ -62,6 +63,7 @@ cat <<MSG
   tf-boolean difference YOUR_MODEL.stl YOUR_OTHER.stl -o cut.ply
   tf-weld YOUR_SCAN.ply -t 0.5 -o thin.ply
   tf-place drop YOUR_MODEL.stl -o on_bed.stl
+  cmake --install build/release
   tests/run.sh
 MSG
 exit $status

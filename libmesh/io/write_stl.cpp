@@ -1,6 +1,7 @@
 #include <libmesh/io/put_by_pieces.hpp>
 #include <libmesh/io/writers.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -70,6 +71,20 @@ void text_facet(const write_job& job, const face& f) {
     out.put(" endloop\nendfacet\n");
 }
 
+/// The 80 bytes ahead of the facets. Programs print them as text that a NUL ends, and take a file
+/// that begins with "solid" for a text STL.
+[[nodiscard]] std::string binary_header(const std::string& kept) {
+    constexpr std::string_view solid = "solid";
+    std::string header = kept.size() == 80 ? kept : "treeform";
+    while (header.starts_with(solid)) header.erase(0, header.find_first_not_of(' ', solid.size()));
+    // Not \0 alone at the end: blanks that filled the rest go, too.
+    if (header.find('\0') == std::string::npos) {
+        header.resize(std::min(header.find_last_not_of(' ') + 1, std::size_t{79}));
+    }
+    header.resize(80, '\0');
+    return header;
+}
+
 [[nodiscard]] bool differ_in_material_alone(const part& a, const part& b) {
     return a.object == b.object && a.group == b.group && a.material != b.material;
 }
@@ -78,9 +93,7 @@ void text_facet(const write_job& job, const face& f) {
 
 void write_stl_binary(const write_job& job) {
     const mesh_file& file = job.file;
-    std::string header = file.attributes.header.size() == 80 ? file.attributes.header : "treeform";
-    header.resize(80, ' ');
-    job.out.put(header);
+    job.out.put(binary_header(file.attributes.header));
     job.out.raw<std::endian::little>(static_cast<std::uint32_t>(file.mesh.faces.size()));
     constexpr std::string_view names[] = {"stl_attribute"};
     const auto bits = scalar_columns(file, "face", names);

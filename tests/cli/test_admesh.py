@@ -24,14 +24,17 @@ class Admesh(ToolTest):
     tool = MEND
 
     def judge(self, name, volume):
-        done = subprocess.run(["admesh", self.path(name)], capture_output=True, text=True,
-                              timeout=120)
+        header = self.read_bytes(name)[:80]
+        self.assertIn(0, header)  # admesh prints it as text, as far as a NUL
+        self.assertFalse(header.startswith(b"solid"))
+        done = subprocess.run(["admesh", self.path(name)], capture_output=True, timeout=120)
         self.assertEqual(done.returncode, 0, msg=done.stderr)
+        said = done.stdout.decode(errors="replace")  # the header may be any bytes
         for words in NOTHING:
-            self.assertRegex(done.stdout, words + r" +: +0\n", msg=f"{name}\n{done.stdout}")
-        self.assertRegex(done.stdout, r"Total disconnected facets +: +0 ", msg=done.stdout)
+            self.assertRegex(said, words + r" +: +0\n", msg=f"{name}\n{said}")
+        self.assertRegex(said, r"Total disconnected facets +: +0 ", msg=said)
         # They add up floats, and print six digits behind the point.
-        theirs = float(re.search(r"Volume +: +(\S+)", done.stdout)[1])
+        theirs = float(re.search(r"Volume +: +(\S+)", said)[1])
         self.assertAlmostEqual(theirs, volume, delta=1e-6 + 5e-5 * abs(volume), msg=name)
 
     def written(self, path, name, *options):
@@ -54,6 +57,14 @@ class Admesh(ToolTest):
                 ("apart", together(cube((1 / 3, 0.1, 0.7)), cube((1.0, 1 / 3, 0.2))))):
             with self.subTest(name):
                 self.assertTrue(self.written(write(self.path(name + ".obj"), mesh), name + ".stl"))
+
+    def test_headers_that_have_no_end(self):
+        model = stl_bytes(together(CLEAN, cube((0.5, 0.5, 0.5))))[80:]
+        for header in (b"\xff" * 80, b"solid" + b"*" * 75, b" " * 80, b"COLOR=" + bytes(range(74))):
+            with self.subTest(header):
+                with open(self.path("in.stl"), "wb") as file:
+                    file.write(header + model)
+                self.assertTrue(self.written(self.path("in.stl"), "out.stl"))
 
     @unittest.skipUnless(MODELS, "needs TREEFORM_MODELS_DIR")
     def test_real_ones(self):

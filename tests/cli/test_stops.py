@@ -66,9 +66,10 @@ class Stops(ToolTest):
 
     def test_signals_stop_with_5(self):
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-            process = subprocess.Popen([TOOL, self.part, "--pairs", "p.csv", "-o", "m.ply"],
-                                       cwd=self.folder, stderr=subprocess.PIPE,
-                                       stdout=subprocess.PIPE)
+            process = subprocess.Popen(
+                [TOOL, self.part, "--pairs", "p.csv", "-o", "m.ply"], cwd=self.folder,
+                stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+                preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # not as under nohup
             time.sleep(0.4)
             process.send_signal(number)
             _, err = process.communicate(timeout=60)

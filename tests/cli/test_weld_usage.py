@@ -105,6 +105,25 @@ class Usage(WeldTest):
         self.assertIn("no points without faces", self.run_tool("in.xyz", "-o", "out.stl",
                                                                 status=4).err)
 
+    def test_mpirun_without_the_plug_in_says_what_to_install(self):
+        for tool, give in ((WELD, ["in.xyz", "-t", "0.1", "-o", "out.ply"]),
+                           (TOOL, ["in.obj", "--work", "tiles"])):
+            # As where it is not: the same tool that looks for another name.
+            with open(tool, "rb") as file:
+                text = file.read()
+            self.assertEqual(text.count(b"treeform-mpi.so\0"), 1)
+            with open(self.path("alone"), "wb") as file:
+                file.write(text.replace(b"treeform-mpi.so\0", b"treeform-noo.so\0"))
+            os.chmod(self.path("alone"), 0o755)
+            done = subprocess.run([self.path("alone"), *give], cwd=self.folder, capture_output=True,
+                                  env=os.environ | {"OMPI_COMM_WORLD_SIZE": "2"}, timeout=60)
+            said = done.stderr.decode()
+            self.assertEqual((done.returncode, len(said.splitlines())), (5, 1), msg=said)
+            self.assertTrue(said.startswith("error: started by mpirun, but without treeform-noo.so: "))
+            for words in ("the Debian package libopenmpi-dev", "--target treeform_mpi"):
+                self.assertIn(words, said)
+            self.assertNotIn("cannot open", said)
+
     def test_pages_are_not_made_in_tiles(self):
         self.assertIn("--html needs the whole cloud in memory",
                       self.refused("in.xyz", "--tile-points", "2", "--html", "out.html", "-n"))

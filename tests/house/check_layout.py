@@ -103,6 +103,38 @@ def check_headers(root):
         yield root / "libmesh/include", 0, f"{len(headers)} public headers, {PUBLIC_HEADERS} at most"
 
 
+# What bindings may include of tools/, beside what is in their own folder.
+FOR_BINDINGS = {"python": ("bindings", "page", "picture"), "c": ("bindings",)}
+
+
+def check_bindings(root):
+    """The libraries in other languages share nothing with the commands but what is named there."""
+    for folder, allowed in FOR_BINDINGS.items():
+        for path in sources(root, f"tools/{folder}"):
+            for number, name in includes(path):
+                other = re.match(r"tools/(\w+)/", name)
+                if other and other[1] not in (*allowed, folder):
+                    yield path, number, f"a binding may not use tools/{other[1]}: <{name}>"
+
+
+DOOR, SHORT_NAME = "treeform/treeform.hpp", "treeform/tf.hpp"
+
+
+def check_whole_door(root):
+    """The door includes every public header; the short name `tf` comes with none of them."""
+    headers = {path.as_posix().rsplit("/include/")[-1]: path for path in public_headers(root)}
+    if DOOR not in headers:
+        yield root / "libmesh/include" / DOOR, 0, "there is no such header"
+        return
+    named = {name for _, name in includes(headers[DOOR])}
+    for name in sorted(headers.keys() - {DOOR, SHORT_NAME} - named):
+        yield headers[DOOR], 0, f"does not include <{name}>"
+    for path in headers.values():
+        for number, name in includes(path):
+            if name == SHORT_NAME:
+                yield path, number, f"a program asks for <{name}> itself"
+
+
 # ---- lists of CMake ----
 
 def commands(path):
@@ -254,8 +286,8 @@ def check_tools(root):
             yield folder, count, f"{count} lines of a tool, {most} at most"
 
 
-CHECKS = [check_door, check_headers, check_lists, check_listed, check_floors, check_packages,
-          check_silence, check_lengths, check_tools]
+CHECKS = [check_door, check_headers, check_whole_door, check_bindings, check_lists,
+          check_listed, check_floors, check_packages, check_silence, check_lengths, check_tools]
 
 
 def faults(root):
@@ -266,6 +298,9 @@ def faults(root):
 WRONG = {  # each file with what is to be said of it
     "libmesh/include/treeform/mesh/door.hpp": ("#include <libmesh/weld/a.hpp>\n" * 251,
                                                ["the inside", "more than 250"]),
+    "libmesh/include/treeform/treeform.hpp": ("#include <treeform/tf.hpp>\n",
+                                              ["not include <treeform/mesh/door.hpp>",
+                                               "asks for <treeform/tf.hpp>"]),
     "libmesh/weld/a.cpp": ("#include <libmesh/boolean/b.hpp>\n", ["weld is not above boolean"]),
     "libmesh/weld/reads.cpp": ("#include <treeform/mesh/read.hpp>\n", ["knows of files"]),
     "libmesh/io/read.cpp": ("int f() {\n" + "    g();\n" * 59 + "}\n", ["of 61 lines"]),
@@ -278,6 +313,8 @@ WRONG = {  # each file with what is to be said of it
     "libtree/d.cpp": ("#include <treeform/mesh/mesh.hpp>\n", ["not listed", "nothing of meshes"]),
     "libtree/CMakeLists.txt": ("", []),
     "libmesh/CMakeLists.txt": ("", []),
+    "tools/python/src/own.cpp": ('#include "tools/page/a.hpp"\n#include "tools/common/b.hpp"\n',
+                                 ["2: a binding may not use tools/common"]),
     "tools/tf-x/e.cpp": ("#include <treeform/tree/detail/split.hpp>\n", ["no part of the door"]),
     "tools/tf-x/f.cpp": ("\n" * 450, []),
     "tools/tf-x/g.cpp": ("\n" * 450, []),

@@ -3,13 +3,10 @@
 #include <tools/c/glue.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace tf = treeform;
 
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 std::span<const tf::part_pair> pairs_of(const std::uint32_t* pairs, std::size_t count) {
     static_assert(sizeof(tf::part_pair) == 2 * sizeof(std::uint32_t));
@@ -29,14 +26,14 @@ treeform_part_clash clash_of(glue::answer<treeform_clashes>& made, const tf::par
     c.a_inside_b = from.a_inside_b;
     c.b_inside_a = from.b_inside_a;
     c.distance = from.distance;
-    const tf::point3 nowhere{not_known, not_known, not_known};
+    const tf::point3 nowhere{glue::not_known, glue::not_known, glue::not_known};
     glue::copy(from.nearest ? (*from.nearest)[0] : nowhere, c.on_a);
     glue::copy(from.nearest ? (*from.nearest)[1] : nowhere, c.on_b);
     c.face_pairs = from.face_pairs;
     c.region_count = regions.size();
     c.regions = made.keep(std::move(regions)).data();
-    c.volume = from.volume.value_or(not_known);
-    c.depth = from.depth.value_or(not_known);
+    c.volume = from.volume.value_or(glue::not_known);
+    c.depth = from.depth.value_or(glue::not_known);
     glue::copy(from.move, c.move);
     return c;
 }

@@ -11,13 +11,14 @@
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
-#include <tools/common/pieces.hpp>
+#include <tools/bindings/pieces.hpp>
 #include <treeform.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -67,8 +68,16 @@ void give(std::unique_ptr<answer<C>> made, C** out) {
     *out = &made.release()->value;
 }
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
 /// `progress` asked to stop.
 struct cancelled {};
+
+/// \throws cancelled where that is how it ended
+inline void check(tf::status status) {
+    if (status == tf::status::cancelled) throw cancelled{};
+}
 
 /// Says what is wrong, for `treeform_last_error`.
 void say(const char* what) noexcept;

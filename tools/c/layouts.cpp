@@ -5,13 +5,10 @@
 #include <tools/c/glue.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace tf = treeform;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void fill(glue::answer<treeform_laid_flat>& made, const tf::laid_flat& from) {
     treeform_laid_flat& l = made.value;
@@ -154,7 +151,7 @@ treeform_code treeform_lay_flat(const treeform_mesh* mesh, const treeform_lay_fl
 void treeform_pack_options_init(treeform_pack_options* options, size_t size) {
     const tf::pack_options from;
     treeform_pack_options defaults{};
-    defaults.plate[2] = infinity;
+    defaults.plate[2] = glue::infinity;
     defaults.spacing = from.spacing;
     defaults.turns = TREEFORM_TURNS_QUARTER;
     defaults.plates = from.plates;

@@ -7,18 +7,10 @@
 #include <tools/c/relations.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace tf = treeform;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-
-void check(tf::status status) {
-    if (status == tf::status::cancelled) throw glue::cancelled{};
-}
 
 void fill(treeform_deviation_result& r, const tf::deviation_result& d) {
     r.distances = d.distances.data();
@@ -37,8 +29,8 @@ void fill(treeform_deviation_result& r, const tf::deviation_result& d) {
     r.highest = d.highest;
     r.there_sampled = d.there.sampled;
     r.there_at_most = d.there.at_most;
-    r.back_sampled = d.back ? d.back->sampled : not_known;
-    r.back_at_most = d.back ? d.back->at_most : not_known;
+    r.back_sampled = d.back ? d.back->sampled : glue::not_known;
+    r.back_at_most = d.back ? d.back->at_most : glue::not_known;
     r.histogram_low = d.histogram.low;
     r.histogram_high = d.histogram.high;
     r.histogram = d.histogram.counts.data();
@@ -85,9 +77,11 @@ treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* qu
             for (std::size_t i = begin; i < end; ++i) {
                 const auto& found = some[i - begin];
                 if (faces) faces[i] = found ? found->face : TREEFORM_NONE;
-                if (distances) distances[i] = found ? found->distance : infinity;
+                if (distances) distances[i] = found ? found->distance : glue::infinity;
                 if (points)
-                    glue::copy(found ? found->point : tf::point3{not_known, not_known, not_known},
+                    glue::copy(found
+                                   ? found->point
+                                   : tf::point3{glue::not_known, glue::not_known, glue::not_known},
                                points + 3 * i);
             }
         });
@@ -104,9 +98,9 @@ treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mes
             a, b, [&](const auto& x, const auto& y) { return tf::closest_points(x, y, how); });
         to = {TREEFORM_NONE,
               TREEFORM_NONE,
-              infinity,
-              {not_known, not_known, not_known},
-              {not_known, not_known, not_known}};
+              glue::infinity,
+              {glue::not_known, glue::not_known, glue::not_known},
+              {glue::not_known, glue::not_known, glue::not_known}};
         if (!found) return;
         to.face_a = found->face_a;
         to.face_b = found->face_b;
@@ -142,7 +136,7 @@ treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mes
 
 void treeform_measure_options_init(treeform_measure_options* options, size_t size) {
     treeform_measure_options defaults{};
-    defaults.radius = infinity;
+    defaults.radius = glue::infinity;
     glue::init(options, size, defaults);
 }
 
@@ -159,7 +153,7 @@ treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
         const auto found =
             glue::asked(a, b, [&](const auto& x, const auto& y) { return tf::measure(x, y, how); });
         if (!found) return;
-        check(found->relation.status);
+        glue::check(found->relation.status);
         auto made = glue::make<treeform_relation>();
         void* const owner = made->value.owner;
         made->value = glue::relation_of(*found);
@@ -199,7 +193,7 @@ treeform_code treeform_penetration_depth(const treeform_mesh* a, const treeform_
         how.progress = glue::progress(o);
         const auto found = glue::asked(
             a, b, [&](const auto& x, const auto& y) { return tf::penetration_depth(x, y, how); });
-        if (found) check(found->status);
+        if (found) glue::check(found->status);
         *depth = found ? found->depth : 0.0;
         glue::copy(found ? found->move : tf::point3{}, move);
     });
@@ -221,7 +215,7 @@ treeform_code treeform_count_sides(const double* points, size_t count,
 void treeform_deviation_options_init(treeform_deviation_options* options, size_t size) {
     const tf::deviation_options from;
     treeform_deviation_options defaults{};
-    defaults.band_low = defaults.band_high = not_known;
+    defaults.band_low = defaults.band_high = glue::not_known;
     defaults.bins = from.bins;
     defaults.both_ways = from.both_ways;
     glue::init(options, size, defaults);

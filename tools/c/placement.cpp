@@ -6,14 +6,10 @@
 #include <tools/c/relations.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace tf = treeform;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 using fixed_meshes = std::span<const tf::prepared_mesh>;
 
@@ -72,7 +68,7 @@ std::unique_ptr<glue::answer<treeform_placement>> answer_of(tf::placement from) 
     glue::copy(at.direction, p.direction);
     p.travel = at.travel;
     p.clearance = at.clearance;
-    p.bed = at.bed.value_or(not_known);
+    p.bed = at.bed.value_or(glue::not_known);
     p.below_bed = at.below_bed;
     p.on_bed = at.on_bed;
     p.at_start = static_cast<treeform_standing>(at.at_start);
@@ -148,7 +144,7 @@ void treeform_place_options_init(treeform_place_options* options, size_t size) {
     const tf::separate_options apart;
     const tf::turn_options turned;
     treeform_place_options defaults{};
-    defaults.max_travel = defaults.bed = defaults.tolerance = not_known;
+    defaults.max_travel = defaults.bed = defaults.tolerance = glue::not_known;
     defaults.precision = TREEFORM_FLOAT64;
     defaults.close_in = 1;
     defaults.limit = apart.limit;
@@ -276,7 +272,7 @@ treeform_code treeform_classify_contacts(const treeform_mesh* moving,
 
 void treeform_impact_options_init(treeform_impact_options* options, size_t size) {
     treeform_impact_options defaults{};
-    defaults.latest = infinity;
+    defaults.latest = glue::infinity;
     defaults.limit = tf::impact_options{}.limit;
     glue::init(options, size, defaults);
 }

@@ -53,10 +53,6 @@ void give_found(tf::stream_search_result from, treeform_search_result** out) {
     glue::give(std::move(made), out);
 }
 
-void check(tf::status status) {
-    if (status == tf::status::cancelled) throw glue::cancelled{};
-}
-
 tf::stream_search& steps(treeform_search* search) { return *glue::need(search, "search").steps; }
 
 }  // namespace
@@ -98,7 +94,7 @@ treeform_code treeform_search_create(const char* path, const treeform_search_fil
 treeform_code treeform_search_scatter(treeform_search* search, size_t* tiles) {
     return glue::guard([&] {
         (void)glue::need(tiles, "tiles");
-        check(steps(search).scatter());
+        glue::check(steps(search).scatter());
         *tiles = steps(search).tiles();
     });
 }
@@ -116,7 +112,7 @@ treeform_code treeform_search_unfinished(treeform_search* search, treeform_indic
 }
 
 treeform_code treeform_search_tile(treeform_search* search, size_t tile) {
-    return glue::guard([&] { check(steps(search).search_tile(tile)); });
+    return glue::guard([&] { glue::check(steps(search).search_tile(tile)); });
 }
 
 treeform_code treeform_search_finish(treeform_search* search, treeform_search_result** result) {

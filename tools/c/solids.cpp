@@ -11,8 +11,6 @@ namespace tf = treeform;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 tf::fill_rule rule(treeform_fill_rule value) {
     return glue::choice<tf::fill_rule>(value, 3, "inside");
 }
@@ -154,7 +152,7 @@ void treeform_boolean_options_init(treeform_boolean_options* options, size_t siz
     treeform_boolean_options defaults{};
     defaults.precision = TREEFORM_FLOAT64;
     defaults.rounding_steps = tf::boolean_options{}.rounding_steps;
-    defaults.max_displacement = infinity;
+    defaults.max_displacement = glue::infinity;
     glue::init(options, size, defaults);
 }
 

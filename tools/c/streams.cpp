@@ -74,13 +74,9 @@ tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
     return how;
 }
 
-void check(tf::status status) {
-    if (status == tf::status::cancelled) throw glue::cancelled{};
-}
-
 /// Once.
 void look(treeform_shared_weld& weld) {
-    if (!weld.looked) check(weld.steps->look());
+    if (!weld.looked) glue::check(weld.steps->look());
     weld.looked = true;
 }
 
@@ -146,13 +142,13 @@ treeform_code treeform_shared_weld_scatter(treeform_shared_weld* weld, size_t* t
     return glue::guard([&] {
         (void)glue::need(tiles, "tiles");
         look(glue::need(weld, "weld"));
-        check(weld->steps->scatter());
+        glue::check(weld->steps->scatter());
         *tiles = weld->steps->survey().tiles;
     });
 }
 
 treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile) {
-    return glue::guard([&] { check(glue::need(weld, "weld").steps->weld_tile(tile)); });
+    return glue::guard([&] { glue::check(glue::need(weld, "weld").steps->weld_tile(tile)); });
 }
 
 treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld, const char* output,
@@ -164,8 +160,8 @@ treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld, const char
         to.welded->path = &glue::need(output, "output");
         steps.check_tiles();
         look(*weld);
-        check(steps.weld());
-        check(steps.write(to));
+        glue::check(steps.weld());
+        glue::check(steps.write(to));
         give_streamed({steps.survey(), steps.counts(), steps.written()}, result);
     });
 }

@@ -11,14 +11,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <variant>
 
 namespace tf = treeform;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <std::size_t D>
 using point_of = std::array<double, D>;
@@ -111,7 +108,7 @@ void fill_rows(const Lists& found, std::size_t begin, std::size_t k, std::uint32
         for (std::size_t i = 0; i < k; ++i) {
             const std::size_t at = (begin + query) * k + i;
             if (ids) ids[at] = i < row.size() ? row[i].id : TREEFORM_NONE;
-            if (distances) distances[at] = i < row.size() ? distance_of(row[i]) : infinity;
+            if (distances) distances[at] = i < row.size() ? distance_of(row[i]) : glue::infinity;
         }
     }
 }
@@ -302,7 +299,7 @@ treeform_code treeform_box_tree_rays(const treeform_box_tree* tree, const double
                     const tf::ray<double, D> ray{from[i], along[i]};
                     tf::visit_along(of.tree, ray, [&](std::uint32_t id) {
                         met.push_back(id);
-                        return infinity;
+                        return glue::infinity;
                     });
                     std::sort(met.begin(), met.end());
                     return met;

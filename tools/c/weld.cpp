@@ -29,12 +29,8 @@ tf::weld_options options_of(const treeform_weld_options* options) {
     return how;
 }
 
-void check(tf::status status) {
-    if (status == tf::status::cancelled) throw glue::cancelled{};
-}
-
 void fill(treeform_weld_result& to, const tf::point_groups& from) {
-    check(from.status);
+    glue::check(from.status);
     to.group_of_point = from.group_of_point.data();
     to.point_count = from.group_of_point.size();
     to.first_of_group = from.first_of_group.data();
@@ -44,7 +40,7 @@ void fill(treeform_weld_result& to, const tf::point_groups& from) {
 /// What all kinds of welding have in common.
 template <class Result>
 void fill_from(treeform_weld_result& to, const Result& kept) {
-    check(kept.status);
+    glue::check(kept.status);
     fill(to, kept.groups);
     to.point_of_group = kept.point_of_group.data();
     const tf::weld_statistics& s = kept.statistics;

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -54,6 +55,17 @@ const team_calls* join() {
     return reinterpret_cast<const team_calls* (*)()>(found)();
 }
 
+/// Says why there is no team, and what to do about it.
+void say_why_alone(const std::string& why) {
+    const bool lacks_plug_in = why.find(plug_in) != why.npos && why.find("No such") != why.npos;
+    std::fprintf(stderr, "error: started by mpirun, but without %s: %s\n", plug_in,
+                 lacks_plug_in
+                     ? "install the Debian package libopenmpi-dev, then build it by `cmake "
+                       "build/release && cmake --build build/release --target "
+                       "treeform_mpi`, or install treeform again"
+                     : why.c_str());
+}
+
 /// Returns what standard error was.
 std::FILE* be_silent() {
     std::FILE* const heard = ::fdopen(::dup(STDERR_FILENO), "w");
@@ -82,8 +94,7 @@ int run_in_team(const std::function<int(team_member&)>& tool) {
     const team_calls* const calls = join();
     if (calls == nullptr) {
         const char* const why = ::dlerror();
-        std::fprintf(stderr, "error: started by mpirun, but without %s: %s\n", plug_in,
-                     why == nullptr ? "MPI cannot be started" : why);
+        say_why_alone(why == nullptr ? "MPI cannot be started" : why);
         return stopped;
     }
     const bool leads = calls->rank == 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The whole door: every public header. Programs that care how long they compile include what they
+/// The whole door: every public header but <treeform/tf.hpp>. Programs that care how long they compile include what they
 /// use.
 
 #include <treeform/mesh/align.hpp>
@@ -25,6 +25,7 @@
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/raycast.hpp>
 #include <treeform/mesh/read.hpp>

@@ -169,13 +169,36 @@ TEST_CASE("stl: header, names of solids and attribute bits come back") {
     const std::vector<std::uint16_t> bits{0, 0, 65535, 7};
     tf::obtain_element(file.attributes, "face", 4)
         .columns.push_back(tf::make_column<std::uint16_t>("stl_attribute", bits));
-    file.attributes.header = "HEADER" + std::string(74, '*');
+    file.attributes.header = "HEADER" + std::string(73, '*') + '\0';
     const std::string bytes = written(file, "stl");
     CHECK(bytes.size() == 84 + 4 * 50);
     const auto again = reread(bytes, "a.stl");
     CHECK(again.attributes.header == file.attributes.header);
     CHECK(again.attributes.elements == file.attributes.elements);
     CHECK(written(again, "stl") == bytes);
+}
+
+TEST_CASE("stl: the header is text that a NUL ends, and never begins with solid") {
+    const auto header_for = [](std::string header) {
+        tf::mesh_file file = tetrahedron(2);
+        file.attributes.header = std::move(header);
+        return written(file, "stl").substr(0, 80);
+    };
+    const auto padded = [](std::string text) {
+        text.resize(80, '\0');
+        return text;
+    };
+    CHECK(header_for("") == padded("treeform"));
+    CHECK(header_for("of another length") == padded("treeform"));
+    CHECK(header_for(std::string(80, '*')) == padded(std::string(79, '*')));
+    CHECK(header_for(std::string(80, ' ')) == padded(""));
+    CHECK(header_for("a b" + std::string(77, ' ')) == padded("a b"));
+    CHECK(header_for("a" + std::string(1, '\0') + std::string(78, ' ')) ==
+          "a" + std::string(1, '\0') + std::string(78, ' '));
+    CHECK(header_for("solid" + std::string(75, '*')) == padded(std::string(75, '*')));
+    CHECK(header_for("solid  solid a" + std::string(66, ' ')) == padded("a"));
+    CHECK(header_for("solid" + std::string(75, ' ')) == padded(""));
+    CHECK(header_for(padded("solid")) == padded(""));
 }
 
 TEST_CASE("obj: parts, colors and polygons come back") {

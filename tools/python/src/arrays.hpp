@@ -43,6 +43,8 @@ std::span<const Row> rows_of(const array_of<T>& array) {
 
 inline tf::points_view points_of(const points_array& array) { return rows_of<tf::point3>(array); }
 
+inline std::array<double, 3> numbers(const tf::point3& p) { return {p.x, p.y, p.z}; }
+
 /// The memory of `values` as an array of numbers T, a row for each; it lives as long as the array.
 template <class T, class Row>
 py::array_t<T> as_array(std::vector<Row>&& values) {

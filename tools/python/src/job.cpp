@@ -1,7 +1,7 @@
 #include "job.hpp"
 
 #include "held_mesh.hpp"
-#include "tools/common/pieces.hpp"
+#include "tools/bindings/pieces.hpp"
 
 #include <pthread.h>
 #include <unistd.h>

@@ -20,10 +20,8 @@ constexpr words<4> choice_words{"largest", "nearest_normal", "holding_point", "m
 constexpr words<3> mass_words{"solid", "surface", "points"};
 constexpr words<3> method_words{"point_to_plane", "point_to_point", "automatic"};
 constexpr words<2> weight_words{"equal", "welsch"};
-constexpr words<4> end_words{"converged", "out_of_iterations", "doubtful", "nothing_to_align"};
+constexpr words<4> align_words{"converged", "out_of_iterations", "doubtful", "nothing_to_align"};
 constexpr words<4> turn_words{"none", "quarter", "eighth", "any"};
-
-std::array<double, 3> numbers(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 py::object lay_flat(const held_mesh& mesh, const std::string& choose,
                     const array_of<double>& toward, bool keep_spin, double tolerance, double bed,
@@ -87,7 +85,7 @@ py::dict align(const held_mesh& moving, const held_mesh& fixed, const std::strin
     made["overlap"] = found.overlap;
     made["inliers"] = found.inliers;
     made["correlation"] = found.correlation;
-    made["end"] = word_of(end_words, found.end);
+    made["end"] = word_of(align_words, found.end);
     made["converged"] = found.converged;
     made["iterations"] = found.iterations;
     made["start"] = found.start;

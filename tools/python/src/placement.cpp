@@ -35,8 +35,6 @@ constexpr words<14> end_words{"contact",
 constexpr words<3> relation_words{"separate", "touching", "penetrating"};
 constexpr std::uint32_t no_face = 0xFFFFFFFF;
 
-std::array<double, 3> numbers(const tf::point3& p) { return {p.x, p.y, p.z}; }
-
 py::tuple contacts_of(const tf::placement& at) {
     using contact = tf::placement_contact;
     return py::make_tuple(

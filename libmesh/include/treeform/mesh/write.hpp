@@ -57,7 +57,8 @@ struct write_result {
 ///   a corner has none); names of texture files, behind the comments.
 /// - OBJ: parts, material files, texture coordinates and normals of corners, vertex colors.
 /// - OFF: normals, colors and texture coordinates of points.
-/// - STL: its header, the names of solids, the column "stl_attribute".
+/// - STL: its header, without a leading "solid" and with a NUL as its last byte where it has none; the
+///   names of solids, the column "stl_attribute".
 /// - XYZ and CSV: further columns. PCD: these, and the lines "num_cols", "num_rows" and "viewpoint"
 ///   of `obj_info`.
 /// - LAS and LAZ: what `las_header` says; further columns as extra bytes. Columns red, green and blue

@@ -1,0 +1,87 @@
+"""Whether everything is there that building takes: said before anything is compiled, with what to do."""
+
+import importlib.util
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import sysconfig
+
+CMAKE = (3, 25)
+# Debian's package of each header; Eigen's folder is not among those that a compiler looks in.
+HEADERS = {"libtbb-dev": "<tbb/parallel_for.h>", "libhwy-dev": "<hwy/highway.h>",
+           "libeigen3-dev": "<Eigen/Dense>) || __has_include(<eigen3/Eigen/Dense>",
+           "libassimp-dev": "<assimp/Importer.hpp>", "nlohmann-json3-dev": "<nlohmann/json.hpp>",
+           "libpugixml-dev": "<pugixml.hpp>", "libminizip-dev": "<minizip/unzip.h>",
+           "zlib1g-dev": "<zlib.h>"}
+ELSEWHERE = ("CMAKE_ARGS", "CMAKE_PREFIX_PATH", "CONDA_PREFIX")  # headers may be where CMake is told
+
+
+def compiler_and_headers():
+    """Packages that are missing, by what the preprocessor finds."""
+    named = shlex.split(os.environ.get("CXX", ""))
+    compiler = named or [name for name in ("c++", "g++", "clang++") if shutil.which(name)][:1]
+    if not compiler or not shutil.which(compiler[0]):
+        return ["g++"]
+    text = "#if __cplusplus < 202002L\ng++\n#endif\n"
+    if not any(os.environ.get(name) for name in ELSEWHERE):
+        text += "".join(f"#if !(__has_include({header}))\n{package}\n#endif\n"
+                        for package, header in HEADERS.items())
+    done = subprocess.run([*compiler, "-std=c++20", "-E", "-P", "-x", "c++", "-"], input=text,
+                          capture_output=True, text=True)
+    return done.stdout.split() if done.returncode == 0 else ["g++"]
+
+
+def programs():
+    missing = [] if shutil.which("ninja") or shutil.which("make") else ["ninja-build"]
+    if not shutil.which("cmake"):
+        return ["cmake", *missing]
+    said = subprocess.run(["cmake", "--version"], capture_output=True, text=True).stdout
+    numbers = re.search(r"(\d+)\.(\d+)", said)
+    old = not numbers or tuple(map(int, numbers.groups())) < CMAKE
+    return ["cmake (3.25 or later)"] * old + missing
+
+
+def of_python():
+    """What this Python lacks."""
+    import setuptools
+    modules = ["pybind11"]
+    if int(setuptools.__version__.split(".")[0]) < 70:
+        modules.append("wheel")
+    lacks = [name for name in modules if importlib.util.find_spec(name) is None]
+    if not (pathlib.Path(sysconfig.get_path("include")) / "Python.h").is_file():
+        lacks.append("Python.h")
+    # pip fetches NumPy, unless it is told not to; then it is missed later.
+    if lacks and importlib.util.find_spec("numpy") is None:
+        lacks.append("numpy")
+    return lacks
+
+
+def check(folder):
+    """Ends the program where something is missing to build what is in `folder`."""
+    packages, lacks = [*programs(), *compiler_and_headers()], of_python()
+    if not packages and not lacks:
+        return
+    of_debian = {"pybind11": "python3-pybind11", "wheel": "python3-wheel", "Python.h": "python3-dev",
+                 "numpy": "python3-numpy"}
+    said = ["treeform cannot be built yet."]
+    if lacks:
+        said.append(f"{sys.executable} lacks: {', '.join(lacks)}.")
+    if packages:
+        said.append(f"Not installed: {', '.join(packages)}.")
+    of_other = {"python3-setuptools", "python3-venv"} if lacks else set()
+    names = sorted({*packages, *(of_debian[name] for name in lacks)} | of_other)
+    said += ["On Debian 12, as root:", f"    apt-get install {' '.join(n.split()[0] for n in names)}"]
+    if lacks:
+        said += ["With Debian's Python, which has them then, in an environment of its own:",
+                 "    /usr/bin/python3 -m venv --system-site-packages venv",
+                 f"    venv/bin/pip install --no-index --no-build-isolation {folder}",
+                 "or for everybody:",
+                 "    /usr/bin/python3 -m pip install --break-system-packages --no-index "
+                 f"--no-build-isolation {folder}",
+                 "Another Python, where a package index is reached, fetches what it lacks itself:",
+                 f"    {sys.executable} -m pip install {folder}"]
+    sys.exit("\n".join(said))
