@@ -10,6 +10,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <treeform.h>
 
 #include <algorithm>
@@ -37,9 +38,7 @@ handle<T> result_of(const Call& call, treeform_code code = TREEFORM_OK) {
     return handle<T>(made);
 }
 
-std::string model_path(const char* name) {
-    return std::string(TREEFORM_SOURCE_DIR "/data/") + name;
-}
+std::string model_path(const char* name) { return (test::data_folder() / name).string(); }
 
 tf::mesh mesh_of(const std::string& path) {
     tf::mesh_file file = tf::read(path);
@@ -71,12 +70,12 @@ std::vector<std::string> models() {
     for (const char* name : {"two_spheres.stl", "dirty.stl", "cube.stl", "sphere.ply", "fold.obj",
                              "pierce.obj", "duplicate_face.obj", "cubes_on_an_edge.stl"})
         paths.push_back(model_path(name));
-    const std::string folder = TREEFORM_MODELS_DIR;
-    if (!folder.empty())
+    if (test::has_models())
         for (const char* kind : {"selfint", "cad"}) {
             std::size_t taken = 0;
             std::vector<std::string> found;
-            for (const auto& entry : std::filesystem::directory_iterator(folder + "/" + kind))
+            for (const auto& entry :
+                 std::filesystem::directory_iterator(test::models_folder() / kind))
                 if (entry.is_regular_file() && entry.file_size() < 200'000)
                     found.push_back(entry.path().string());
             std::sort(found.begin(), found.end());

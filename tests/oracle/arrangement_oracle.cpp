@@ -26,13 +26,13 @@
 
 namespace {
 
-using kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using exact_point = kernel::Point_3;
+using exact_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using exact_point = exact_kernel::Point_3;
 
-exact_point exact(const tf::point3& p) { return {p.x, p.y, p.z}; }
+exact_point exact_place(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
-kernel::Plane_3 plane(const std::array<tf::point3, 9>& d, std::size_t i) {
-    return {exact(d[i]), exact(d[i + 1]), exact(d[i + 2])};
+exact_kernel::Plane_3 plane(const std::array<tf::point3, 9>& d, std::size_t i) {
+    return {exact_place(d[i]), exact_place(d[i + 1]), exact_place(d[i + 2])};
 }
 
 template <class Result>
@@ -43,18 +43,19 @@ exact_point the_point(const Result& result) {
     return *p;
 }
 
-exact_point exact(const tf::implicit_point& p) {
+exact_point exact_place(const tf::implicit_point& p) {
     using origin = tf::implicit_point::origin;
     const auto& d = p.definition();
     switch (p.kind()) {
         case origin::given:
-            return exact(p.center());
+            return exact_place(p.center());
         case origin::lines:
-            return the_point(CGAL::intersection(kernel::Line_3(exact(d[0]), exact(d[1])),
-                                                kernel::Line_3(exact(d[2]), exact(d[3]))));
-        case origin::line_plane:
             return the_point(
-                CGAL::intersection(kernel::Line_3(exact(d[0]), exact(d[1])), plane(d, 2)));
+                CGAL::intersection(exact_kernel::Line_3(exact_place(d[0]), exact_place(d[1])),
+                                   exact_kernel::Line_3(exact_place(d[2]), exact_place(d[3]))));
+        case origin::line_plane:
+            return the_point(CGAL::intersection(
+                exact_kernel::Line_3(exact_place(d[0]), exact_place(d[1])), plane(d, 2)));
         case origin::planes:
             break;
     }
@@ -69,13 +70,13 @@ bool fit(const std::vector<exact_point>& points, const tf::face& f, const tf::fa
     for (const std::uint32_t c : f)
         if (std::ranges::count(g, c) != 0) shared.push_back(c);
     const auto triangle = [&](const tf::face& c) {
-        return kernel::Triangle_3(points[c[0]], points[c[1]], points[c[2]]);
+        return exact_kernel::Triangle_3(points[c[0]], points[c[1]], points[c[2]]);
     };
     const auto common = CGAL::intersection(triangle(f), triangle(g));
     if (!common) return shared.empty();
     if (const auto* p = boost::get<exact_point>(&*common))
         return shared.size() == 1 && *p == points[shared[0]];
-    if (const auto* s = boost::get<kernel::Segment_3>(&*common)) {
+    if (const auto* s = boost::get<exact_kernel::Segment_3>(&*common)) {
         if (shared.size() != 2) return false;
         const exact_point& u = points[shared[0]];
         const exact_point& v = points[shared[1]];
@@ -84,22 +85,22 @@ bool fit(const std::vector<exact_point>& points, const tf::face& f, const tf::fa
     return false;
 }
 
-void check(const tf::mesh& mesh) {
+void check_arrangement(const tf::mesh& mesh) {
     const auto result = tf::arrange_faces(mesh);
     const tf::mesh_arrangement& cut = result.cut;
     std::vector<exact_point> points;
     std::vector<tf::implicit_point> all(cut.given_points.begin(), cut.given_points.end());
     all.insert(all.end(), cut.constructed.begin(), cut.constructed.end());
-    for (const auto& p : all) points.push_back(exact(p));
+    for (const auto& p : all) points.push_back(exact_place(p));
 
-    std::vector<kernel::Vector_3> sums(mesh.faces.size(), kernel::Vector_3(0, 0, 0));
+    std::vector<exact_kernel::Vector_3> sums(mesh.faces.size(), exact_kernel::Vector_3(0, 0, 0));
     const auto normal = [&](const tf::face& c) {
         return CGAL::cross_product(points[c[1]] - points[c[0]], points[c[2]] - points[c[0]]);
     };
     std::size_t flat = 0;
     for (std::size_t f = 0; f < cut.faces.size(); ++f) {
-        const kernel::Vector_3 n = normal(cut.faces[f]);
-        flat += n == kernel::Vector_3(0, 0, 0);
+        const exact_kernel::Vector_3 n = normal(cut.faces[f]);
+        flat += n == exact_kernel::Vector_3(0, 0, 0);
         for (const tf::covering_face& cover : cut.covers_of(f))
             sums[cover.face] = cover.opposite ? sums[cover.face] - n : sums[cover.face] + n;
     }
@@ -108,7 +109,8 @@ void check(const tf::mesh& mesh) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const bool left_out =
             std::binary_search(result.degenerate.begin(), result.degenerate.end(), f);
-        wrong_sums += sums[f] != (left_out ? kernel::Vector_3(0, 0, 0) : normal(mesh.faces[f]));
+        wrong_sums +=
+            sums[f] != (left_out ? exact_kernel::Vector_3(0, 0, 0) : normal(mesh.faces[f]));
     }
     CHECK(wrong_sums == 0);
 
@@ -138,7 +140,7 @@ TEST_CASE("arrangements of random triangles are complexes") {
     test::random source(21);
     for (std::size_t round = 0; round < count(); ++round) {
         CAPTURE(round);
-        check(test::random_soup(source, 12 + source.below(20), 0.4));
+        check_arrangement(test::random_soup(source, 12 + source.below(20), 0.4));
     }
 }
 
@@ -146,7 +148,7 @@ TEST_CASE("arrangements of lattice triangles are complexes") {
     test::random source(22);
     for (std::size_t round = 0; round < count(); ++round) {
         CAPTURE(round);
-        check(tf::join_equal_points(
+        check_arrangement(tf::join_equal_points(
             test::lattice_soup(source, 8 + source.below(12), 16, 2 + source.below(3))));
     }
 }
@@ -155,7 +157,7 @@ TEST_CASE("arrangements of fans that fold over themselves are complexes") {
     test::random source(23);
     for (std::size_t round = 0; round < count(); ++round) {
         CAPTURE(round);
-        check(test::fan(source, 8 + source.below(8)));
+        check_arrangement(test::fan(source, 8 + source.below(8)));
     }
 }
 
@@ -165,7 +167,7 @@ TEST_CASE("arrangements of many coplanar triangles are complexes") {
         CAPTURE(round);
         tf::mesh mesh = test::lattice_soup(source, 10 + source.below(10), 14, 5);
         for (tf::point3& p : mesh.points) p = {p.x, p.y + 0.5 * p.x, 3.0 * p.x - p.y};
-        check(tf::join_equal_points(mesh));
+        check_arrangement(tf::join_equal_points(mesh));
     }
 }
 
@@ -184,6 +186,6 @@ TEST_CASE("arrangements of pencils of planes are complexes") {
                 mesh.points.insert(mesh.points.end(), {{x, y, 1}, {-y, x, 0}, {-x, -y, 2}});
             mesh.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         }
-        check(tf::join_equal_points(mesh));
+        check_arrangement(tf::join_equal_points(mesh));
     }
 }

@@ -118,6 +118,7 @@ void compare(const cgal_part& a, const cgal_part& b, std::optional<tf::standing>
 }  // namespace
 
 TEST_CASE("clash: of all pairs of a kitchen's parts, those meet that do by CGAL") {
+    NEEDS_MODELS();
     tf::body_set set;
     tf::add_named_parts(set, tf::read(test::models_folder() / "scene/kitchen.obj"));
     REQUIRE(set.shapes.size() == 160);
@@ -150,6 +151,7 @@ TEST_CASE("clash: of all pairs of a kitchen's parts, those meet that do by CGAL"
 }
 
 TEST_CASE("check_poses: of a Franka arm in 100 poses, those links meet that do by CGAL") {
+    NEEDS_MODELS();
     const auto folder = test::models_folder() / "robot";
     const auto path = std::filesystem::temp_directory_path() / "treeform_franka.urdf";
     test::write_franka(path, folder);

@@ -22,39 +22,39 @@ namespace {
 using vec = std::array<mpq_class, 3>;
 
 vec exact(const tf::point3& p) { return {mpq_class(p.x), mpq_class(p.y), mpq_class(p.z)}; }
-vec minus(const vec& a, const vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+vec difference(const vec& a, const vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 mpq_class dot(const vec& a, const vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 vec cross(const vec& a, const vec& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-mpq_class to_segment(const vec& p, const vec& a, const vec& b) {
-    const vec e = minus(b, a);
+mpq_class exact_to_segment(const vec& p, const vec& a, const vec& b) {
+    const vec e = difference(b, a);
     mpq_class t = 0;
-    if (dot(e, e) != 0) t = dot(minus(p, a), e) / dot(e, e);
+    if (dot(e, e) != 0) t = dot(difference(p, a), e) / dot(e, e);
     if (t < 0) t = 0;
     if (t > 1) t = 1;
-    vec gap = minus(p, a);
+    vec gap = difference(p, a);
     for (std::size_t k = 0; k < 3; ++k) gap[k] -= t * e[k];
     return dot(gap, gap);
 }
 
-mpq_class to_triangle(const vec& p, const std::array<vec, 3>& t) {
-    mpq_class best =
-        std::min({to_segment(p, t[0], t[1]), to_segment(p, t[1], t[2]), to_segment(p, t[2], t[0])});
-    const vec n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+mpq_class exact_to_triangle(const vec& p, const std::array<vec, 3>& t) {
+    mpq_class best = std::min({exact_to_segment(p, t[0], t[1]), exact_to_segment(p, t[1], t[2]),
+                               exact_to_segment(p, t[2], t[0])});
+    const vec n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
     const mpq_class square = dot(n, n);
     if (square == 0) return best;
     for (std::size_t i = 0; i < 3; ++i)
-        if (dot(cross(minus(t[(i + 1) % 3], t[i]), minus(p, t[i])), n) < 0) return best;
-    const mpq_class height = dot(n, minus(p, t[0]));
+        if (dot(cross(difference(t[(i + 1) % 3], t[i]), difference(p, t[i])), n) < 0) return best;
+    const mpq_class height = dot(n, difference(p, t[0]));
     return std::min(best, mpq_class(height * height / square));
 }
 
 mpq_class between_segments(const vec& p, const vec& p2, const vec& q, const vec& q2) {
-    mpq_class best = std::min(
-        {to_segment(p, q, q2), to_segment(p2, q, q2), to_segment(q, p, p2), to_segment(q2, p, p2)});
-    const vec d = minus(p2, p), e = minus(q2, q), r = minus(p, q);
+    mpq_class best = std::min({exact_to_segment(p, q, q2), exact_to_segment(p2, q, q2),
+                               exact_to_segment(q, p, p2), exact_to_segment(q2, p, p2)});
+    const vec d = difference(p2, p), e = difference(q2, q), r = difference(p, q);
     const mpq_class determinant = dot(d, d) * dot(e, e) - dot(d, e) * dot(d, e);
     if (determinant == 0) return best;
     const mpq_class s = (dot(d, e) * dot(e, r) - dot(d, r) * dot(e, e)) / determinant;
@@ -66,9 +66,9 @@ mpq_class between_segments(const vec& p, const vec& p2, const vec& q, const vec&
 }
 
 mpq_class between_triangles(const std::array<vec, 3>& a, const std::array<vec, 3>& b) {
-    mpq_class best = to_triangle(a[0], b);
+    mpq_class best = exact_to_triangle(a[0], b);
     for (std::size_t i = 0; i < 3; ++i) {
-        best = std::min({best, to_triangle(a[i], b), to_triangle(b[i], a)});
+        best = std::min({best, exact_to_triangle(a[i], b), exact_to_triangle(b[i], a)});
         for (std::size_t j = 0; j < 3; ++j)
             best = std::min(best, between_segments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]));
     }
@@ -98,7 +98,7 @@ TEST_CASE("closest point: the distance is within its bound of the exact one") {
             if (!(size > 1e-140 && size < 1e150)) continue;
             const double found = std::sqrt(tf::closest_point(a, p).squared_distance);
             // Scaled, as the exact square may not be a double.
-            mpq_class square = to_triangle(exact(p), {exact(a[0]), exact(a[1]), exact(a[2])});
+            mpq_class square = exact_to_triangle(exact(p), {exact(a[0]), exact(a[1]), exact(a[2])});
             square /= mpq_class(size) * mpq_class(size);
             const double error = std::abs(found / size - std::sqrt(square.get_d()));
             worst = std::max(worst, error * 0x1p53);

@@ -139,8 +139,8 @@ std::vector<named_solid> solids(const std::filesystem::path& folder) {
 }  // namespace
 
 TEST_CASE("corefinement: where CGAL has an answer, volumes agree to 1e-12") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     const std::vector<named_solid> found = solids(folder);
     std::size_t compared = 0, without = 0;
     double largest = 0.0;

@@ -19,17 +19,18 @@
 
 namespace {
 
-long calls_per_family() { return std::max(1L, static_cast<long>(test::stress_count(100000))); }
+long predicate_calls() { return std::max(1L, static_cast<long>(test::stress_count(100000))); }
 
-struct tally {
+struct predicate_tally {
     long zeros = 0;
     long wrong = 0;
     tf::predicate_counters counters;
 };
 
-tally run(const tf::test::gmp_predicate& predicate, tf::test::point_family family, long calls) {
+predicate_tally run_predicate(const tf::test::gmp_predicate& predicate,
+                              tf::test::point_family family, long calls) {
     tf::test::point_stream stream(family, 1 + static_cast<std::uint64_t>(family));
-    tally result;
+    predicate_tally result;
     for (long i = 0; i < calls; ++i) {
         const std::vector<tf::point3> points = stream.next(predicate.points);
         const int truth = predicate.truth(tf::test::whole(points));
@@ -40,13 +41,14 @@ tally run(const tf::test::gmp_predicate& predicate, tf::test::point_family famil
 }
 
 TEST_CASE("every predicate has the sign that GMP's integers have") {
-    const long calls = calls_per_family();
+    const long calls = predicate_calls();
     std::printf("%-18s %-12s %10s %7s %9s %6s  %s\n", "predicate", "family", "calls", "zero %",
                 "open %", "wrong", "decided at width 0..6");
     for (const tf::test::gmp_predicate& predicate : tf::test::gmp_predicates) {
         for (std::size_t f = 0; f < tf::test::point_family_names.size(); ++f) {
             const std::string family(tf::test::point_family_names[f]);
-            const tally t = run(predicate, static_cast<tf::test::point_family>(f), calls);
+            const predicate_tally t =
+                run_predicate(predicate, static_cast<tf::test::point_family>(f), calls);
             const auto percent = [&](auto n) {
                 return 100.0 * static_cast<double>(n) / static_cast<double>(calls);
             };

@@ -103,12 +103,12 @@ void check_same_bytes(const tf::boolean_result& result, const tf::boolean_result
     CHECK(again.certificate.status == result.certificate.status);
 }
 
-struct counts {
+struct chain_counts {
     int chains = 0, open = 0, shortened = 0;
     std::size_t left_out = 0;
 };
 
-void check(const std::vector<tf::mesh>& chain, test::random& source, counts& sums) {
+void check_chain(const std::vector<tf::mesh>& chain, test::random& source, chain_counts& sums) {
     const std::string formula = formula_of(chain.size(), source);
     CAPTURE(formula);
     const tf::boolean_expression expression(formula, chain.size());
@@ -148,19 +148,19 @@ void check(const std::vector<tf::mesh>& chain, test::random& source, counts& sum
 }  // namespace
 
 TEST_CASE("hidden models: chains of real models are the same solids with hidden faces left out") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     const std::vector<named_mesh> models = closed_models(folder);
     REQUIRE(models.size() > 10);
     test::random seeds(test::stress_seed());
-    counts sums;
+    chain_counts sums;
     for (std::size_t first = 0; first < models.size(); ++first)
         for (std::uint64_t i = 0; i < test::stress_count(1); ++i) {
             test::random source(seeds.bits());
             std::string names;
             const std::vector<tf::mesh> chain = chain_of(models, first, source, names);
             CAPTURE(names);
-            check(chain, source, sums);
+            check_chain(chain, source, sums);
         }
     MESSAGE(sums.chains << " chains, " << sums.open << " of them open; by boolean with faces left "
                         << "out " << sums.shortened << "; faces left out " << sums.left_out);

@@ -269,7 +269,7 @@ void run(groups& from, tallies& result) {
     }
 }
 
-mpq_class rational(const tf::detail::exact::dyadic& a) {
+mpq_class rational_of(const tf::detail::exact::dyadic& a) {
     mpz_class magnitude;
     mpz_import(magnitude.get_mpz_t(), a.size(), -1, 8, 0, 0, a.limbs());
     mpq_class result(a.sign() < 0 ? mpz_class(-magnitude) : magnitude);
@@ -320,11 +320,11 @@ TEST_CASE("numbers of any size add, multiply and round as GMP's and MPFR's do") 
         for (long i = 0; i < calls_per_family(); ++i) {
             const auto a = any_dyadic(stream);
             const auto b = any_dyadic(stream);
-            const mpq_class p = rational(a), q = rational(b);
+            const mpq_class p = rational_of(a), q = rational_of(b);
             REQUIRE(a.sign() == sgn(p));
-            REQUIRE(rational(a + b) == p + q);
-            REQUIRE(rational(a - b) == p - q);
-            REQUIRE(rational(a * b) == p * q);
+            REQUIRE(rational_of(a + b) == p + q);
+            REQUIRE(rational_of(a - b) == p - q);
+            REQUIRE(rational_of(a * b) == p * q);
             if (q == 0) continue;
             const auto in_double = quotient(a, b, 0, tf::detail::exact::double_format);
             REQUIRE(in_double.value == nearest_double(p / q));

@@ -63,7 +63,7 @@ std::optional<std::size_t> nest_outlines(const std::vector<flat_points>& parts, 
 }
 #else
 std::optional<std::size_t> nest_outlines(const std::vector<flat_points>&, double, double) {
-    skip("libnest2d was not found");
+    skip_part("libnest2d was not found");
     return std::nullopt;
 }
 #endif

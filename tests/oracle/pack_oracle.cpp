@@ -105,8 +105,8 @@ std::size_t placed(const tf::packing& found) {
 }  // namespace
 
 TEST_CASE("pack: of fifty real parts as many have a place as by other seeds, or by libnest2d") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     const std::vector<tf::mesh> parts = real_parts(folder);
     const std::size_t seeds = test::setting("TREEFORM_STRESS_COUNT", 2);
     std::vector<test::flat_points> from_above;
@@ -138,8 +138,8 @@ TEST_CASE("pack: of fifty real parts as many have a place as by other seeds, or 
 }
 
 TEST_CASE("pack: stacked in a box, and on plates, no two real parts meet in written coordinates") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     const std::vector<tf::mesh> parts = real_parts(folder);
     for (const auto precision : {tf::precision::float64, tf::precision::float32}) {
         const tf::packing box = tf::pack(views(parts), {.size = {100, 100, 80},

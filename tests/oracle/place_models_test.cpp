@@ -37,7 +37,7 @@ tf::mesh read(const std::filesystem::path& path) {
     return tf::join_equal_points(tf::read(path).mesh);
 }
 
-double largest_coordinate(const tf::mesh& mesh) {
+double largest_of(const tf::mesh& mesh) {
     double largest = 0.0;
     for (const tf::point3& p : mesh.points)
         for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs(p[k]));
@@ -68,8 +68,8 @@ tf::mesh dropped(tf::mesh a, double way, bool to_single) {
 }  // namespace
 
 TEST_CASE("models: what is dropped on another stops outside of it, and not an ulp before") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     std::set<std::array<std::string, 2>> seen;
     int placed = 0, touching = 0;
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv")) {
@@ -99,7 +99,7 @@ TEST_CASE("models: what is dropped on another stops outside of it, and not an ul
             // An ulp of the largest coordinate further it meets.
             double height = 0.0;
             for (const tf::point3& p : there.points) height = std::max(height, std::abs(p.z));
-            const double largest = std::max({largest_coordinate(a), height, found.travel});
+            const double largest = std::max({largest_of(a), height, found.travel});
             const double ulp = to_single ? std::ldexp(1.0, std::ilogb(height) - 23)
                                          : std::ldexp(1.0, std::ilogb(largest) - 52);
             const tf::mesh further = dropped(a, found.travel + ulp, to_single);
@@ -112,8 +112,8 @@ TEST_CASE("models: what is dropped on another stops outside of it, and not an ul
 }
 
 TEST_CASE("models: fifty parts on a plate keep their distance, and those left out are named") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     // Fifty parts of moderate size, some of them twice, at sizes from 32 to 64.
     std::set<std::string> files;
     for (const test::truth_row& row : test::read_truth(folder / "TRUTH_PAIRS.csv"))

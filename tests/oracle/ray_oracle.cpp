@@ -31,21 +31,22 @@
 
 namespace {
 
-using kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using surface = CGAL::Surface_mesh<kernel::Point_3>;
+using exact_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using cgal_surface = CGAL::Surface_mesh<exact_kernel::Point_3>;
 
-kernel::Point_3 exact(const tf::point3& p) { return {p.x, p.y, p.z}; }
+exact_kernel::Point_3 point_in_exact(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 long pairs_per_family() { return std::max(1L, static_cast<long>(test::stress_count(5000))); }
 
 /// Wants no degenerate triangle.
 bool meet_in_cgal(const tf::ray3& ray, const tf::triangle3& t) {
-    const kernel::Point_3 from(ray.origin[0], ray.origin[1], ray.origin[2]);
-    const kernel::Vector_3 along(ray.direction[0], ray.direction[1], ray.direction[2]);
-    const kernel::Triangle_3 triangle(exact(t[0]), exact(t[1]), exact(t[2]));
-    if (ray.t_max > 1e300) return CGAL::do_intersect(kernel::Ray_3(from, along), triangle);
-    return CGAL::do_intersect(kernel::Segment_3(from, from + along * kernel::FT(ray.t_max)),
-                              triangle);
+    const exact_kernel::Point_3 from(ray.origin[0], ray.origin[1], ray.origin[2]);
+    const exact_kernel::Vector_3 along(ray.direction[0], ray.direction[1], ray.direction[2]);
+    const exact_kernel::Triangle_3 triangle(point_in_exact(t[0]), point_in_exact(t[1]),
+                                            point_in_exact(t[2]));
+    if (ray.t_max > 1e300) return CGAL::do_intersect(exact_kernel::Ray_3(from, along), triangle);
+    return CGAL::do_intersect(
+        exact_kernel::Segment_3(from, from + along * exact_kernel::FT(ray.t_max)), triangle);
 }
 
 TEST_CASE("rays and segments meet the triangles that they meet in CGAL's exact kernel") {
@@ -66,7 +67,8 @@ TEST_CASE("rays and segments meet the triangles that they meet in CGAL's exact k
             if (i % 7 == 0) ray.t_max = random.unit();
             const bool directed =
                 ray.direction[0] != 0 || ray.direction[1] != 0 || ray.direction[2] != 0;
-            if (!directed || CGAL::collinear(exact(t[0]), exact(t[1]), exact(t[2])) ||
+            if (!directed ||
+                CGAL::collinear(point_in_exact(t[0]), point_in_exact(t[1]), point_in_exact(t[2])) ||
                 ray.t_max == 0.0) {
                 ++skipped;
                 continue;
@@ -80,19 +82,19 @@ TEST_CASE("rays and segments meet the triangles that they meet in CGAL's exact k
     }
 }
 
-surface exact_surface(const tf::mesh& mesh) {
-    surface result;
-    std::vector<surface::Vertex_index> ids;
-    for (const tf::point3& p : mesh.points) ids.push_back(result.add_vertex(exact(p)));
+cgal_surface exact_surface(const tf::mesh& mesh) {
+    cgal_surface result;
+    std::vector<cgal_surface::Vertex_index> ids;
+    for (const tf::point3& p : mesh.points) ids.push_back(result.add_vertex(point_in_exact(p)));
     for (const tf::face& f : mesh.faces) result.add_face(ids[f[0]], ids[f[1]], ids[f[2]]);
     return result;
 }
 
 /// Compares some points: random ones, corners, and rounded points of faces and edges.
 void check_points(const tf::mesh& mesh, std::uint64_t seed) {
-    const surface in_cgal = exact_surface(mesh);
+    const cgal_surface in_cgal = exact_surface(mesh);
     REQUIRE(in_cgal.number_of_faces() == mesh.faces.size());
-    const CGAL::Side_of_triangle_mesh<surface, kernel> side(in_cgal);
+    const CGAL::Side_of_triangle_mesh<cgal_surface, exact_kernel> side(in_cgal);
     const auto tree = tf::build_face_tree(mesh);
     const tf::detail::intersect::point_locator locator(mesh, tree);
     tf::point3 low = mesh.points[0], high = low;
@@ -120,7 +122,7 @@ void check_points(const tf::mesh& mesh, std::uint64_t seed) {
     std::array<int, 3> seen{};
     int wrong = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto expected = side(exact(points[i]));
+        const auto expected = side(point_in_exact(points[i]));
         const auto as_ours = expected == CGAL::ON_BOUNDED_SIDE ? tf::location::inside
                              : expected == CGAL::ON_BOUNDARY   ? tf::location::boundary
                                                                : tf::location::outside;
@@ -133,8 +135,8 @@ void check_points(const tf::mesh& mesh, std::uint64_t seed) {
 }
 
 TEST_CASE("points lie on the side of a closed model on which CGAL's exact kernel sees them") {
+    NEEDS_MODELS();
     const std::filesystem::path all_models = test::models_folder();
-    if (all_models.empty()) return;
     int models = 0;
     std::vector<std::filesystem::path> files;
     for (const char* folder : {"clean", "cad"})  // closed ones that do not meet themselves
@@ -147,7 +149,7 @@ TEST_CASE("points lie on the side of a closed model on which CGAL's exact kernel
         if (std::filesystem::file_size(path) > 4'000'000 || models == 12) continue;
         const tf::mesh mesh = tf::join_equal_points(tf::read(path.string()).mesh);
         if (mesh.faces.size() < 4 || tf::find_open_edge(mesh)) continue;
-        const surface in_cgal = exact_surface(mesh);
+        const cgal_surface in_cgal = exact_surface(mesh);
         if (in_cgal.number_of_faces() != mesh.faces.size() || !CGAL::is_closed(in_cgal)) continue;
         CAPTURE(path.string());
         std::printf("%-28s", path.filename().string().c_str());

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>
+#include <support/known_points.hpp>
 #include <support/point_families.hpp>
 #include <support/settings.hpp>
 
@@ -23,21 +24,13 @@
 namespace {
 
 using tf::point3;
-using rational_vector = std::array<mpq_class, 3>;
+using tf::test::inner;
+using tf::test::minus;
+using tf::test::normal;
+using tf::test::outer;
+using tf::test::rational;
+using tf::test::rational_vector;
 
-rational_vector rational(const point3& p) {
-    return {mpq_class(p.x), mpq_class(p.y), mpq_class(p.z)};
-}
-rational_vector minus(const point3& a, const point3& b) {
-    const rational_vector p = rational(a), q = rational(b);
-    return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
-mpq_class inner(const rational_vector& a, const rational_vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-rational_vector outer(const rational_vector& a, const rational_vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 rational_vector normal(const tf::cutting_plane& p) {
     return outer(minus(p.u_to, p.u_from), minus(p.v_to, p.v_from));
 }
@@ -59,9 +52,9 @@ bool turned_plane(const std::vector<point3>& p, std::size_t first, const point3&
     return along != 0;
 }
 
-long calls_per_family() { return std::max(1L, static_cast<long>(test::stress_count(20000))); }
+long ray_calls() { return std::max(1L, static_cast<long>(test::stress_count(20000))); }
 
-struct tally {
+struct sign_tally {
     long calls = 0, zeros = 0, wrong = 0;
     void add(int ours, int truth) {
         ++calls;
@@ -81,12 +74,12 @@ bool is_close(double t, const mpq_class& exact) {
 }
 
 TEST_CASE("predicates about lines agree with GMP's rationals, and parameters nearly") {
-    const long calls = calls_per_family();
+    const long calls = ray_calls();
     for (std::size_t f = 0; f < tf::test::point_family_names.size(); ++f) {
         const std::string family(tf::test::point_family_names[f]);
         CAPTURE(family);
         tf::test::point_stream stream(static_cast<tf::test::point_family>(f), 100 + f);
-        tally side, left, cuts, cut;
+        sign_tally side, left, cuts, cut;
         long far_off = 0;
         tf::predicate_counters counters;
         for (long i = 0; i < calls; ++i) {
@@ -114,7 +107,7 @@ TEST_CASE("predicates about lines agree with GMP's rationals, and parameters nea
             cuts.add(tf::compare_cuts(d, o, a, r, b, &counters), cmp(t, parameter(r, d, b)));
         }
         std::printf("%-12s", family.c_str());
-        for (const tally* t : {&side, &left, &cut, &cuts}) {
+        for (const sign_tally* t : {&side, &left, &cut, &cuts}) {
             std::printf(" %7ld calls %6ld zero %ld wrong;", t->calls, t->zeros, t->wrong);
             CHECK(t->wrong == 0);
         }

@@ -81,12 +81,12 @@ bool finite(const triangle3& t) {
     });
 }
 
-struct tally {
+struct sweep_tally {
     std::uint64_t asked = 0, hits = 0, flat = 0, wrong = 0, far_off = 0;
 };
 
 void check(const triangle3& a, const triangle3& b, const point3& d,
-           const std::optional<mpq_class>& truth, tally& sum) {
+           const std::optional<mpq_class>& truth, sweep_tally& sum) {
     ++sum.asked;
     const auto ours = tf::first_contact(a, b, d);
     if (ours.has_value() != truth.has_value()) {
@@ -114,7 +114,7 @@ TEST_CASE("first contact is the least time of the definition, in every family") 
         const auto family = static_cast<tf::test::stress_family>(f);
         tf::test::stress_stream stream(family, 31 + f);
         tf::test::random_source random(77 + f);
-        tally sum;
+        sweep_tally sum;
         for (std::uint64_t i = 0; i < count; ++i) {
             tf::test::triangle_pair pair = stream.next();
             const point3 d = direction_for(pair, random);

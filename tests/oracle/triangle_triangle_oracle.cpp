@@ -49,22 +49,23 @@ using exact_triangle = tf::test::gmp_triangle;
 
 // --- CGAL's view of a pair ---
 
-using kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using cgal_shape = std::variant<kernel::Point_3, kernel::Segment_3, kernel::Triangle_3>;
+using exact_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using cgal_shape =
+    std::variant<exact_kernel::Point_3, exact_kernel::Segment_3, exact_kernel::Triangle_3>;
 
-kernel::Point_3 cgal_point(const tf::point3& p) { return {p.x, p.y, p.z}; }
+exact_kernel::Point_3 cgal_point(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 /// CGAL asks for triangles that are not degenerate, so those are handed over as what they are.
 cgal_shape shape_of(const triangle3& t, const exact_triangle& lattice) {
     const auto corners = exact_reference::extreme_corners(lattice);
     if (corners.size() == 3)
-        return kernel::Triangle_3(cgal_point(t[0]), cgal_point(t[1]), cgal_point(t[2]));
+        return exact_kernel::Triangle_3(cgal_point(t[0]), cgal_point(t[1]), cgal_point(t[2]));
     const auto find = [&](const auto& corner) {
         const auto at = std::find(lattice.begin(), lattice.end(), corner.x) - lattice.begin();
         return cgal_point(t[static_cast<std::size_t>(at)]);
     };
     if (corners.size() == 1) return find(corners[0]);
-    return kernel::Segment_3(find(corners[0]), find(corners[1]));
+    return exact_kernel::Segment_3(find(corners[0]), find(corners[1]));
 }
 
 struct cgal_meet {
@@ -72,21 +73,23 @@ struct cgal_meet {
     bool operator()(const A& a, const B& b) const {
         return CGAL::do_intersect(a, b);
     }
-    bool operator()(const kernel::Point_3& a, const kernel::Point_3& b) const { return a == b; }
+    bool operator()(const exact_kernel::Point_3& a, const exact_kernel::Point_3& b) const {
+        return a == b;
+    }
 };
 
 /// Corners of what two triangles share, as CGAL constructs it.
-std::vector<kernel::Point_3> cgal_corners(const kernel::Triangle_3& a,
-                                          const kernel::Triangle_3& b) {
-    std::vector<kernel::Point_3> corners;
+std::vector<exact_kernel::Point_3> cgal_corners(const exact_kernel::Triangle_3& a,
+                                                const exact_kernel::Triangle_3& b) {
+    std::vector<exact_kernel::Point_3> corners;
     const auto common = CGAL::intersection(a, b);
     if (!common) return corners;
-    if (const auto* point = boost::get<kernel::Point_3>(&*common)) return {*point};
-    if (const auto* segment = boost::get<kernel::Segment_3>(&*common))
+    if (const auto* point = boost::get<exact_kernel::Point_3>(&*common)) return {*point};
+    if (const auto* segment = boost::get<exact_kernel::Segment_3>(&*common))
         return {segment->source(), segment->target()};
-    if (const auto* triangle = boost::get<kernel::Triangle_3>(&*common))
+    if (const auto* triangle = boost::get<exact_kernel::Triangle_3>(&*common))
         return {triangle->vertex(0), triangle->vertex(1), triangle->vertex(2)};
-    return boost::get<std::vector<kernel::Point_3>>(*common);
+    return boost::get<std::vector<exact_kernel::Point_3>>(*common);
 }
 
 /// CGAL's exact number is GMP's own or Boost's wrapper of it, as it was configured.
@@ -98,25 +101,26 @@ mpq_class rational(const Rational& x) {
         return mpq_class(x.backend().data());
 }
 
-bool same_point(const kernel::Point_3& p, const tf::test::homogeneous<mpz_class>& q, int exponent) {
+bool same_point(const exact_kernel::Point_3& p, const tf::test::homogeneous<mpz_class>& q,
+                int exponent) {
     const auto coordinate = [&](std::size_t axis) {
         mpq_class value(q.x[axis], q.w);
         value.canonicalize();
         const auto shift = static_cast<unsigned long>(std::abs(exponent));
         return exponent < 0 ? mpq_class(value >> shift) : mpq_class(value << shift);
     };
-    const auto equal = [&](const kernel::FT& x, std::size_t axis) {
+    const auto equal = [&](const exact_kernel::FT& x, std::size_t axis) {
         return rational(CGAL::exact(x)) == coordinate(axis);
     };
     return equal(p.x(), 0) && equal(p.y(), 1) && equal(p.z(), 2);
 }
 
 /// Whether the two sets of points are one, as exact rationals.
-bool same_points(const std::vector<kernel::Point_3>& found, const exact_reference& reference,
+bool same_points(const std::vector<exact_kernel::Point_3>& found, const exact_reference& reference,
                  int exponent) {
     const auto& expected = reference.points();
     return found.size() == expected.size() &&
-           std::all_of(found.begin(), found.end(), [&](const kernel::Point_3& p) {
+           std::all_of(found.begin(), found.end(), [&](const exact_kernel::Point_3& p) {
                return std::any_of(expected.begin(), expected.end(),
                                   [&](const auto& q) { return same_point(p, q, exponent); });
            });
@@ -124,7 +128,7 @@ bool same_points(const std::vector<kernel::Point_3>& found, const exact_referenc
 
 // --- the run ---
 
-struct tally {
+struct pair_tally {
     std::array<std::uint64_t, 4> kinds{};
     std::uint64_t degenerate = 0;
     std::uint64_t crossing = 0;
@@ -153,7 +157,7 @@ bool mirrors(const triangle_contact& swapped, const triangle_contact& found) {
            std::all_of(swapped.ends.begin(), swapped.ends.begin() + swapped.count, has);
 }
 
-void check_pair(const triangle_pair& pair, bool with_points, tally& sum) {
+void check_pair(const triangle_pair& pair, bool with_points, pair_tally& sum) {
     const triangle_contact found = tf::intersect(pair.a, pair.b);
     const lattice_pair lattice = on_lattice(pair);
     const exact_reference reference(lattice.a, lattice.b);
@@ -176,7 +180,8 @@ void check_pair(const triangle_pair& pair, bool with_points, tally& sum) {
         fail(sum.wrong_classes, "the library's integers alone");
     if (!mirrors(tf::intersect(pair.b, pair.a), found)) fail(sum.wrong_swapped, "swapped");
     if (with_points && !expected.degenerate &&
-        !same_points(cgal_corners(std::get<kernel::Triangle_3>(a), std::get<kernel::Triangle_3>(b)),
+        !same_points(cgal_corners(std::get<exact_kernel::Triangle_3>(a),
+                                  std::get<exact_kernel::Triangle_3>(b)),
                      reference, lattice.exponent))
         fail(sum.wrong_reference, "points");
 }
@@ -194,7 +199,7 @@ TEST_CASE("every verdict and every class is that of exact rational geometry") {
         const auto family = static_cast<stress_family>(f);
         if (only != nullptr && name_of(family) != only) continue;
         tf::test::stress_stream stream(family, seed);
-        tally sum;
+        pair_tally sum;
         for (std::uint64_t i = 0; i < count; ++i) check_pair(stream.next(), i < 100'000, sum);
         fmt::print("{:<16}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>9}{:>9}{:>9}{:>9}\n",
                    name_of(family), count, sum.kinds[0], sum.kinds[1], sum.kinds[2], sum.kinds[3],

@@ -128,8 +128,8 @@ counts measure(tf::mesh mesh, bool as_float) {
 }  // namespace
 
 TEST_CASE("truth: every count of every file is that of the exact kernel") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     int rows = 0;
     int meshes = 0;
     int figures = 0;
@@ -156,8 +156,8 @@ TEST_CASE("truth: every count of every file is that of the exact kernel") {
 }
 
 TEST_CASE("truth: order, axes, scale and threads change no pair of a model") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     constexpr std::size_t most_faces = 4000;  // keeps this test to seconds
     constexpr std::uint64_t most_box_pairs = 60000;
     int models = 0;

@@ -70,8 +70,8 @@ void print(const char* name, const verdicts& v) {
 }  // namespace
 
 TEST_CASE("align: of scans of real solids, right places converge and wrong ones never do") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     std::array<verdicts, ways.size()> sums;
     for (const std::string& file : test::files_with_truth(folder)) {
         if (!file.starts_with("clean/")) continue;

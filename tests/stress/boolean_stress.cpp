@@ -114,9 +114,9 @@ mpq_class convex_intersection(const tf::mesh& a, const tf::mesh& b) {
 }
 
 /// What has been tried, and how often the rounded result was certified.
-struct tally {
+struct certified_results {
     std::size_t results = 0, certified = 0;
-    ~tally() {
+    ~certified_results() {
         CHECK(static_cast<double>(certified) >= 0.995 * static_cast<double>(results));
         MESSAGE(certified << " of " << results << " results certified in doubles");
     }
@@ -124,7 +124,7 @@ struct tally {
 
 /// Checks a rounded result against its exact volume.
 void check_result(const tf::boolean_result& result, const mpq_class& volume, double scale,
-                  tally& counts) {
+                  certified_results& counts) {
     ++counts.results;
     CHECK(result.certificate.open_count == 0);
     if (!result.certificate) return;
@@ -136,7 +136,7 @@ void check_result(const tf::boolean_result& result, const mpq_class& volume, dou
     CHECK(off.get_d() <= 64.0 * scale * scale * (result.certificate.max_displacement + 1e-300));
 }
 
-void check_pair(const tf::mesh& a, const tf::mesh& b, double scale, tally& counts,
+void check_pair(const tf::mesh& a, const tf::mesh& b, double scale, certified_results& counts,
                 const std::function<mpq_class()>& truth = {}) {
     const mpq_class volume_a = volume_of(a), volume_b = volume_of(b);
     const two_volumes exact = arranged_volumes(a, b);
@@ -172,13 +172,13 @@ tf::mesh tetrahedron(std::array<tf::point3, 4> p) {
     return {{p.begin(), p.end()}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-std::uint64_t seed(std::uint64_t family) { return test::stress_seed() * 100 + family; }
+std::uint64_t seed_of(std::uint64_t family) { return test::stress_seed() * 100 + family; }
 
 }  // namespace
 
 TEST_CASE("boxes at random angles have the volumes that clipping gives") {
-    test::random source(seed(1));
-    tally counts;
+    test::random source(seed_of(1));
+    certified_results counts;
     for (std::size_t i = 0; i < pairs_of_family(); ++i) {
         CAPTURE(i);
         // A turned box is no longer exactly convex: tetrahedra of rounded points are.
@@ -197,8 +197,8 @@ TEST_CASE("boxes at random angles have the volumes that clipping gives") {
 }
 
 TEST_CASE("tetrahedra that share a corner, an edge or a face are exact") {
-    test::random source(seed(2));
-    tally counts;
+    test::random source(seed_of(2));
+    certified_results counts;
     for (std::size_t i = 0; i < pairs_of_family(); ++i) {
         CAPTURE(i);
         const bool whole = source.below(2) == 0;
@@ -216,8 +216,8 @@ TEST_CASE("tetrahedra that share a corner, an edge or a face are exact") {
 }
 
 TEST_CASE("boxes of whole corners, in all ways to touch, are exact") {
-    test::random source(seed(3));
-    tally counts;
+    test::random source(seed_of(3));
+    certified_results counts;
     for (std::size_t i = 0; i < pairs_of_family(); ++i) {
         CAPTURE(i);
         const auto whole = [&](std::size_t n) { return static_cast<double>(source.below(n)); };
@@ -231,8 +231,8 @@ TEST_CASE("boxes of whole corners, in all ways to touch, are exact") {
 }
 
 TEST_CASE("solids nearly on top of each other, turned or moved by less and less") {
-    test::random source(seed(4));
-    tally counts;
+    test::random source(seed_of(4));
+    certified_results counts;
     const tf::mesh ball = test::ball(2, 1.0);
     tf::mesh slab = test::box(8, 8, 1);
     for (int exponent = 1; exponent <= 16; ++exponent) {
@@ -248,8 +248,8 @@ TEST_CASE("solids nearly on top of each other, turned or moved by less and less"
 }
 
 TEST_CASE("sizes from 1e-30 to 1e30 and offsets up to 1e9 change nothing") {
-    test::random source(seed(5));
-    tally counts;
+    test::random source(seed_of(5));
+    certified_results counts;
     for (const int exponent : {-30, -20, -10, 10, 20, 30}) {
         CAPTURE(exponent);
         const double scale = std::pow(10.0, exponent);
@@ -294,8 +294,8 @@ TEST_CASE("a Menger sponge has the volume of its definition") {
 }
 
 TEST_CASE("wedges about one edge, in any number, are one solid") {
-    test::random source(seed(6));
-    tally counts;
+    test::random source(seed_of(6));
+    certified_results counts;
     for (std::size_t i = 0; i < pairs_of_family() / 4 + 1; ++i) {
         CAPTURE(i);
         std::vector<tf::mesh> wedges;
@@ -319,7 +319,7 @@ TEST_CASE("wedges about one edge, in any number, are one solid") {
 }
 
 TEST_CASE("a chain of a hundred unions, each fed the last result, stays a solid") {
-    test::random source(seed(7));
+    test::random source(seed_of(7));
     tf::mesh so_far = test::box(1, 1, 1);
     std::vector<tf::mesh> all{so_far};
     for (int link = 0; link < 100; ++link) {

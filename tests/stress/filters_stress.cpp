@@ -54,7 +54,7 @@ struct tally {
 };
 
 /// The coordinates in turn, so that component `axis` of a vector becomes its last.
-point3 turned(int axis, const point3& p) {
+point3 turned_axes(int axis, const point3& p) {
     return axis == 0 ? point3{p.y, p.z, p.x} : axis == 1 ? point3{p.z, p.x, p.y} : p;
 }
 
@@ -78,7 +78,7 @@ void ask_all(const std::vector<point3>& p, tally& sum) {
     sum.add(tf::normal_dot(n, m),
             integer_sign<exact::normal_dot_polynomial>(n.a, n.b, n.c, m.a, m.b, m.c));
     for (int axis = 0; axis < 3; ++axis) {
-        const auto at = [&](const point3& q) { return turned(axis, q); };
+        const auto at = [&](const point3& q) { return turned_axes(axis, q); };
         sum.add(tf::orient2d(axis, p[0], p[4], p[8]), integer_orient2d(axis, p[0], p[4], p[8]));
         sum.add(tf::normal_cross(axis, n, m),
                 integer_sign<exact::normal_cross_polynomial>(at(n.a), at(n.b), at(n.c), at(m.a),

@@ -97,8 +97,8 @@ TEST_CASE("layers of noise can be written") {
 }
 
 TEST_CASE("models that others fail on are repaired within a thousandth of their size") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     for (const std::string_view name : {"openscad_crash_1k.obj", "ht90_actuator_4k.stl"}) {
         CAPTURE(name);
         const tf::mesh mesh =
@@ -117,8 +117,8 @@ TEST_CASE("models that others fail on are repaired within a thousandth of their 
 }
 
 TEST_CASE("a model of OpenSCAD's crash reports, repaired and cut, can be written") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     const tf::mesh mesh =
         tf::join_equal_points(tf::read(folder / "selfint/openscad_crash_1k.obj").mesh);
     check_repair(mesh);

@@ -45,7 +45,7 @@ using test::on_lattice;
 using test::random_tetrahedron;
 using test::together;
 
-constexpr double side = 8.0;
+constexpr double room_side = 8.0;
 
 /// Two points, and a closed line that runs around between them, twice or as it likes: one piece that
 /// may meet itself, and wind around space several times or the other way round.
@@ -87,25 +87,25 @@ tf::mesh in_small_faces(tf::mesh mesh, int levels) {
     return mesh;
 }
 
-enum class shape : std::uint8_t { boxes, balls, tetrahedra, bipyramids, turned_boxes, all };
+enum class solid_shape : std::uint8_t { boxes, balls, tetrahedra, bipyramids, turned_boxes, all };
 
-tf::mesh random_solid(test::random& source, shape of, double size, double steps) {
-    if (of == shape::all) of = static_cast<shape>(source.below(5));
-    tf::point3 at{source.in(0, side), source.in(0, side), source.in(0, side)};
-    if (size > side) at = {0.5 * side, 0.5 * side, 0.5 * side};
+tf::mesh solid_of(test::random& source, solid_shape of, double size, double steps) {
+    if (of == solid_shape::all) of = static_cast<solid_shape>(source.below(5));
+    tf::point3 at{source.in(0, room_side), source.in(0, room_side), source.in(0, room_side)};
+    if (size > room_side) at = {0.5 * room_side, 0.5 * room_side, 0.5 * room_side};
     const auto length = [&] { return source.in(0.3, 1.0) * size; };
     tf::mesh solid;
     switch (of) {
-        case shape::balls:
+        case solid_shape::balls:
             solid = ball(source.below(8) == 0 ? 2 : 1, 0.7 * length());
             break;
-        case shape::tetrahedra:
+        case solid_shape::tetrahedra:
             solid = random_tetrahedron(source, 0.8 * size);
             break;
-        case shape::bipyramids:
+        case solid_shape::bipyramids:
             solid = random_bipyramid(source, 0.6 * size);
             break;
-        case shape::turned_boxes:
+        case solid_shape::turned_boxes:
             solid = test::turned(box(length(), length(), length()),
                                  {source.in(-1, 1), source.in(-1, 1), 1.0}, source.in(0, 3));
             break;
@@ -118,20 +118,20 @@ tf::mesh random_solid(test::random& source, shape of, double size, double steps)
     return source.below(8) == 0 ? inside_out(solid) : solid;
 }
 
-std::string name(std::size_t operand) {
+std::string operand_name(std::size_t operand) {
     std::string result(1, static_cast<char>('a' + operand % 26));
     if (operand >= 26) result.insert(0, 1, static_cast<char>('a' + operand / 26 - 1));
     return result;
 }
 
 /// Operands from `first` on, in brackets at random. Unions most of all, as it is in life.
-std::string random_formula(test::random& source, const std::string& operations, std::size_t first,
-                           std::size_t operands) {
-    if (operands == 1) return name(first);
+std::string formula_of(test::random& source, const std::string& operations, std::size_t first,
+                       std::size_t operands) {
+    if (operands == 1) return operand_name(first);
     const std::size_t left = source.below(3) == 0 ? 1 + source.below(operands - 1) : operands - 1;
     const char operation = operations[source.below(operations.size())];
-    return "(" + random_formula(source, operations, first, left) + ")" + operation + "(" +
-           random_formula(source, operations, first + left, operands - left) + ")";
+    return "(" + formula_of(source, operations, first, left) + ")" + operation + "(" +
+           formula_of(source, operations, first + left, operands - left) + ")";
 }
 
 struct question {
@@ -147,24 +147,25 @@ struct question {
 
 /// The more operands, the smaller: a few of them meet at a place, whatever their number. At times
 /// all of them are in the first or near its surface.
-question random_question(test::random& source, shape of) {
+question random_question(test::random& source, solid_shape of) {
     question result;
     const double steps = source.below(3) == 0 ? 0.0 : 1.0 + static_cast<double>(source.below(3));
     const std::size_t operands = 2 + source.below(39);
-    const double size = side * std::cbrt(source.in(1.0, 4.0) / static_cast<double>(operands));
+    const double size = room_side * std::cbrt(source.in(1.0, 4.0) / static_cast<double>(operands));
     const bool in_a_large_one = source.below(6) == 0;
     for (std::size_t k = 0; k < operands; ++k) {
         const bool is_large = k == 0 && in_a_large_one;
-        tf::mesh operand = random_solid(source, of, is_large ? 2.5 * side : size, steps);
-        if (is_large) operand = in_small_faces(std::move(operand), of == shape::balls ? 1 : 3);
+        tf::mesh operand = solid_of(source, of, is_large ? 2.5 * room_side : size, steps);
+        if (is_large)
+            operand = in_small_faces(std::move(operand), of == solid_shape::balls ? 1 : 3);
         if (source.below(40) == 0) operand = {};
         while (source.below(4) == 0)  // parts, which may meet, too
-            operand = together(std::move(operand), random_solid(source, of, size, steps));
+            operand = together(std::move(operand), solid_of(source, of, size, steps));
         if (k > 0 && source.below(20) == 0) operand = result.operands[source.below(k)];
         result.operands.push_back(std::move(operand));
     }
     constexpr std::array<const char*, 5> kinds = {"+", "-", "++-", "+-*", "+-*^"};
-    result.formula = random_formula(source, kinds[source.below(kinds.size())], 0, operands);
+    result.formula = formula_of(source, kinds[source.below(kinds.size())], 0, operands);
     result.options.inside = static_cast<tf::fill_rule>(source.below(3));
     result.options.simplify = source.below(2) == 0;
     return result;
@@ -198,7 +199,7 @@ void check_again(const question& asked, const tf::boolean_result& result) {
     check_same_bytes(result, tf::boolean(operands, asked.expression(), asked.options));
 }
 
-void check(const question& asked, test::random& source, counts& sums) {
+void check_same(const question& asked, test::random& source, counts& sums) {
     const tf::boolean_expression expression = asked.expression();
     const tf::fill_rule rule = asked.options.inside;
     test::exact_numbers numbers;
@@ -230,7 +231,7 @@ void check(const question& asked, test::random& source, counts& sums) {
     }
 }
 
-void check_many(shape of, std::uint64_t salt) {
+void check_many_same(solid_shape of, std::uint64_t salt) {
     const tf::thread_scope one(1);
     test::random seeds(test::stress_seed() * 1000 + salt);
     counts sums;
@@ -240,7 +241,7 @@ void check_many(shape of, std::uint64_t salt) {
         test::random source(own);
         const question asked = random_question(source, of);
         CAPTURE(asked.formula);
-        check(asked, source, sums);
+        check_same(asked, source, sums);
     }
     MESSAGE(sums.expressions << " expressions, " << sums.faces << " faces; left out "
                              << sums.left_out << ", pairs not cut " << sums.uncut
@@ -265,9 +266,11 @@ TEST_CASE("exact chains: the same solid cut otherwise is the same, and no other 
     CHECK(test::is_same_surface(chain(together(whole, inside_out(halves))), chain({}), numbers));
 }
 
-TEST_CASE("same solid: boxes of whole numbers") { check_many(shape::boxes, 1); }
-TEST_CASE("same solid: balls") { check_many(shape::balls, 2); }
-TEST_CASE("same solid: tetrahedra") { check_many(shape::tetrahedra, 3); }
-TEST_CASE("same solid: pieces that meet themselves") { check_many(shape::bipyramids, 4); }
-TEST_CASE("same solid: turned boxes") { check_many(shape::turned_boxes, 5); }
-TEST_CASE("same solid: all sorts") { check_many(shape::all, 6); }
+TEST_CASE("same solid: boxes of whole numbers") { check_many_same(solid_shape::boxes, 1); }
+TEST_CASE("same solid: balls") { check_many_same(solid_shape::balls, 2); }
+TEST_CASE("same solid: tetrahedra") { check_many_same(solid_shape::tetrahedra, 3); }
+TEST_CASE("same solid: pieces that meet themselves") {
+    check_many_same(solid_shape::bipyramids, 4);
+}
+TEST_CASE("same solid: turned boxes") { check_many_same(solid_shape::turned_boxes, 5); }
+TEST_CASE("same solid: all sorts") { check_many_same(solid_shape::all, 6); }

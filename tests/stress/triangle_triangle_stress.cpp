@@ -65,21 +65,21 @@ bool same_class(const triangle_contact& p, const triangle_contact& q) {
            p.count == q.count;
 }
 
-bool is_degenerate(const triangle3& t) { return intersect(t, t).kind != tf::overlap::area; }
+bool is_degenerate(const triangle3& t) { return tf::intersect(t, t).kind != tf::overlap::area; }
 
 void check_corner_orders(const triangle_pair& pair, const triangle_contact& found) {
     // On a degenerate triangle names go by number, so only the class can be compared.
     const bool named = !is_degenerate(pair.a) && !is_degenerate(pair.b);
     for (const order& of_a : orders)
         for (const order& of_b : orders) {
-            const auto other = intersect(reordered(pair.a, of_a), reordered(pair.b, of_b));
+            const auto other = tf::intersect(reordered(pair.a, of_a), reordered(pair.b, of_b));
             REQUIRE(same_class(other, found));
             if (named) REQUIRE(ends_of(other, of_a, of_b) == ends_of(found));
         }
 }
 
 void check_swap(const triangle_pair& pair, const triangle_contact& found) {
-    const auto swapped = intersect(pair.b, pair.a);
+    const auto swapped = tf::intersect(pair.b, pair.a);
     names mirrored;
     for (const auto& [on_b, on_a] : ends_of(swapped)) mirrored.emplace(on_a, on_b);
     REQUIRE(same_class(swapped, found));
@@ -91,7 +91,7 @@ void check_change(const triangle_pair& pair, const triangle_contact& found, Chan
     const auto all = [&](const triangle3& t) -> triangle3 {
         return {change(t[0]), change(t[1]), change(t[2])};
     };
-    const auto other = intersect(all(pair.a), all(pair.b));
+    const auto other = tf::intersect(all(pair.a), all(pair.b));
     REQUIRE(same_class(other, found));
     REQUIRE(ends_of(other) == ends_of(found));
 }
@@ -134,7 +134,7 @@ TEST_CASE("no family's verdicts depend on orders, axes or a power-of-two unit") 
         for (std::uint64_t i = 0; i < count; ++i) {
             CAPTURE(i);
             const triangle_pair pair = stream.next();
-            const triangle_contact found = intersect(pair.a, pair.b);
+            const triangle_contact found = tf::intersect(pair.a, pair.b);
             check_corner_orders(pair, found);
             check_swap(pair, found);
             for (const order& axes : orders)
@@ -154,10 +154,10 @@ TEST_CASE("a processor that flushes denormals to zero comes to the same verdicts
     for (std::uint64_t i = 0; i < count; ++i) {
         CAPTURE(i);
         const triangle_pair pair = stream.next();
-        const triangle_contact found = intersect(pair.a, pair.b);
+        const triangle_contact found = tf::intersect(pair.a, pair.b);
         const unsigned control = _mm_getcsr();
         _mm_setcsr(control | 0x8040U);  // flush results, take operands for zero
-        const triangle_contact flushed = intersect(pair.a, pair.b);
+        const triangle_contact flushed = tf::intersect(pair.a, pair.b);
         _mm_setcsr(control);
         REQUIRE(same_class(flushed, found));
         REQUIRE(ends_of(flushed) == ends_of(found));

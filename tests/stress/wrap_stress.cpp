@@ -40,7 +40,7 @@ tf::mesh something(test::random& source) {
     }
 }
 
-void check(const tf::mesh& mesh, double size, const tf::wrap_options& options) {
+void check_wrap(const tf::mesh& mesh, double size, const tf::wrap_options& options) {
     const tf::wrap_result made = tf::wrap(mesh, size, options);
     CHECK(made.certificate);
     CHECK(test::is_clean_solid(made.mesh));
@@ -69,6 +69,6 @@ TEST_CASE("soups, fans, grids, boxes and balls") {
         tf::wrap_options options;
         if (source.below(2) == 0) options.offset = std::exp2(source.in(-6.0, 1.0)) * size;
         if (source.below(2) == 0) options.precision = tf::precision::float32;
-        check(mesh, size, options);
+        check_wrap(mesh, size, options);
     }
 }

@@ -3,6 +3,7 @@
 /// Parts whose boxes overlap and that do not meet: rings in each other, L shapes, chains.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/solids.hpp>
@@ -14,6 +15,12 @@
 #include <vector>
 
 namespace test {
+
+inline std::vector<tf::prepared_mesh> prepared(const std::vector<tf::mesh>& parts) {
+    std::vector<tf::prepared_mesh> all;
+    for (const tf::mesh& part : parts) all.emplace_back(tf::mesh(part));
+    return all;
+}
 
 /// A torus about the z axis: `around` sections of `section` corners each.
 inline tf::mesh ring(double radius, double thickness, std::uint32_t around, std::uint32_t section) {

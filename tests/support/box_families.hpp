@@ -25,6 +25,16 @@ using id_pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 inline constexpr auto itself = [](const auto& box) { return box; };
 
 template <std::size_t D>
+double squared_between(const tf::aabb<double, D>& a, const tf::aabb<double, D>& b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < D; ++k) {
+        const double gap = std::max({0.0, a.min[k] - b.max[k], b.min[k] - a.max[k]});
+        sum += gap * gap;
+    }
+    return sum;
+}
+
+template <std::size_t D>
 tf::aabb<double, D> box_at(const std::array<double, D>& corner, double size) {
     tf::aabb<double, D> box;
     box.include(corner);

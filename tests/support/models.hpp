@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The folders of real models and clouds that some tests read.
+/// The folders of real models and clouds that some tests read. The environment says where they are;
+/// where it says nothing, the build does. A variable that is set to nothing means that there are none.
 
 #include <support/skip.hpp>
 #include <support/truth.hpp>
@@ -11,19 +12,15 @@
 
 namespace test {
 
-/// TREEFORM_MODELS_DIR; empty, and the test case counts as skipped, where there is none.
-inline std::filesystem::path models_folder() {
-    std::filesystem::path folder = TREEFORM_MODELS_DIR;
-    if (folder.empty()) skip("TREEFORM_MODELS_DIR is not set");
-    return folder;
-}
+bool has_models();
+bool has_clouds();
 
-/// TREEFORM_CLOUDS_DIR; empty, and the test case counts as skipped, where there is none.
-inline std::filesystem::path clouds_folder() {
-    std::filesystem::path folder = TREEFORM_CLOUDS_DIR;
-    if (folder.empty()) skip("TREEFORM_CLOUDS_DIR is not set");
-    return folder;
-}
+/// TREEFORM_MODELS_DIR and TREEFORM_CLOUDS_DIR. \throws std::logic_error when there is none
+std::filesystem::path models_folder();
+std::filesystem::path clouds_folder();
+
+/// data/ of the sources.
+std::filesystem::path data_folder();
 
 /// The files that TRUTH.csv of the folder has rows of, each once.
 inline std::set<std::string> files_with_truth(const std::filesystem::path& folder) {
@@ -33,3 +30,9 @@ inline std::set<std::string> files_with_truth(const std::filesystem::path& folde
 }
 
 }  // namespace test
+
+/// First in a test case that reads real models, or clouds: without them, it is skipped.
+#define NEEDS_MODELS() \
+    if (!test::has_models()) SKIP_CASE("TREEFORM_MODELS_DIR is not set")
+#define NEEDS_CLOUDS() \
+    if (!test::has_clouds()) SKIP_CASE("TREEFORM_CLOUDS_DIR is not set")

@@ -46,4 +46,10 @@ class point_stream {
     random_source random_;
 };
 
+template <class Function>
+std::vector<point3> each(std::vector<point3> points, const Function& f) {
+    for (point3& p : points) p = {f(p.x), f(p.y), f(p.z)};
+    return points;
+}
+
 }  // namespace treeform::test

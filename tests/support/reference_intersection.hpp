@@ -23,6 +23,14 @@ using vector_of = std::array<Integer, 3>;
 template <class Integer>
 using triangle_of = std::array<vector_of<Integer>, 3>;
 
+inline triangle_of<std::int64_t> integral(const triangle3& t) {
+    triangle_of<std::int64_t> result;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            result[i][axis] = static_cast<std::int64_t>(t[i][axis]);
+    return result;
+}
+
 /// The point (x / w, y / w, z / w), w > 0.
 template <class Integer>
 struct homogeneous {

@@ -7,6 +7,7 @@
 #include <treeform/mesh/triangle.hpp>
 
 #include <gmpxx.h>
+#include <support/known_points.hpp>
 
 #include <array>
 #include <cstddef>
@@ -16,11 +17,7 @@
 
 namespace treeform::test {
 
-using rational_point = std::array<mpq_class, 3>;
-
-inline rational_point rational(const point3& p) {
-    return {mpq_class(p.x), mpq_class(p.y), mpq_class(p.z)};
-}
+using rational_point = rational_vector;
 
 /// Row operations on [columns | right]; the unique solution, or none.
 inline std::optional<std::vector<mpq_class>> solved(std::vector<std::vector<mpq_class>> rows) {

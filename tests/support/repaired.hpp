@@ -9,10 +9,14 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/solids.hpp>
+#include <support/soups.hpp>
 
 #include <utility>
 
 namespace test {
+
+inline tf::mesh two_balls() { return together(ball(3, 1.0), moved(ball(3, 1.0), {0.7, 0.3, 0.1})); }
 
 inline void turn(tf::face& f) { std::swap(f[1], f[2]); }
 

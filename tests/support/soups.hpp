@@ -3,6 +3,7 @@
 /// Small meshes full of trouble, the same for the same random source.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/random.hpp>
@@ -14,6 +15,11 @@
 #include <vector>
 
 namespace test {
+
+inline tf::triangle3 triangle_of(const tf::mesh& mesh, std::size_t i) {
+    const tf::face& f = mesh.faces[i];
+    return {mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
+}
 
 /// Triangles of about `size` at random places of the unit cube; no shared corners.
 inline tf::mesh random_soup(random& source, std::size_t faces, double size) {

@@ -122,7 +122,7 @@ def build_all(build):
     say_how_long("treeform", MINUTES_OF_ALL)
     build.mkdir(parents=True, exist_ok=True)
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-    configure(build, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
+    configure(build, *generator, "-DCMAKE_BUILD_TYPE=Release",
               "-DTREEFORM_BUILD_TOOLS=OFF", "-DTREEFORM_BUILD_C=OFF", "-DTREEFORM_INSTALL=OFF",
               *shlex.split(os.environ.get("CMAKE_ARGS", "")))
     compile_extension(build)

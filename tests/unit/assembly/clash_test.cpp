@@ -20,13 +20,8 @@ namespace {
 using test::ball;
 using test::box;
 using test::moved;
+using test::prepared;
 using tf::standing;
-
-std::vector<tf::prepared_mesh> prepared(const std::vector<tf::mesh>& parts) {
-    std::vector<tf::prepared_mesh> all;
-    for (const tf::mesh& part : parts) all.emplace_back(tf::mesh(part));
-    return all;
-}
 
 tf::clash_result clash_of(const std::vector<tf::mesh>& parts,
                           const tf::clash_options& options = {}) {

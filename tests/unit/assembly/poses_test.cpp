@@ -21,6 +21,7 @@ namespace {
 
 using test::ball;
 using test::box;
+using test::prepared;
 using tf::standing;
 using motion = tf::transform<3>;
 
@@ -33,12 +34,6 @@ motion random_motion(test::random& source, double reach) {
 tf::mesh placed(tf::mesh mesh, const motion& by) {
     for (tf::point3& p : mesh.points) p = by(p);
     return mesh;
-}
-
-std::vector<tf::prepared_mesh> prepared(const std::vector<tf::mesh>& parts) {
-    std::vector<tf::prepared_mesh> all;
-    for (const tf::mesh& part : parts) all.emplace_back(tf::mesh(part));
-    return all;
 }
 
 /// What `clash` says of the parts where they are moved to.

@@ -87,7 +87,7 @@ bool is_inside(tf::fill_rule rule, int winding) {
     return rule == tf::fill_rule::positive ? winding > 0 : winding != 0;
 }
 
-std::string random_formula(test::random& source, std::size_t operands) {
+std::string formula_of_crowds(test::random& source, std::size_t operands) {
     std::string result = "a";
     for (std::size_t k = 1; k < operands; ++k) {
         const std::string next(1, static_cast<char>('a' + k));
@@ -108,7 +108,7 @@ TEST_CASE("hidden faces: crowds of boxes are what voxels say") {
         std::vector<crowd> crowds;
         for (std::size_t k = 0; k < operands; ++k)
             crowds.push_back(random_crowd(source, 1 + source.below(40 / operands)));
-        const tf::boolean_expression expression(random_formula(source, operands), operands);
+        const tf::boolean_expression expression(formula_of_crowds(source, operands), operands);
         const auto rule = static_cast<tf::fill_rule>(source.below(3));
         CAPTURE(run);
         double voxels = 0.0;

@@ -35,7 +35,8 @@ kind kind_of(const tf::mesh& mesh) {
 }
 
 /// The general way, in which all faces are cut: volumes take it.
-tf::boolean_result evaluate(const operands& pair, const std::string& text, tf::fill_rule rule) {
+tf::boolean_result evaluate_all_faces(const operands& pair, const std::string& text,
+                                      tf::fill_rule rule) {
     return tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule, .volumes = true});
 }
 
@@ -48,7 +49,7 @@ void check_both_ways(const operands& pair) {
         for (const std::string text : formulas) {
             CAPTURE(text);
             CAPTURE(static_cast<int>(rule));
-            const tf::boolean_result general = evaluate(pair, text, rule);
+            const tf::boolean_result general = evaluate_all_faces(pair, text, rule);
             const tf::boolean_result result =
                 tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule});
             REQUIRE(general.certificate);
@@ -64,7 +65,7 @@ void check_both_ways(const operands& pair) {
 void check_alone(const tf::mesh& mesh) {
     for (const tf::fill_rule rule : rules) {
         CAPTURE(static_cast<int>(rule));
-        const tf::boolean_result general = evaluate({mesh, tf::mesh{}}, "a", rule);
+        const tf::boolean_result general = evaluate_all_faces({mesh, tf::mesh{}}, "a", rule);
         const tf::boolean_result result = tf::boolean({mesh}, {"a", 1}, {.inside = rule});
         if (general.statistics.rounding_steps == 0 && rule != tf::fill_rule::odd)
             CHECK(result.statistics.cells == 0);
@@ -156,7 +157,7 @@ TEST_CASE("manifold operands: heaps of solids that wind as they like give the ge
                 operand = together(operand, random_part(source));
         const tf::fill_rule rule = rules[source.below(rules.size())];
         const std::string text = formulas[source.below(formulas.size())];
-        const tf::boolean_result general = evaluate(pair, text, rule);
+        const tf::boolean_result general = evaluate_all_faces(pair, text, rule);
         REQUIRE(general.certificate);
         std::array<std::vector<tf::face_pair>, 2> own;
         for (std::size_t k = 0; k < 2; ++k)
@@ -188,7 +189,7 @@ TEST_CASE(
         for (const tf::fill_rule rule : rules)
             for (const std::string text : formulas)
                 check_same_boolean(tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule}),
-                                   evaluate(pair, text, rule));
+                                   evaluate_all_faces(pair, text, rule));
     }
 }
 

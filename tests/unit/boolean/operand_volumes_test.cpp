@@ -22,7 +22,7 @@ using tf::boolean_options;
 using tf::mesh;
 
 /// Volumes that both ways and several formulas agree on to `most`.
-tf::operand_volumes volumes(const mesh& a, const mesh& b, double most) {
+tf::operand_volumes volumes_of(const mesh& a, const mesh& b, double most) {
     tf::operand_volumes first;
     bool is_first = true;
     for (const char* text : {"a+b", "a*b", "b-a", "a^b"})
@@ -43,7 +43,7 @@ tf::operand_volumes volumes(const mesh& a, const mesh& b, double most) {
 }
 
 void check(const mesh& a, const mesh& b, std::array<double, 4> expected) {
-    const auto [first, second, either, both] = volumes(a, b, 0.0);
+    const auto [first, second, either, both] = volumes_of(a, b, 0.0);
     CHECK(std::array{first, second, either, both} == expected);
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("volumes: of turned boxes, what the surfaces of the results enclose") 
         const mesh a = random_box(), b = random_box();
         // Vertices on cuts move by units of 2^-53, volumes by areas times that.
         const double most = 0x1p-46;
-        const auto found = volumes(a, b, most);
+        const auto found = volumes_of(a, b, most);
         CHECK(std::abs(found.either - tf::signed_volume(tf::unite(a, b).mesh)) <= most);
         CHECK(std::abs(found.both - tf::signed_volume(tf::intersection(a, b).mesh)) <= most);
     }

@@ -16,39 +16,39 @@ namespace {
 using tf::detail::boolean::partial_expression;
 using tf::detail::boolean::winding_range;
 
-constexpr std::uint32_t operands = 4;
+constexpr std::uint32_t operand_count = 4;
 
-std::string random_formula(test::random& source, unsigned depth) {
+std::string nested_formula(test::random& source, unsigned depth) {
     if (depth == 0 || source.below(4) == 0)
-        return std::string(1, static_cast<char>('a' + source.below(operands)));
+        return std::string(1, static_cast<char>('a' + source.below(operand_count)));
     const char operation = "+-*^"[source.below(4)];
-    return "(" + random_formula(source, depth - 1) + ")" + operation + "(" +
-           random_formula(source, depth - 1) + ")";
+    return "(" + nested_formula(source, depth - 1) + ")" + operation + "(" +
+           nested_formula(source, depth - 1) + ")";
 }
 
-bool is_inside(tf::fill_rule rule, std::int64_t winding) {
+bool is_filled(tf::fill_rule rule, std::int64_t winding) {
     if (rule == tf::fill_rule::odd) return winding % 2 != 0;
     return rule == tf::fill_rule::positive ? winding > 0 : winding != 0;
 }
 
 /// What all winding numbers in the ranges agree on.
 std::optional<bool> by_trying(const tf::boolean_expression& expression, tf::fill_rule rule,
-                              const std::array<winding_range, operands>& ranges) {
+                              const std::array<winding_range, operand_count>& ranges) {
     std::optional<bool> common;
-    std::array<std::int64_t, operands> winding{};
-    for (std::size_t k = 0; k < operands; ++k) winding[k] = ranges[k].low;
+    std::array<std::int64_t, operand_count> winding{};
+    for (std::size_t k = 0; k < operand_count; ++k) winding[k] = ranges[k].low;
     for (;;) {
-        std::array<bool, operands> in{};
-        for (std::size_t k = 0; k < operands; ++k) in[k] = is_inside(rule, winding[k]);
+        std::array<bool, operand_count> in{};
+        for (std::size_t k = 0; k < operand_count; ++k) in[k] = is_filled(rule, winding[k]);
         const bool here = expression(in);
         if (common && *common != here) return std::nullopt;
         common = here;
         std::size_t k = 0;
-        while (k < operands && ++winding[k] > ranges[k].high) {
+        while (k < operand_count && ++winding[k] > ranges[k].high) {
             winding[k] = ranges[k].low;
             ++k;
         }
-        if (k == operands) return common;
+        if (k == operand_count) return common;
     }
 }
 
@@ -58,13 +58,13 @@ TEST_CASE("partial_expression: known is what all winding numbers agree on") {
     test::random source(1);
     std::size_t known = 0, unknown = 0, missed = 0;
     for (int i = 0; i < 2000; ++i) {
-        const tf::boolean_expression expression(random_formula(source, 4), operands);
+        const tf::boolean_expression expression(nested_formula(source, 4), operand_count);
         const auto rule = static_cast<tf::fill_rule>(source.below(3));
         partial_expression state(expression, rule);
-        std::array<winding_range, operands> ranges{};
-        CHECK(state.value() == expression(std::array<bool, operands>{}));
+        std::array<winding_range, operand_count> ranges{};
+        CHECK(state.value() == expression(std::array<bool, operand_count>{}));
         for (int step = 0; step < 20; ++step) {
-            const std::size_t k = source.below(operands);
+            const std::size_t k = source.below(operand_count);
             const auto low = static_cast<std::int64_t>(source.below(4)) - 2;
             const winding_range next{low, low + static_cast<std::int64_t>(source.below(3))};
             state.add(static_cast<std::uint32_t>(k),

@@ -27,16 +27,16 @@ using test::box;
 using test::moved;
 using test::together;
 
-tf::boolean_result evaluate(const std::vector<tf::mesh>& meshes, const std::string& text,
-                            tf::boolean_options options = {}) {
+tf::boolean_result result_of(const std::vector<tf::mesh>& meshes, const std::string& text,
+                             tf::boolean_options options = {}) {
     return tf::boolean(std::vector<tf::mesh_view>(meshes.begin(), meshes.end()),
                        {text, meshes.size()}, options);
 }
 
 /// After a look at whether it is the same solid as without being simplified.
 tf::mesh simplified(const std::vector<tf::mesh>& meshes, const std::string& text) {
-    const tf::boolean_result result = evaluate(meshes, text, {.simplify = true});
-    const tf::mesh full = evaluate(meshes, text).mesh;
+    const tf::boolean_result result = result_of(meshes, text, {.simplify = true});
+    const tf::mesh full = result_of(meshes, text).mesh;
     CHECK(result.certificate);
     CHECK(test::is_clean_solid(result.mesh));
     CHECK(result.mesh.faces.size() <= full.faces.size());
@@ -166,7 +166,7 @@ TEST_CASE("simplify: of lattice boxes by any formula, the same volume and nothin
         for (const char* text : {"a+b+c+d", "(a-b)*(c+d)", "a^b^c^d"}) {
             CAPTURE(text);
             const tf::mesh solid = simplified(boxes, text);
-            CHECK(tf::signed_volume(solid) == tf::signed_volume(evaluate(boxes, text).mesh));
+            CHECK(tf::signed_volume(solid) == tf::signed_volume(result_of(boxes, text).mesh));
             CHECK(spare_points(solid) == 0);
             const tf::mesh again = simplified({solid}, "a");
             CHECK(again.points.size() == solid.points.size());
@@ -201,7 +201,7 @@ TEST_CASE("simplify: faces of different groups stay apart") {
     std::vector<std::uint32_t> groups(24, 0);
     std::fill(groups.begin() + 12, groups.end(), 1U);
     const tf::boolean_result result =
-        evaluate(boxes, "a+b", {.simplify = true, .face_groups = groups});
+        result_of(boxes, "a+b", {.simplify = true, .face_groups = groups});
     CHECK(result.certificate);
     CHECK(result.mesh.points.size() == 12);
     CHECK(result.mesh.faces.size() == 20);
@@ -212,14 +212,14 @@ TEST_CASE("simplify: faces of different groups stay apart") {
         }
     groups.pop_back();
     CHECK_THROWS_AS(
-        static_cast<void>(evaluate(boxes, "a+b", {.simplify = true, .face_groups = groups})),
+        static_cast<void>(result_of(boxes, "a+b", {.simplify = true, .face_groups = groups})),
         std::invalid_argument);
 }
 
 TEST_CASE("simplify: a face of before holds each point that was cut") {
     const std::vector<tf::mesh> boxes{refined(box(2, 2, 2), 2),
                                       moved(box(2, 2, 2), {1.125, 1.125, 1.125})};
-    const tf::boolean_result result = evaluate(boxes, "a+b", {.simplify = true});
+    const tf::boolean_result result = result_of(boxes, "a+b", {.simplify = true});
     std::size_t cut_points = 0;
     for (std::size_t p = 0; p < result.mesh.points.size(); ++p) {
         const auto [operand, index] = result.face_of_cut_vertex[p];
@@ -233,17 +233,17 @@ TEST_CASE("simplify: a face of before holds each point that was cut") {
 }
 
 TEST_CASE("simplify: nothing, and one thread or many") {
-    CHECK(evaluate({tf::mesh{}}, "a", {.simplify = true}).certificate);
-    CHECK(evaluate({box(1, 1, 1), box(1, 1, 1)}, "a-b", {.simplify = true}).mesh == tf::mesh{});
+    CHECK(result_of({tf::mesh{}}, "a", {.simplify = true}).certificate);
+    CHECK(result_of({box(1, 1, 1), box(1, 1, 1)}, "a-b", {.simplify = true}).mesh == tf::mesh{});
     test::random source(33);
     std::vector<tf::mesh> boxes;
     for (int k = 0; k < 12; ++k) boxes.push_back(refined(test::lattice_box(source), 3));
     const std::string text = "a+b+c+d-e-f-g+h+i-j+k-l";
-    const tf::boolean_result expected = evaluate(boxes, text, {.simplify = true});
+    const tf::boolean_result expected = result_of(boxes, text, {.simplify = true});
     CHECK(expected.certificate);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const tf::boolean_result found = evaluate(boxes, text, {.simplify = true});
+        const tf::boolean_result found = result_of(boxes, text, {.simplify = true});
         CHECK(found.mesh == expected.mesh);
         CHECK(found.face_source == expected.face_source);
     }

@@ -24,8 +24,8 @@ using test::together;
 using operands = std::array<tf::mesh, 2>;
 
 /// The general way: of three operands, the last one empty.
-tf::boolean_result evaluate(const operands& pair, const std::string& text,
-                            const tf::boolean_options& options) {
+tf::boolean_result evaluate_pair(const operands& pair, const std::string& text,
+                                 const tf::boolean_options& options) {
     const tf::mesh nothing;
     const std::array<tf::mesh_view, 3> views{pair[0], pair[1], nothing};
     return tf::boolean(views, {text, 3}, options);
@@ -41,10 +41,10 @@ tf::boolean_result evaluate_prepared(const operands& pair, const std::string& te
 enum class quick { never, perhaps, unless_mended };
 
 /// The results of both ways are one, for all formulas that differ.
-void check_both_ways(const operands& pair, quick expected = quick::unless_mended) {
+void check_quick_way(const operands& pair, quick expected = quick::unless_mended) {
     for (const std::string text : {"a+b", "a*b", "a-b", "b-a", "a^b", "a", "b"}) {
         CAPTURE(text);
-        const tf::boolean_result general = evaluate(pair, text, {});
+        const tf::boolean_result general = evaluate_pair(pair, text, {});
         const tf::boolean_result result = evaluate_prepared(pair, text, {});
         REQUIRE(general.certificate);
         const bool was_quick = result.statistics.cells == 0;
@@ -69,13 +69,13 @@ tf::mesh rotated(tf::mesh mesh, double angle) {
 }  // namespace
 
 TEST_CASE("sound operands: apart, nested, equal or empty, the result is that of the general way") {
-    check_both_ways({ball(3, 1.0), moved(ball(3, 1.0), {5, 0, 0})});
-    check_both_ways({ball(3, 1.0), ball(3, 0.5)});
-    check_both_ways({ball(3, 0.5), ball(3, 1.0)});
-    check_both_ways({ball(3, 1.0), ball(3, 1.0)});
-    check_both_ways({ball(2, 1.0), tf::mesh{}});
-    check_both_ways({tf::mesh{}, ball(2, 1.0)});
-    check_both_ways({tf::mesh{}, tf::mesh{}});
+    check_quick_way({ball(3, 1.0), moved(ball(3, 1.0), {5, 0, 0})});
+    check_quick_way({ball(3, 1.0), ball(3, 0.5)});
+    check_quick_way({ball(3, 0.5), ball(3, 1.0)});
+    check_quick_way({ball(3, 1.0), ball(3, 1.0)});
+    check_quick_way({ball(2, 1.0), tf::mesh{}});
+    check_quick_way({tf::mesh{}, ball(2, 1.0)});
+    check_quick_way({tf::mesh{}, tf::mesh{}});
 }
 
 TEST_CASE(
@@ -90,8 +90,8 @@ TEST_CASE(
         a = together(a, moved(ball(2, 0.2), {source.in(1.5, 2), 0, 0}));  // perhaps in b
         tf::mesh b = moved(rotated(ball(4, 1.0), source.in(0, 3)), at());
         b = together(b, moved(ball(1, 0.1), {0, source.in(-3, -2), 0}));
-        check_both_ways({a, b});
-        check_both_ways({b, a});
+        check_quick_way({a, b});
+        check_quick_way({b, a});
     }
 }
 
@@ -99,7 +99,7 @@ TEST_CASE(
     "sound operands: loose pieces that are cut off, or out of the middle, need no other way") {
     // All faces of the piece are cut, or next to such; the large ball is far from it.
     const auto check = [](const operands& pair) {
-        check_both_ways(pair, quick::perhaps);  // of a^b, pieces have edges of four faces
+        check_quick_way(pair, quick::perhaps);  // of a^b, pieces have edges of four faces
         for (const std::string text : {"a+b", "a*b", "a-b", "b-a"})
             CHECK(evaluate_prepared(pair, text, {}).statistics.cells == 0);
     };
@@ -121,7 +121,7 @@ TEST_CASE("sound operands: boxes on a lattice, that touch in every way, give tha
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
-        check_both_ways({test::lattice_box(source), test::lattice_box(source)});
+        check_quick_way({test::lattice_box(source), test::lattice_box(source)});
     }
 }
 
@@ -130,16 +130,17 @@ TEST_CASE("sound operands: results are sound, with cavities and edges of four fa
         CAPTURE(seed);
         test::random source(seed);
         // Whether a part within the region looked at is turned inside out may not be told there.
-        const auto check = [](const operands& pair) { check_both_ways(pair, quick::perhaps); };
+        const auto check = [](const operands& pair) { check_quick_way(pair, quick::perhaps); };
         const auto make = [&](const std::string& text) {
-            return evaluate({test::lattice_box(source), test::lattice_box(source)}, text, {}).mesh;
+            return evaluate_pair({test::lattice_box(source), test::lattice_box(source)}, text, {})
+                .mesh;
         };
         const tf::mesh a = make("a^b"), b = make(seed % 2 == 0 ? "a-b" : "a+b");
         check({a, b});
         check({b, a});
         const tf::mesh shell =
-            evaluate({moved(box(6, 6, 6), {-0.5, -0.5, -0.5}), test::lattice_box(source)}, "a-b",
-                     {})
+            evaluate_pair({moved(box(6, 6, 6), {-0.5, -0.5, -0.5}), test::lattice_box(source)},
+                          "a-b", {})
                 .mesh;
         check({shell, b});
         check({a, shell});
@@ -155,7 +156,7 @@ TEST_CASE("sound operands: turned boxes, thin ones too, give that of the general
             return moved(rotated(box(source.in(0.5, 2), source.in(0.5, 2), thin), source.in(0, 3)),
                          {source.in(-0.5, 0.5), source.in(-0.5, 0.5), source.in(-0.5, 0.5)});
         };
-        check_both_ways({make(), make()}, quick::perhaps);  // edges of four faces
+        check_quick_way({make(), make()}, quick::perhaps);  // edges of four faces
     }
 }
 
@@ -163,13 +164,13 @@ TEST_CASE("sound operands: where rounding breaks something, the general way mend
     // A ball against itself, moved by less than rounding keeps apart.
     const operands pair{rotated(ball(3, 1.0), 0.7),
                         moved(rotated(ball(3, 1.0), 0.7), {1e-15, 0, 0})};
-    const tf::boolean_result general = evaluate(pair, "a+b", {});
+    const tf::boolean_result general = evaluate_pair(pair, "a+b", {});
     const tf::boolean_result quick = evaluate_prepared(pair, "a+b", {});
     CHECK(quick.certificate.status == general.certificate.status);
     CHECK(quick.mesh == general.mesh);
     const tf::boolean_result floats =
         evaluate_prepared(pair, "a*b", {.precision = tf::precision::float32});
-    CHECK(floats.mesh == evaluate(pair, "a*b", {.precision = tf::precision::float32}).mesh);
+    CHECK(floats.mesh == evaluate_pair(pair, "a*b", {.precision = tf::precision::float32}).mesh);
 }
 
 TEST_CASE("sound operands: points that no face uses may be anything, bad ones are refused") {
@@ -192,7 +193,7 @@ TEST_CASE("sound operands: what is not sound at sight goes the general way") {
         for (const std::uint32_t corner : f) soup.points.push_back(ball(2, 1.0).points[corner]);
     for (std::uint32_t i = 0; i < soup.points.size(); i += 3)
         soup.faces.push_back({i, i + 1, i + 2});
-    check_both_ways({soup, moved(ball(3, 1.0), {0.3, 0.2, 0.1})}, quick::never);
+    check_quick_way({soup, moved(ball(3, 1.0), {0.3, 0.2, 0.1})}, quick::never);
 }
 
 TEST_CASE("sound operands: a second question about prepared meshes builds nothing") {

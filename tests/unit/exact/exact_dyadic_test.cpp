@@ -2,6 +2,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/extremes.hpp>
 #include <support/random.hpp>
 
 #include <bit>
@@ -13,15 +14,14 @@
 
 namespace {
 
+using test::greatest;
+using test::infinity;
+using test::least;
 using tf::detail::exact::double_format;
 using tf::detail::exact::dyadic;
 using tf::detail::exact::float_format_32;
 using tf::detail::exact::quotient;
 using tf::detail::exact::sign_of;
-
-constexpr double least = 0x1p-1074;
-constexpr double greatest = 0x1.fffffffffffffp+1023;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool same(const dyadic& a, const dyadic& b) { return sign_of(a - b) == 0; }
 

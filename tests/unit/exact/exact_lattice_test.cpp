@@ -3,6 +3,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/extremes.hpp>
 #include <support/point_families.hpp>
 
 #include <array>
@@ -17,10 +18,9 @@ namespace {
 
 namespace detail = treeform::detail;
 using detail::exact::odd_part_of;
+using test::greatest;
+using test::least;
 using tf::test::point_family;
-
-constexpr double least = 0x1p-1074;
-constexpr double greatest = 0x1.fffffffffffffp+1023;
 
 detail::exact::lattice lattice_of(const std::vector<double>& numbers) {
     detail::exact::lattice grid;

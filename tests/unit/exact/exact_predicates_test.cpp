@@ -3,6 +3,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/extremes.hpp>
 #include <support/point_families.hpp>
 
 #include <algorithm>
@@ -19,17 +20,18 @@
 
 namespace {
 
+using test::greatest;
+using test::least;
 using tf::point2;
 using tf::point3;
 using tf::detail::exact::undecided;
+using tf::test::each;
 using tf::test::point_family;
 
 constexpr point3 origin{0, 0, 0};
 constexpr point3 ex{1, 0, 0};
 constexpr point3 ey{0, 1, 0};
 constexpr point3 ez{0, 0, 1};
-constexpr double least = 0x1p-1074;
-constexpr double greatest = 0x1.fffffffffffffp+1023;
 
 /// The signs of all predicates on one group of nine points.
 std::vector<int> all_signs(const std::vector<point3>& p) {
@@ -47,12 +49,6 @@ std::vector<int> all_signs(const std::vector<point3>& p) {
             tf::normal_dot(first, second),
             tf::normal_turn(first, second, p[6], p[7]),
             tf::normal_determinant(first, second, third)};
-}
-
-template <class Function>
-std::vector<point3> each(std::vector<point3> points, const Function& f) {
-    for (point3& p : points) p = {f(p.x), f(p.y), f(p.z)};
-    return points;
 }
 
 /// Calls `check` with groups of nine points of every family.

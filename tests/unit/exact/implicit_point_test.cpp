@@ -2,6 +2,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/extremes.hpp>
 #include <support/point_families.hpp>
 
 #include <algorithm>
@@ -20,14 +21,14 @@
 
 namespace {
 
+using test::greatest;
+using test::infinity;
+using test::least;
 using tf::implicit_point;
 using tf::plane_points;
 using tf::point3;
+using tf::test::each;
 using tf::test::point_family;
-
-constexpr double least = 0x1p-1074;
-constexpr double greatest = 0x1.fffffffffffffp+1023;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr plane_points at_x(double x) { return {{x, 0, 0}, {x, 1, 0}, {x, 0, 1}}; }
 constexpr plane_points at_y(double y) { return {{0, y, 0}, {0, y, 1}, {1, y, 0}}; }
@@ -197,7 +198,7 @@ TEST_CASE("a point beyond the range of double is decided, and rounds to infinity
 
 /// Groups made of points of every family.
 template <class Function>
-void for_each_group(int groups, const Function& check) {
+void for_each_large_group(int groups, const Function& check) {
     for (std::size_t f = 0; f < tf::test::point_family_names.size(); ++f) {
         CAPTURE(tf::test::point_family_names[f]);
         tf::test::point_stream stream(static_cast<point_family>(f), 77);
@@ -231,7 +232,7 @@ std::vector<implicit_point> points_of(const std::vector<point3>& given) {
     return points;
 }
 
-std::vector<int> all_signs(const std::vector<point3>& given) {
+std::vector<int> signs_of_points(const std::vector<point3>& given) {
     const auto points = points_of(given);
     const plane_points plane{given[0], given[1], given[2]};
     const plane_points other{given[13], given[14], given[15]};
@@ -251,15 +252,9 @@ std::vector<int> all_signs(const std::vector<point3>& given) {
     return signs;
 }
 
-template <class Function>
-std::vector<point3> each(std::vector<point3> points, const Function& f) {
-    for (point3& p : points) p = {f(p.x), f(p.y), f(p.z)};
-    return points;
-}
-
 TEST_CASE(
     "points lie in the planes and on the lines that define them, whatever their coordinates") {
-    for_each_group(20, [](const std::vector<point3>& given) {
+    for_each_large_group(20, [](const std::vector<point3>& given) {
         for (const implicit_point& p : points_of(given)) {
             using origin = implicit_point::origin;
             const auto& d = p.definition();
@@ -276,7 +271,7 @@ TEST_CASE(
 }
 
 TEST_CASE("swapping points changes signs as it should, in every permutation") {
-    for_each_group(6, [](const std::vector<point3>& given) {
+    for_each_large_group(6, [](const std::vector<point3>& given) {
         const auto points = points_of(given);
         for (std::size_t i = 0; i + 2 < points.size(); ++i) {
             const auto p = [&](std::size_t k) -> const implicit_point& { return points[i + k]; };
@@ -316,18 +311,18 @@ TEST_CASE("normal_cross follows the right hand") {
 }
 
 TEST_CASE("scaling by a power of two changes no sign") {
-    for_each_group(6, [](const std::vector<point3>& given) {
+    for_each_large_group(6, [](const std::vector<point3>& given) {
         for (const int power : {-900, -300, -1, 300, 900}) {
             const auto scaled = each(given, [&](double x) { return std::ldexp(x, power); });
             // Where nothing was lost, that is.
             if (each(scaled, [&](double x) { return std::ldexp(x, -power); }) != given) continue;
-            REQUIRE(all_signs(scaled) == all_signs(given));
+            REQUIRE(signs_of_points(scaled) == signs_of_points(given));
         }
     });
 }
 
 TEST_CASE("exchanging axes in a cycle turns the signs with them") {
-    for_each_group(6, [](const std::vector<point3>& given) {
+    for_each_large_group(6, [](const std::vector<point3>& given) {
         std::vector<point3> turned = given;
         for (point3& p : turned) p = {p.y, p.z, p.x};
         const auto points = points_of(given);
@@ -431,12 +426,12 @@ TEST_CASE("no rounding mode changes a sign or a rounded coordinate") {
         }
         return result;
     };
-    for_each_group(6, [&](const std::vector<point3>& given) {
-        const auto signs = all_signs(given);
+    for_each_large_group(6, [&](const std::vector<point3>& given) {
+        const auto signs = signs_of_points(given);
         const auto rounded = all_rounded(given);
         for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
             std::fesetround(mode);
-            const auto signs_there = all_signs(given);
+            const auto signs_there = signs_of_points(given);
             const auto rounded_there = all_rounded(given);
             std::fesetround(FE_TONEAREST);
             REQUIRE(signs_there == signs);
@@ -448,15 +443,15 @@ TEST_CASE("no rounding mode changes a sign or a rounded coordinate") {
 #ifdef __SSE2__
 TEST_CASE("flushing denormals changes no sign") {
     const auto same = [](const std::vector<point3>& given) {
-        const auto signs = all_signs(given);
+        const auto signs = signs_of_points(given);
         const unsigned saved = _mm_getcsr();
         _mm_setcsr(saved | 0x8040);
-        const auto flushed = all_signs(given);
+        const auto flushed = signs_of_points(given);
         _mm_setcsr(saved);
         return flushed == signs;
     };
-    for_each_group(6, [&](const std::vector<point3>& given) { REQUIRE(same(given)); });
-    for_each_group(6, [&](const std::vector<point3>& given) {
+    for_each_large_group(6, [&](const std::vector<point3>& given) { REQUIRE(same(given)); });
+    for_each_large_group(6, [&](const std::vector<point3>& given) {
         for (const int power : {-1060, -1000, -500, -340})
             REQUIRE(same(each(given, [&](double x) { return std::ldexp(x, power); })));
     });

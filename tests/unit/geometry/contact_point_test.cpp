@@ -18,9 +18,10 @@ using tf::intersect;
 using tf::point3;
 using tf::triangle3;
 using tf::triangle_contact;
+using tf::test::integral;
 using enum tf::feature;
 
-const triangle3 base{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+const triangle3 half_square{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
 bool within_box(const point3& p, const triangle3& t) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -37,15 +38,7 @@ triangle3 scaled(const triangle3& t, double factor) {
     return result;
 }
 
-tf::test::triangle_of<std::int64_t> integral(const triangle3& t) {
-    tf::test::triangle_of<std::int64_t> result;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            result[i][axis] = static_cast<std::int64_t>(t[i][axis]);
-    return result;
-}
-
-triangle3 lattice_triangle(tf::test::random_source& random) {
+triangle3 small_triangle(tf::test::random_source& random) {
     triangle3 t;
     for (point3& p : t) p = {random.whole(0, 3), random.whole(0, 3), random.whole(0, 3)};
     return t;
@@ -64,12 +57,12 @@ TEST_CASE("a corner comes out bit for bit, that of the first triangle where both
 
 TEST_CASE("an edge through an interior and two edges that cross have the point one expects") {
     const triangle3 blade{{{1, -1, -1}, {1, 1, -1}, {1, 0, 1}}};
-    CHECK(approximate_point(base, blade, {e0, interior}) == point3{1, 0, 0});
-    CHECK(approximate_point(base, blade, {interior, e1}) == point3{1, 0.5, 0});
-    CHECK(approximate_point(blade, base, {e1, interior}) == point3{1, 0.5, 0});
+    CHECK(approximate_point(half_square, blade, {e0, interior}) == point3{1, 0, 0});
+    CHECK(approximate_point(half_square, blade, {interior, e1}) == point3{1, 0.5, 0});
+    CHECK(approximate_point(blade, half_square, {e1, interior}) == point3{1, 0.5, 0});
     const triangle3 star{{{3, 3, 0}, {-1, 3, 0}, {3, -1, 0}}};
-    CHECK(approximate_point(base, star, {e0, e1}) == point3{2, 0, 0});
-    CHECK(approximate_point(base, star, {e1, e0}) == point3{1, 3, 0});
+    CHECK(approximate_point(half_square, star, {e0, e1}) == point3{2, 0, 0});
+    CHECK(approximate_point(half_square, star, {e1, e0}) == point3{1, 3, 0});
 }
 
 TEST_CASE("on small lattices the point is right to a few units in the last place") {
@@ -77,8 +70,8 @@ TEST_CASE("on small lattices the point is right to a few units in the last place
     int constructed = 0;
     for (int trial = 0; trial < 20000; ++trial) {
         CAPTURE(trial);
-        const triangle3 a = lattice_triangle(random);
-        const triangle3 b = lattice_triangle(random);
+        const triangle3 a = small_triangle(random);
+        const triangle3 b = small_triangle(random);
         const tf::test::reference_intersection<std::int64_t> reference(integral(a), integral(b));
         for (std::size_t i = 0; i < reference.points().size(); ++i) {
             const contact end = reference.answer().ends[i];
@@ -115,8 +108,8 @@ TEST_CASE("the point is finite and inside both boxes whatever the triangles") {
 TEST_CASE("a power of two scales the point, up to the largest doubles and down to small ones") {
     tf::test::random_source random(2);
     for (int trial = 0; trial < 2000; ++trial) {
-        const triangle3 a = lattice_triangle(random);
-        const triangle3 b = lattice_triangle(random);
+        const triangle3 a = small_triangle(random);
+        const triangle3 b = small_triangle(random);
         const triangle_contact found = intersect(a, b);
         for (std::size_t i = 0; i < found.count; ++i)
             for (const double factor : {0x1p-960, 0x1p-700, -0x1p-3, 0x1p900, 0x1p1022}) {

@@ -9,6 +9,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +20,7 @@
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(TREEFORM_SOURCE_DIR) / "data";
+const std::filesystem::path folder = test::data_folder();
 
 /// faces, faces without area, then the pairs by kind: a row of expected.csv.
 std::vector<std::uint64_t> measured(const std::filesystem::path& path) {

@@ -23,7 +23,7 @@ using vec = std::array<whole, 3>;
 
 vec minus(const vec& a, const vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 vec times(const vec& a, whole f) { return {a[0] * f, a[1] * f, a[2] * f}; }
-vec plus(const vec& a, const vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+vec sum_of(const vec& a, const vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 whole dot(const vec& a, const vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 vec cross(const vec& a, const vec& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -93,7 +93,7 @@ struct subject {
     }
 
     [[nodiscard]] tf::feature name_of(const ratio& t) const {
-        const vec x = plus(times(origin, t.den), times(direction, t.num));
+        const vec x = sum_of(times(origin, t.den), times(direction, t.num));
         const auto corner = [&](std::size_t i) { return times(corners[i % 3], t.den); };
         for (std::size_t i = 0; i < 3; ++i)
             if (x == corner(i)) return static_cast<tf::feature>(i);
@@ -126,8 +126,8 @@ subject any_subject(test::random& random) {
     if (random.below(2) == 0) {  // aimed at a point of the triangle
         const whole i = static_cast<whole>(random.below(4));
         const whole j = static_cast<whole>(random.below(static_cast<std::size_t>(5 - i)));
-        const vec aim = plus(plus(times(s.corners[0], i), times(s.corners[1], j)),
-                             times(s.corners[2], 4 - i - j));
+        const vec aim = sum_of(sum_of(times(s.corners[0], i), times(s.corners[1], j)),
+                               times(s.corners[2], 4 - i - j));
         s.direction = minus(aim, times(s.origin, 4));
         if (s.direction == vec{}) s.direction = {1, 0, 0};
     }

@@ -20,6 +20,7 @@ using tf::overlap;
 using tf::point3;
 using tf::triangle3;
 using tf::triangle_contact;
+using tf::test::integral;
 using enum tf::feature;
 
 /// The triangle every hand-made case is about: the half of a square, 4 wide, normal upwards.
@@ -67,13 +68,6 @@ feature original_name(feature f, const std::array<int, 3>& order) {
 constexpr std::array<std::array<int, 3>, 6> orders{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
 
-tf::test::triangle_of<std::int64_t> integral(const triangle3& t) {
-    tf::test::triangle_of<std::int64_t> result;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            result[i][axis] = static_cast<std::int64_t>(t[i][axis]);
-    return result;
-}
 tf::test::reference_contact reference(const triangle3& a, const triangle3& b) {
     return tf::test::reference_intersection<std::int64_t>(integral(a), integral(b)).answer();
 }

@@ -22,7 +22,7 @@ namespace {
 using pairs = std::vector<tf::face_pair>;
 
 /// The pairs, after the counts have been compared with them.
-pairs found_in(const tf::mesh& mesh) {
+pairs pairs_in(const tf::mesh& mesh) {
     const tf::self_intersection_result result =
         tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index});
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
@@ -40,17 +40,17 @@ pairs of_kind(tf::pair_kind kind, const pairs& all) {
 }
 
 void check_kind(const tf::mesh& mesh, tf::pair_kind kind) {
-    CHECK(found_in(mesh) == pairs{{0, 1, kind}});
+    CHECK(pairs_in(mesh) == pairs{{0, 1, kind}});
     CHECK(test::pairs_by_brute_force(mesh, test::common_by_reference) == pairs{{0, 1, kind}});
 }
 
 }  // namespace
 
 TEST_CASE("self_intersections: no face, one face and neighbors have none") {
-    CHECK(found_in({}).empty());
-    CHECK(found_in({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}).empty());
-    CHECK(found_in(test::grid(9)).empty());
-    CHECK(found_in({{{0, 0, 0}, {0, 0, 0}}, {{0, 1, 0}}}).empty());
+    CHECK(pairs_in({}).empty());
+    CHECK(pairs_in({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}).empty());
+    CHECK(pairs_in(test::grid(9)).empty());
+    CHECK(pairs_in({{{0, 0, 0}, {0, 0, 0}}, {{0, 1, 0}}}).empty());
 }
 
 TEST_CASE("self_intersections: each kind in its smallest example") {
@@ -66,9 +66,9 @@ TEST_CASE("self_intersections: each kind in its smallest example") {
     check_kind({p, {{0, 1, 2}, {7, 10, 11}}}, pair_kind::touching);
     check_kind({p, {{0, 1, 2}, {0, 9, 10}}}, pair_kind::touching);
     check_kind({p, {{0, 1, 2}, {3, 4, 4}}}, pair_kind::degenerate);
-    CHECK(found_in({p, {{0, 1, 2}, {1, 6, 2}}}).empty());  // an edge, on either side of it
-    CHECK(found_in({p, {{0, 1, 2}, {1, 0, 4}}}).empty());  // an edge, at an angle
-    CHECK(found_in({p, {{0, 1, 2}, {0, 10, 11}}}).empty());
+    CHECK(pairs_in({p, {{0, 1, 2}, {1, 6, 2}}}).empty());  // an edge, on either side of it
+    CHECK(pairs_in({p, {{0, 1, 2}, {1, 0, 4}}}).empty());  // an edge, at an angle
+    CHECK(pairs_in({p, {{0, 1, 2}, {0, 10, 11}}}).empty());
 }
 
 TEST_CASE("self_intersections: corners at one place are shared, unless numbers are asked for") {
@@ -77,8 +77,8 @@ TEST_CASE("self_intersections: corners at one place are shared, unless numbers a
     soup.points.push_back(square.points[0]);
     soup.points.push_back(square.points[3]);
     soup.faces[1] = {4, 5, 2};
-    CHECK(found_in(square).empty());
-    CHECK(found_in(soup) == pairs{{0, 1, tf::pair_kind::touching}});
+    CHECK(pairs_in(square).empty());
+    CHECK(pairs_in(soup) == pairs{{0, 1, tf::pair_kind::touching}});
     CHECK(tf::self_intersections(soup).pairs.empty());
     CHECK(tf::self_intersections(tf::prepared_mesh::borrow(soup)).pairs.empty());
 }
@@ -121,7 +121,7 @@ TEST_CASE("self_intersections: lattice soups as an independent intersection find
         test::random source(seed);
         const tf::mesh soup = test::lattice_soup(source, 60, 12 + seed % 20, 2 + seed % 4);
         const pairs expected = test::pairs_by_brute_force(soup, test::common_by_reference);
-        CHECK(found_in(soup) == expected);
+        CHECK(pairs_in(soup) == expected);
         for (const tf::face_pair& pair : expected) ++seen[static_cast<std::size_t>(pair.kind)];
     }
     for (const std::size_t n : seen) CHECK(n > 20);
@@ -139,7 +139,7 @@ TEST_CASE("self_intersections: other soups as all pairs one by one") {
               test::fan(source, 150), lattice, test::moved(lattice, {1e6, -1e6, 1e9}),
               test::scaled(lattice, 0.1), twice, test::together(sheet, sheet),
               test::together(test::scaled(lattice, 1e-9), test::random_soup(source, 100, 1.0))}) {
-            const pairs found = found_in(mesh);
+            const pairs found = pairs_in(mesh);
             CHECK(found == test::pairs_by_brute_force(mesh, test::common_by_library));
         }
     }
@@ -159,7 +159,7 @@ TEST_CASE("self_intersections: order, axes, scale and threads change no pair and
 TEST_CASE("self_intersections: every option takes from the same pairs") {
     test::random source(5);
     const tf::mesh mesh = test::lattice_soup(source, 400, 300, 6);
-    const pairs all = found_in(mesh);
+    const pairs all = pairs_in(mesh);
     REQUIRE(all.size() > 1000);
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k) {
         tf::self_intersection_options options;
@@ -193,7 +193,7 @@ TEST_CASE("self_intersections: every option takes from the same pairs") {
 TEST_CASE("self_intersections: the first pair is one of all, on any number of threads the same") {
     test::random source(6);
     const tf::mesh mesh = test::random_soup(source, 20000, 0.01);
-    const pairs all = found_in(mesh);
+    const pairs all = pairs_in(mesh);
     const pairs first = tf::self_intersections(
                             mesh, {.vertices = tf::vertex_identity::by_index, .first_only = true})
                             .pairs;

@@ -22,11 +22,11 @@
 
 namespace {
 
-tf::mesh_file read(const std::string& bytes) {
+tf::mesh_file read_3mf(const std::string& bytes) {
     return tf::read(std::as_bytes(std::span(bytes)), "a.3mf", {});
 }
 
-std::string written(const tf::mesh_file& file, std::optional<tf::precision> precision = {}) {
+std::string written_3mf(const tf::mesh_file& file, std::optional<tf::precision> precision = {}) {
     return tf::write_to_memory(file, {.format = "3mf", .precision = precision});
 }
 
@@ -62,7 +62,7 @@ tf::mesh_file scene(unsigned seed) {
     return file;
 }
 
-bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
+bool same_points(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
     if (a.size() != b.size()) return false;
     for (std::size_t v = 0; v < a.size(); ++v)
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -72,7 +72,7 @@ bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& 
     return true;
 }
 
-std::vector<int> values(const tf::mesh_file& file, const char* element, const char* name) {
+std::vector<int> whole_values(const tf::mesh_file& file, const char* element, const char* name) {
     const tf::element* const e = tf::find_element(file.attributes, element);
     const tf::column* const c = e == nullptr ? nullptr : tf::find_column(*e, name);
     std::vector<int> all;
@@ -90,7 +90,7 @@ std::string codes(const tf::mesh_file& file) {
 }  // namespace
 
 TEST_CASE("3mf: an object in the build is read, one outside is not") {
-    const tf::mesh_file file = read(test::package_3mf(
+    const tf::mesh_file file = read_3mf(test::package_3mf(
         model(object(1, "", test::tetrahedron_3mf) + object(2, "", test::tetrahedron_3mf),
               "<item objectid=\"1\"/>")));
     CHECK(file.format == "3mf");
@@ -105,7 +105,7 @@ TEST_CASE("3mf: an object in the build is read, one outside is not") {
 
 TEST_CASE("3mf: nested components are placed by their transforms, inner ones first") {
     const std::string turn_z = "0 1 0 -1 0 0 0 0 1 10 0 0";  // a quarter turn, then 10 along x
-    const tf::mesh_file file = read(test::package_3mf(model(
+    const tf::mesh_file file = read_3mf(test::package_3mf(model(
         object(1, "name=\"leaf\"", test::tetrahedron_3mf) +
             object(2, "",
                    "<components><component objectid=\"1\" transform=\"" + turn_z +
@@ -130,7 +130,7 @@ TEST_CASE("3mf: nested components are placed by their transforms, inner ones fir
 }
 
 TEST_CASE("3mf: a mirrored object is still not inside out") {
-    const tf::mesh_file file = read(
+    const tf::mesh_file file = read_3mf(
         test::package_3mf(model(object(1, "", test::tetrahedron_3mf),
                                 "<item objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>")));
     CHECK(tf::signed_volume(file.mesh) == doctest::Approx(1.0 / 6.0));
@@ -138,7 +138,7 @@ TEST_CASE("3mf: a mirrored object is still not inside out") {
 
 TEST_CASE("3mf: parts have the name of the object, or around it, or a number") {
     const auto name_of = [](const std::string& attributes, const std::string& item) {
-        const tf::mesh_file file = read(
+        const tf::mesh_file file = read_3mf(
             test::package_3mf(model(object(7, attributes, test::tetrahedron_3mf) +
                                         object(8, "name=\"other\"", test::tetrahedron_3mf),
                                     "<item objectid=\"7\" " + item + "/><item objectid=\"8\"/>")));
@@ -164,8 +164,8 @@ TEST_CASE("3mf: objects of other model parts are read where the root names them"
               "");
     const std::string other = model(object(5, "name=\"five\"", test::tetrahedron_3mf), "");
     const tf::mesh_file file =
-        read(test::package_3mf(root, {{.name = "3D/Objects/a.model", .bytes = part},
-                                      {.name = "3D/Objects/b.model", .bytes = other}}));
+        read_3mf(test::package_3mf(root, {{.name = "3D/Objects/a.model", .bytes = part},
+                                          {.name = "3D/Objects/b.model", .bytes = other}}));
     const auto& parts = file.attributes.parts;
     REQUIRE(parts.size() == 3);
     CHECK(parts[0].object == "plate");
@@ -176,11 +176,11 @@ TEST_CASE("3mf: objects of other model parts are read where the root names them"
 TEST_CASE("3mf: units are kept, and written again") {
     for (const std::string unit : {"micron", "millimeter", "centimeter", "inch", "foot", "meter"}) {
         const tf::mesh_file file =
-            read(test::package_3mf(model(object(1, "", test::tetrahedron_3mf),
-                                         "<item objectid=\"1\"/>", " unit=\"" + unit + "\"")));
+            read_3mf(test::package_3mf(model(object(1, "", test::tetrahedron_3mf),
+                                             "<item objectid=\"1\"/>", " unit=\"" + unit + "\"")));
         CHECK(file.attributes.obj_info == std::vector<std::string>{"unit " + unit});
         CHECK(file.mesh.points[1] == tf::point3{1, 0, 0});
-        CHECK(read(written(file)).attributes.obj_info == file.attributes.obj_info);
+        CHECK(read_3mf(written_3mf(file)).attributes.obj_info == file.attributes.obj_info);
     }
 }
 
@@ -191,21 +191,21 @@ TEST_CASE("3mf: base materials are parts' materials and colors of faces") {
         "<triangle v1=\"0\" v2=\"1\" v3=\"2\"/>"
         "<triangle v1=\"0\" v2=\"2\" v3=\"1\" p1=\"1\"/>"
         "<triangle v1=\"0\" v2=\"1\" v3=\"2\" pid=\"6\" p1=\"0\"/></triangles></mesh>";
-    const tf::mesh_file file = read(test::package_3mf(
+    const tf::mesh_file file = read_3mf(test::package_3mf(
         model("<basematerials id=\"5\"><base name=\"PLA\" displaycolor=\"#FF0000\"/>"
               "<base name=\"ABS\" displaycolor=\"#00ff0080\"/></basematerials>"
               "<m:colorgroup id=\"6\"><m:color color=\"#0000FF\"/></m:colorgroup>" +
                   object(1, "name=\"a\" pid=\"5\" pindex=\"0\"", mesh),
               "<item objectid=\"1\"/>")));
-    CHECK(values(file, "face", "red") == std::vector<int>{255, 0, 0});
-    CHECK(values(file, "face", "green") == std::vector<int>{0, 255, 0});
-    CHECK(values(file, "face", "blue") == std::vector<int>{0, 0, 255});
-    CHECK(values(file, "face", "alpha") == std::vector<int>{255, 128, 255});
+    CHECK(whole_values(file, "face", "red") == std::vector<int>{255, 0, 0});
+    CHECK(whole_values(file, "face", "green") == std::vector<int>{0, 255, 0});
+    CHECK(whole_values(file, "face", "blue") == std::vector<int>{0, 0, 255});
+    CHECK(whole_values(file, "face", "alpha") == std::vector<int>{255, 128, 255});
     const std::vector<tf::part> parts{{.object = "a", .material = "PLA", .first_face = 0},
                                       {.object = "a", .material = "ABS", .first_face = 1},
                                       {.object = "a", .first_face = 2}};
     CHECK(file.attributes.parts == parts);
-    const tf::mesh_file again = read(written(file));
+    const tf::mesh_file again = read_3mf(written_3mf(file));
     CHECK(again.attributes == file.attributes);
     CHECK(again.mesh == file.mesh);
 }
@@ -215,7 +215,7 @@ TEST_CASE("3mf: corners of several colors are colors of points where that is the
         "<m:colorgroup id=\"6\"><m:color color=\"#000000\"/><m:color color=\"#010000\"/>"
         "<m:color color=\"#020000\"/></m:colorgroup>";
     const auto colored = [&](const std::string& second) {
-        return read(test::package_3mf(
+        return read_3mf(test::package_3mf(
             model(head + object(1, "",
                                 "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>"
                                 "<vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/>"
@@ -226,14 +226,14 @@ TEST_CASE("3mf: corners of several colors are colors of points where that is the
                   "<item objectid=\"1\"/>")));
     };
     const tf::mesh_file points = colored("pid=\"6\" p1=\"2\" p2=\"1\" p3=\"0\"");
-    CHECK(values(points, "vertex", "red") == std::vector<int>{0, 1, 2});
+    CHECK(whole_values(points, "vertex", "red") == std::vector<int>{0, 1, 2});
     CHECK(tf::find_element(points.attributes, "face") == nullptr);
     CHECK(points.warnings.empty());
-    CHECK(read(written(points)).attributes == points.attributes);
+    CHECK(read_3mf(written_3mf(points)).attributes == points.attributes);
     const tf::mesh_file faces = colored("pid=\"6\" p1=\"1\"");
-    CHECK(values(faces, "face", "red") == std::vector<int>{0, 1});
+    CHECK(whole_values(faces, "face", "red") == std::vector<int>{0, 1});
     CHECK(codes(faces) == "colors ");
-    CHECK(values(colored(""), "face", "red") == std::vector<int>{0, 255});
+    CHECK(whole_values(colored(""), "face", "red") == std::vector<int>{0, 255});
 }
 
 TEST_CASE("3mf: texture coordinates are those of corners, their images are not read") {
@@ -243,7 +243,7 @@ TEST_CASE("3mf: texture coordinates are those of corners, their images are not r
         "<triangle v1=\"0\" v2=\"1\" v3=\"2\"/>"
         "<triangle v1=\"0\" v2=\"2\" v3=\"1\" pid=\"6\" p1=\"0\" p2=\"1\" p3=\"2\"/>"
         "</triangles></mesh>";
-    const tf::mesh_file file = read(test::package_3mf(
+    const tf::mesh_file file = read_3mf(test::package_3mf(
         model("<m:texture2d id=\"5\" path=\"/3D/t.png\" contenttype=\"image/png\"/>"
               "<m:texture2dgroup id=\"6\" texid=\"5\"><m:tex2coord u=\"0\" v=\"0.5\"/>"
               "<m:tex2coord u=\"1\" v=\"0.5\"/><m:tex2coord u=\"1\" v=\"1\"/></m:texture2dgroup>" +
@@ -261,8 +261,8 @@ TEST_CASE("3mf: texture coordinates are those of corners, their images are not r
 TEST_CASE("3mf: objects of the type 'other' are not made, supports are") {
     const std::string resources = object(1, "type=\"support\"", test::tetrahedron_3mf) +
                                   object(2, "type=\"other\"", test::tetrahedron_3mf);
-    const tf::mesh_file file =
-        read(test::package_3mf(model(resources, "<item objectid=\"1\"/><item objectid=\"2\"/>")));
+    const tf::mesh_file file = read_3mf(
+        test::package_3mf(model(resources, "<item objectid=\"1\"/><item objectid=\"2\"/>")));
     CHECK(file.mesh.faces.size() == 4);
     CHECK(codes(file) == "not-built ");
 }
@@ -275,13 +275,13 @@ TEST_CASE("3mf: a prefix of the core, spaces in numbers and UTF-16 change nothin
         "<c:triangles><c:triangle v1=\"0\" v2=\"0\" v3=\"0\"/></c:triangles>"
         "</c:mesh></c:object></c:resources><c:build><c:item objectid=\"1\"/>"
         "</c:build></c:model>";
-    const tf::mesh_file file = read(test::package_3mf(text));
+    const tf::mesh_file file = read_3mf(test::package_3mf(text));
     REQUIRE(file.mesh.points.size() == 1);
-    CHECK(same_bits(file.mesh.points, {{0.1, 0.5, -0.0}}));
+    CHECK(same_points(file.mesh.points, {{0.1, 0.5, -0.0}}));
     CHECK(file.stored_as == tf::precision::float64);
     std::string wide = "\xff\xfe";
     for (const char c : text) wide += {c, '\0'};
-    CHECK(read(test::package_3mf(wide)).mesh == file.mesh);
+    CHECK(read_3mf(test::package_3mf(wide)).mesh == file.mesh);
 }
 
 TEST_CASE("3mf: doubles come back bit for bit when asked for, else their floats do") {
@@ -289,28 +289,29 @@ TEST_CASE("3mf: doubles come back bit for bit when asked for, else their floats 
         tf::mesh_file file = scene(seed);
         file.mesh.points[0] = {-0.0, 0x1p-1074, 0x1.fffffffffffffp1023};
         file.mesh.points[1] = {0.1, 1e22, 123456789.123456789};
-        const tf::mesh_file doubles = read(written(file, tf::precision::float64));
-        CHECK(same_bits(doubles.mesh.points, file.mesh.points));
+        const tf::mesh_file doubles = read_3mf(written_3mf(file, tf::precision::float64));
+        CHECK(same_points(doubles.mesh.points, file.mesh.points));
         CHECK(doubles.mesh.faces == file.mesh.faces);
         CHECK(doubles.attributes.parts == file.attributes.parts);
         CHECK(doubles.stored_as == tf::precision::float64);
 
         file.mesh.points[0] = {-0.0, 0x1p-149, 0x1.fffffep127};
-        tf::mesh_file floats = read(written(file));
-        CHECK(same_bits(floats.mesh.points, tf::rounded(file.mesh.points, tf::precision::float32)));
+        tf::mesh_file floats = read_3mf(written_3mf(file));
+        CHECK(
+            same_points(floats.mesh.points, tf::rounded(file.mesh.points, tf::precision::float32)));
         CHECK(floats.stored_as == tf::precision::float32);
-        CHECK(written(floats) == written(file));
+        CHECK(written_3mf(floats) == written_3mf(file));
     }
 }
 
 TEST_CASE("3mf: a scene stays a scene, and its bytes are always the same") {
     const tf::mesh_file file = scene(1);
-    const std::string bytes = written(file, tf::precision::float64);
-    CHECK(bytes == written(file, tf::precision::float64));
-    const tf::mesh_file again = read(bytes);
+    const std::string bytes = written_3mf(file, tf::precision::float64);
+    CHECK(bytes == written_3mf(file, tf::precision::float64));
+    const tf::mesh_file again = read_3mf(bytes);
     CHECK(again.mesh == file.mesh);
     CHECK(again.attributes.parts == file.attributes.parts);
-    CHECK(written(again, tf::precision::float64) == bytes);
+    CHECK(written_3mf(again, tf::precision::float64) == bytes);
     CHECK(again.warnings.empty());
 }
 
@@ -319,7 +320,7 @@ TEST_CASE("3mf: names that XML cannot hold are written so that it can") {
     file.attributes.parts[0].object =
         "a\x01"
         "b\xff\xc3\xa4\xed\xa0\x80\n\t";
-    const std::string name = read(written(file)).attributes.parts[0].object;
+    const std::string name = read_3mf(written_3mf(file)).attributes.parts[0].object;
     const std::string lost = "\xef\xbf\xbd";
     CHECK(name == "a" + lost + "b" + lost + "\xc3\xa4" + lost + lost + lost + "  ");
 }
@@ -330,22 +331,22 @@ TEST_CASE("3mf: points that no face uses stay") {
     file.mesh.points.push_back({8, 8, 8});
     for (tf::face& f : file.mesh.faces)
         for (std::uint32_t& corner : f) ++corner;
-    CHECK(read(written(file, tf::precision::float64)).mesh == file.mesh);
+    CHECK(read_3mf(written_3mf(file, tf::precision::float64)).mesh == file.mesh);
 }
 
 TEST_CASE("3mf: faces without a material are white among those that have one") {
     tf::mesh_file file = scene(1);
     file.attributes.parts[1].material = "PLA";
-    const tf::mesh_file again = read(written(file));
+    const tf::mesh_file again = read_3mf(written_3mf(file));
     CHECK(again.attributes.parts == file.attributes.parts);
-    CHECK(values(again, "face", "green") == std::vector<int>(12, 255));
-    CHECK(written(again) == written(file));
+    CHECK(whole_values(again, "face", "green") == std::vector<int>(12, 255));
+    CHECK(written_3mf(again) == written_3mf(file));
 }
 
 TEST_CASE("3mf: parts with a point in common are written as one object") {
     tf::mesh_file file = scene(1);
     file.mesh.faces[4][0] = 0;  // the second body hangs on the first
-    const tf::mesh_file again = read(written(file));
+    const tf::mesh_file again = read_3mf(written_3mf(file));
     CHECK(again.attributes.parts.size() == 2);
     CHECK(again.mesh.points.size() == file.mesh.points.size());
 }
@@ -353,11 +354,12 @@ TEST_CASE("3mf: parts with a point in common are written as one object") {
 TEST_CASE("3mf: what it cannot hold is refused or said") {
     tf::mesh_file file = scene(1);
     file.mesh.points[0].x = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_AS((void)written(file), tf::io_error);
-    CHECK_THROWS_AS((void)written({.mesh = {.points = {{0, 0, 0}}, .faces = {}}}), tf::io_error);
-    CHECK(read(written({})).mesh == tf::mesh{});
+    CHECK_THROWS_AS((void)written_3mf(file), tf::io_error);
+    CHECK_THROWS_AS((void)written_3mf({.mesh = {.points = {{0, 0, 0}}, .faces = {}}}),
+                    tf::io_error);
+    CHECK(read_3mf(written_3mf({})).mesh == tf::mesh{});
     tf::mesh_file far = scene(1);
     far.mesh.points[0].x = 1e300;
-    CHECK_THROWS_AS((void)written(far), tf::io_error);
-    CHECK_NOTHROW((void)written(far, tf::precision::float64));
+    CHECK_THROWS_AS((void)written_3mf(far), tf::io_error);
+    CHECK_NOTHROW((void)written_3mf(far, tf::precision::float64));
 }

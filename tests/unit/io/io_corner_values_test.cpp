@@ -15,22 +15,22 @@ namespace {
 
 constexpr std::uint32_t none = tf::corner_values::none;
 
-tf::mesh_file read(std::string_view text, std::string_view name = "a.obj") {
+tf::mesh_file read_obj(std::string_view text, std::string_view name = "a.obj") {
     return tf::read(std::as_bytes(std::span(text)), name, {});
 }
 
-tf::corner_values corners_of(std::string_view text) { return read(text).attributes.corners; }
+tf::corner_values corners_of(std::string_view text) { return read_obj(text).attributes.corners; }
 
-std::string complaint(std::string_view text) {
+std::string obj_complaint(std::string_view text) {
     try {
-        (void)read(text);
+        (void)read_obj(text);
         return {};
     } catch (const tf::io_error& e) {
         return e.what();
     }
 }
 
-std::string written(const tf::mesh_file& file, const char* format, bool ascii = false) {
+std::string written_mesh(const tf::mesh_file& file, const char* format, bool ascii = false) {
     return tf::write_to_memory(file, {.format = format, .ascii = ascii});
 }
 
@@ -101,31 +101,32 @@ TEST_CASE("obj: numbers of corners count from the end when negative, and ahead")
 }
 
 TEST_CASE("obj: what corners name but is not there is an error of its line") {
-    CHECK(complaint(square + rows + "f 1/1 2/2 3/9\n") ==
+    CHECK(obj_complaint(square + rows + "f 1/1 2/2 3/9\n") ==
           "a.obj:11: texture index '9' is out of range");
-    CHECK(complaint(square + rows + "f 1//1 2//2 3//3\n") ==
+    CHECK(obj_complaint(square + rows + "f 1//1 2//2 3//3\n") ==
           "a.obj:11: normal index '3' is out of range");
-    CHECK(complaint(square + "f 1/1 2/1 3/1\n") == "a.obj:5: texture index '1' is out of range");
-    CHECK(complaint(square + rows + "f 1/-5 2/1 3/1\n") ==
+    CHECK(obj_complaint(square + "f 1/1 2/1 3/1\n") ==
+          "a.obj:5: texture index '1' is out of range");
+    CHECK(obj_complaint(square + rows + "f 1/-5 2/1 3/1\n") ==
           "a.obj:11: texture index '-5' is out of range");
-    CHECK(complaint(square + rows + "f 1/0 2/1 3/1\n") ==
+    CHECK(obj_complaint(square + rows + "f 1/0 2/1 3/1\n") ==
           "a.obj:11: texture index 0 (OBJ counts from 1)");
-    CHECK(complaint(square + rows + "f 1//0 2//1 3//1\n") ==
+    CHECK(obj_complaint(square + rows + "f 1//0 2//1 3//1\n") ==
           "a.obj:11: normal index 0 (OBJ counts from 1)");
-    CHECK(complaint(square + rows + "f 1/x 2/1 3/1\n") ==
+    CHECK(obj_complaint(square + rows + "f 1/x 2/1 3/1\n") ==
           "a.obj:11: '1/x' where a corner should stand");
-    CHECK(complaint(square + rows + "f 1/1/1/1 2/1 3/1\n") ==
+    CHECK(obj_complaint(square + rows + "f 1/1/1/1 2/1 3/1\n") ==
           "a.obj:11: '1/1/1/1' where a corner should stand");
-    CHECK(complaint(square + rows + "f 1/- 2/1 3/1\n") ==
+    CHECK(obj_complaint(square + rows + "f 1/- 2/1 3/1\n") ==
           "a.obj:11: '-' where a texture index should stand");
-    CHECK(complaint(square + "vt\n") ==
+    CHECK(obj_complaint(square + "vt\n") ==
           "a.obj:5: the line ends where a texture coordinate should stand");
-    CHECK(complaint(square + "vn 0 1\n") ==
+    CHECK(obj_complaint(square + "vn 0 1\n") ==
           "a.obj:5: the line ends where a coordinate of a normal should stand");
-    CHECK(complaint(square + "vt 0 1 2 3\n") == "a.obj:5: more than three numbers");
-    CHECK(complaint(square + "vt 0,5 1\n") ==
+    CHECK(obj_complaint(square + "vt 0 1 2 3\n") == "a.obj:5: more than three numbers");
+    CHECK(obj_complaint(square + "vt 0,5 1\n") ==
           "a.obj:5: '0,5' for a texture coordinate: the decimal mark is the point");
-    CHECK(complaint(square + "f 1/99999999999999999999 2 3\n") ==
+    CHECK(obj_complaint(square + "f 1/99999999999999999999 2 3\n") ==
           "a.obj:5: texture index '99999999999999999999' is out of range");
 }
 
@@ -136,13 +137,13 @@ TEST_CASE("obj: a normal that is no number is no reason to refuse the mesh") {
         CHECK_FALSE(std::isfinite(all.normals.at(0).y));
         CHECK(all.normals.at(0).z == 1.0);
     }
-    CHECK(complaint(square + "vn 0 x 1\n") ==
+    CHECK(obj_complaint(square + "vn 0 x 1\n") ==
           "a.obj:5: 'x' where a coordinate of a normal should stand");
 }
 
 TEST_CASE("obj: material files are those of the lines, once each") {
     const auto names = [](std::string_view line) {
-        return read(square + std::string(line)).attributes.material_files;
+        return read_obj(square + std::string(line)).attributes.material_files;
     };
     using list = std::vector<std::string>;
     CHECK(names("mtllib a.mtl\nmtllib a.mtl\nmtllib ../b/c.mtl \n") == list{"a.mtl", "../b/c.mtl"});
@@ -151,39 +152,39 @@ TEST_CASE("obj: material files are those of the lines, once each") {
 }
 
 TEST_CASE("obj: texture coordinates, normals and materials come back byte for byte") {
-    CHECK(written(read(textured), "obj") == textured);
+    CHECK(written_mesh(read_obj(textured), "obj") == textured);
     const std::string with_w = square + "vt 0 0 0.5\nf 1/1 2/1 3/1\n";
-    CHECK(written(read(with_w), "obj") == with_w);
+    CHECK(written_mesh(read_obj(with_w), "obj") == with_w);
     const std::string unused = square + rows + "f 1 2 3 4\n";
-    CHECK(written(read(unused), "obj") == unused);
+    CHECK(written_mesh(read_obj(unused), "obj") == unused);
 }
 
 TEST_CASE("obj: polygons that are split keep what their corners have") {
-    tf::mesh_file file = read(textured);
+    tf::mesh_file file = read_obj(textured);
     tf::split_polygons(file);
-    const auto again = read(written(file, "obj")).attributes.corners;
-    CHECK(again == read(textured).attributes.corners);
+    const auto again = read_obj(written_mesh(file, "obj")).attributes.corners;
+    CHECK(again == read_obj(textured).attributes.corners);
 }
 
 TEST_CASE("ply: texture coordinates of faces are those of corners, and come back") {
     for (const char* const type : {"float", "double"}) {
         const std::string text = ply_of(type, lists);
-        const tf::mesh_file file = read(text, "a.ply");
+        const tf::mesh_file file = read_obj(text, "a.ply");
         const tf::corner_values& corners = file.attributes.corners;
         // The second face has equal values where it has a point of the first one.
         CHECK(corners.texture_of_corner == faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}});
         CHECK(corners.texture[3] == std::array{0.0, 0.5, 0.0});
         CHECK(tf::find_column(*tf::find_element(file.attributes, "face"), "texcoord")->role ==
               tf::column_role::texture);
-        CHECK(written(file, "ply", true) == text);
+        CHECK(written_mesh(file, "ply", true) == text);
         for (const char* const format : {"ply-ascii", "ply-binary-be", "ply-binary-le"}) {
             tf::mesh_file binary = file;
             binary.format = format;
-            const tf::mesh_file again = read(written(binary, "ply"), "a.ply");
+            const tf::mesh_file again = read_obj(written_mesh(binary, "ply"), "a.ply");
             CHECK(again.attributes == file.attributes);
-            CHECK(written(again, "ply", true) == text);
+            CHECK(written_mesh(again, "ply", true) == text);
         }
-        CHECK(corners_of(written(file, "obj")) == corners);
+        CHECK(corners_of(written_mesh(file, "obj")) == corners);
     }
 }
 
@@ -195,42 +196,42 @@ TEST_CASE("ply: lists that are not two numbers a corner stay lists") {
                                   "5 3 0 1 2 6 -nan nan 1 0 1 1 9\n6 4 0 2 3 1 0 8\n"}) {
         CAPTURE(bad);
         const std::string text = ply_of("float", bad);
-        const tf::mesh_file file = read(text, "a.ply");
+        const tf::mesh_file file = read_obj(text, "a.ply");
         CHECK(file.attributes.corners == tf::corner_values{});
-        CHECK(written(file, "ply", true) == text);
+        CHECK(written_mesh(file, "ply", true) == text);
     }
     const std::string whole =
         ply_of("uchar", lists.substr(0, lists.find('\n')) + "\n6 3 0 2 3 0 8\n");
-    CHECK(read(whole, "a.ply").attributes.corners == tf::corner_values{});
+    CHECK(read_obj(whole, "a.ply").attributes.corners == tf::corner_values{});
 }
 
 TEST_CASE("ply: a corner without texture coordinates is NaN, a face without an empty list") {
     const std::string text = ply_of("float", "5 3 0 1 2 6 0 0 nan nan 1 1 9\n6 4 0 2 3 1 0 8\n");
-    const tf::mesh_file file = read(text, "a.ply");
+    const tf::mesh_file file = read_obj(text, "a.ply");
     CHECK(file.attributes.corners.texture_of_corner ==
           faces{{0, none, 1}, {none, none, none}, {none, none, none}});
-    CHECK(written(file, "ply", true) == text);
+    CHECK(written_mesh(file, "ply", true) == text);
     // The same of an OBJ.
-    const std::string made = written(read(textured), "ply", true);
+    const std::string made = written_mesh(read_obj(textured), "ply", true);
     CHECK(made.find("property list uchar float texcoord\n") != std::string::npos);
     CHECK(made.find("\n4 1 4 5 2 8 0.75 0.1 1 -0 1 -0 0 1\n3 0 1 2 6 nan nan 0.5 0 nan nan\n"
                     "3 2 1 0 0\n") != std::string::npos);
 }
 
 TEST_CASE("ply: texture coordinates that the file does not have any more leave no column") {
-    tf::mesh_file file = read(ply_of("float", lists), "a.ply");
+    tf::mesh_file file = read_obj(ply_of("float", lists), "a.ply");
     file.attributes.corners = {};
-    CHECK(written(file, "ply", true).find("texcoord") == std::string::npos);
-    CHECK(written(file, "ply", true).find("\n5 3 0 1 2 9\n") != std::string::npos);
+    CHECK(written_mesh(file, "ply", true).find("texcoord") == std::string::npos);
+    CHECK(written_mesh(file, "ply", true).find("\n5 3 0 1 2 9\n") != std::string::npos);
 }
 
 TEST_CASE("ply: what corners have is written once where a list of faces has its name") {
     const char* const bad = "5 3 0 1 2 3 0 0 1 9\n6 4 0 2 3 1 0 8\n";
-    tf::mesh_file file = read(ply_of("float", bad), "a.ply");
-    file.attributes.corners = read(ply_of("float", lists), "a.ply").attributes.corners;
-    const std::string text = written(file, "ply", true);
+    tf::mesh_file file = read_obj(ply_of("float", bad), "a.ply");
+    file.attributes.corners = read_obj(ply_of("float", lists), "a.ply").attributes.corners;
+    const std::string text = written_mesh(file, "ply", true);
     CHECK(text.find("texcoord") == text.rfind("texcoord"));
-    CHECK(read(text, "a.ply").attributes.corners == file.attributes.corners);
+    CHECK(read_obj(text, "a.ply").attributes.corners == file.attributes.corners);
 }
 
 TEST_CASE("ply: texture coordinates of a polygon of 200 corners widen the length of the list") {
@@ -240,18 +241,18 @@ TEST_CASE("ply: texture coordinates of a polygon of 200 corners widen the length
         text += "v " + std::to_string(v) + " " + std::to_string(v * v) + " 0\n";
         face += " " + std::to_string(v) + "/1";
     }
-    const tf::mesh_file file = read(text + face + "\n");
-    const std::string ply = written(file, "ply");
+    const tf::mesh_file file = read_obj(text + face + "\n");
+    const std::string ply = written_mesh(file, "ply");
     CHECK(ply.find("property list uint float texcoord\n") != std::string::npos);
     CHECK(ply.find("property list uchar int vertex_indices\n") != std::string::npos);
     // Each point gets a row of its own on the way back.
-    CHECK(read(ply, "a.ply").attributes.corners.texture.size() == 200);
+    CHECK(read_obj(ply, "a.ply").attributes.corners.texture.size() == 200);
 }
 
 TEST_CASE("writing: formats that do not hold what corners have say so once") {
     const auto warnings = [](std::string_view text, const char* format) {
         std::vector<std::string> codes;
-        const tf::mesh_file file = read(text);
+        const tf::mesh_file file = read_obj(text);
         const auto path = std::filesystem::temp_directory_path() /
                           ("io_corner_values_test." + std::string(format));
         for (const auto& w : tf::write(path, file, {}).warnings)
@@ -284,23 +285,23 @@ TEST_CASE(
     };
     using list = std::vector<std::string>;
     const tf::mesh_file file =
-        read(with("comment TextureFile b c.png\ncomment one\ncomment  TextureFile \t a.png \n"
-                  "comment TextureFile b c.png\ncomment TextureFile\ncomment TextureFile \n"
-                  "comment TextureFiles x\ncomment a TextureFile y\ncomment texturefile z\n"),
-             "a.ply");
+        read_obj(with("comment TextureFile b c.png\ncomment one\ncomment  TextureFile \t a.png \n"
+                      "comment TextureFile b c.png\ncomment TextureFile\ncomment TextureFile \n"
+                      "comment TextureFiles x\ncomment a TextureFile y\ncomment texturefile z\n"),
+                 "a.ply");
     CHECK(file.attributes.texture_files == list{"b c.png", "a.png", "b c.png"});
     CHECK(file.attributes.comments == list{"one", "TextureFile", "TextureFile ", "TextureFiles x",
                                            "a TextureFile y", "texturefile z"});
-    CHECK(written(file, "ply", true) ==
+    CHECK(written_mesh(file, "ply", true) ==
           with("comment one\ncomment TextureFile\ncomment TextureFile \ncomment TextureFiles x\n"
                "comment a TextureFile y\ncomment texturefile z\n"
                "comment TextureFile b c.png\ncomment TextureFile a.png\n"
                "comment TextureFile b c.png\n"));
-    CHECK(read(written(file, "ply"), "a.ply").attributes == file.attributes);
+    CHECK(read_obj(written_mesh(file, "ply"), "a.ply").attributes == file.attributes);
 }
 
 TEST_CASE("writing: formats that do not hold names of texture files say so") {
-    tf::mesh_file file = read(square + "f 1 2 3\n");
+    tf::mesh_file file = read_obj(square + "f 1 2 3\n");
     file.attributes.texture_files = {"a.png"};
     for (const char* const format : {"ply", "obj", "stl", "off", "glb"}) {
         CAPTURE(format);
@@ -321,7 +322,7 @@ TEST_CASE("writing: formats that do not hold materials say so") {
         std::vector<std::string> all;
         const auto path = std::filesystem::temp_directory_path() /
                           ("io_corner_values_test_materials." + std::string(format));
-        for (const auto& w : tf::write(path, read(text), {}).warnings) all.push_back(w.code);
+        for (const auto& w : tf::write(path, read_obj(text), {}).warnings) all.push_back(w.code);
         std::filesystem::remove(path);
         return all;
     };
@@ -335,12 +336,12 @@ TEST_CASE("writing: formats that do not hold materials say so") {
 }
 
 TEST_CASE("writing: numbers of corners that are no rows are refused") {
-    const tf::mesh_file good = read(textured);
+    const tf::mesh_file good = read_obj(textured);
     const auto refuses = [&](auto&& change) {
         tf::mesh_file bad = good;
         change(bad.attributes.corners);
-        CHECK_THROWS_AS(static_cast<void>(written(bad, "obj")), std::invalid_argument);
-        CHECK_THROWS_AS(static_cast<void>(written(bad, "ply")), std::invalid_argument);
+        CHECK_THROWS_AS(static_cast<void>(written_mesh(bad, "obj")), std::invalid_argument);
+        CHECK_THROWS_AS(static_cast<void>(written_mesh(bad, "ply")), std::invalid_argument);
     };
     refuses([](tf::corner_values& c) { c.texture_of_corner.pop_back(); });
     refuses([](tf::corner_values& c) { c.normal_of_corner.push_back({0, 0, 0}); });
@@ -352,31 +353,31 @@ TEST_CASE("writing: numbers of corners that are no rows are refused") {
 
 TEST_CASE("stl: materials alone are no solids of their own") {
     for (const std::string& text : {textured, square + "f 1 2 3\nusemtl oak\nf 3 2 1\n"}) {
-        const std::string stl = written(read(text), "stl", true);
+        const std::string stl = written_mesh(read_obj(text), "stl", true);
         CHECK(stl.find("endsolid") == stl.rfind("endsolid"));
     }
 }
 
 TEST_CASE("stl: faces ahead of the first name have none") {
-    const tf::mesh_file file = read(square + "f 1 2 3\no later\nf 1 3 4\nf 2 3 4\n");
-    const auto parts = read(written(file, "stl", true), "a.stl").attributes.parts;
+    const tf::mesh_file file = read_obj(square + "f 1 2 3\no later\nf 1 3 4\nf 2 3 4\n");
+    const auto parts = read_obj(written_mesh(file, "stl", true), "a.stl").attributes.parts;
     CHECK(parts == std::vector<tf::part>{{.first_face = 0}, {.object = "later", .first_face = 1}});
 }
 
 TEST_CASE("writing: no name makes lines of its own") {
-    tf::mesh_file file = read(square + "f 1 2 3\n");
+    tf::mesh_file file = read_obj(square + "f 1 2 3\n");
     const std::string name = "a\nv 9 9 9\r\nf 1 2 5";
     file.attributes.parts = {{.object = name, .group = name, .material = name}};
     file.attributes.material_files = {name};
     file.attributes.texture_files = {name};
-    const tf::mesh_file again = read(written(file, "obj"));
+    const tf::mesh_file again = read_obj(written_mesh(file, "obj"));
     CHECK(again.mesh == file.mesh);
     const std::string flat = "a v 9 9 9  f 1 2 5";
     CHECK(again.attributes.parts == std::vector<tf::part>{{flat, flat, flat}});
     CHECK(again.attributes.material_files == std::vector<std::string>{flat});
-    CHECK(read(written(file, "ply"), "a.ply").attributes.texture_files ==
+    CHECK(read_obj(written_mesh(file, "ply"), "a.ply").attributes.texture_files ==
           again.attributes.material_files);
-    const auto parts = read(written(file, "stl", true), "a.stl").attributes.parts;
+    const auto parts = read_obj(written_mesh(file, "stl", true), "a.stl").attributes.parts;
     CHECK(parts == std::vector<tf::part>{{.object = flat}});
 }
 

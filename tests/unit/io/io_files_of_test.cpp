@@ -15,16 +15,16 @@ using names = std::vector<std::string>;
 using enum tf::file_content;
 
 /// A folder that goes with the object.
-class scratch {
+class touched_folder {
   public:
-    scratch()
+    touched_folder()
         : path_(std::filesystem::temp_directory_path() /
                 ("io_files_of_test." + std::to_string(::getpid()))) {
         std::filesystem::create_directories(path_);
     }
-    scratch(const scratch&) = delete;
-    scratch& operator=(const scratch&) = delete;
-    ~scratch() { std::filesystem::remove_all(path_); }
+    touched_folder(const touched_folder&) = delete;
+    touched_folder& operator=(const touched_folder&) = delete;
+    ~touched_folder() { std::filesystem::remove_all(path_); }
 
     [[nodiscard]] std::string operator/(const std::string& name) const {
         return (path_ / name).string();
@@ -38,7 +38,7 @@ class scratch {
 }  // namespace
 
 TEST_CASE("files of a folder: those of a format, by name, and none of what is deeper") {
-    const scratch in;
+    const touched_folder in;
     for (const char* const name : {"b.obj", "a.STL", "c.xyz", "notes.txt", "obj", "a10.ply"})
         in.touch(name);
     std::filesystem::create_directories(in / "deep.obj");

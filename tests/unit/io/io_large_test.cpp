@@ -41,7 +41,7 @@ std::string before(std::size_t facet, std::size_t wanted, std::string_view text)
     return facet == wanted ? std::string(text) : std::string();
 }
 
-tf::mesh_file read(std::string_view bytes) {
+tf::mesh_file read_stl(std::string_view bytes) {
     return tf::read(std::as_bytes(std::span(bytes)), "large.stl", {});
 }
 
@@ -55,9 +55,9 @@ void check_facets(const tf::mesh_file& file) {
         }
 }
 
-std::string refusal(std::string_view bytes) {
+std::string stl_refusal(std::string_view bytes) {
     try {
-        (void)read(bytes);
+        (void)read_stl(bytes);
         return {};
     } catch (const tf::io_error& e) {
         return e.what();
@@ -68,13 +68,13 @@ std::string refusal(std::string_view bytes) {
 
 TEST_CASE("large text STL: every facet is read, in order, on any number of threads") {
     const std::string text = text_stl([](std::size_t) { return ""; });
-    check_facets(read(text));
+    check_facets(read_stl(text));
     const tf::thread_scope one(1);
-    check_facets(read(text));
+    check_facets(read_stl(text));
 }
 
 TEST_CASE("large text STL: solids end and begin within pieces") {
-    const tf::mesh_file file = read(text_stl([](std::size_t f) {
+    const tf::mesh_file file = read_stl(text_stl([](std::size_t f) {
         return f > 0 && f % 9001 == 0 ? "endsolid\nsolid s" + std::to_string(f) + "\n"
                                       : std::string();
     }));
@@ -88,13 +88,13 @@ TEST_CASE("large text STL: solids end and begin within pieces") {
 
 TEST_CASE("large text STL: many small solids are read whole") {
     const tf::mesh_file file =
-        read(text_stl([](std::size_t) { return "endsolid\n\n solid facet\n"; }));
+        read_stl(text_stl([](std::size_t) { return "endsolid\n\n solid facet\n"; }));
     check_facets(file);
     CHECK(file.attributes.parts.size() == facets + 1);
 }
 
 TEST_CASE("large text STL: what is unusual is counted, the first of it named by its line") {
-    const tf::mesh_file file = read(text_stl([](std::size_t f) {
+    const tf::mesh_file file = read_stl(text_stl([](std::size_t f) {
         return before(f, 20000, std::string_view("\0\0\n", 3)) + before(f, 30000, " \0 ");
     }));
     check_facets(file);
@@ -107,7 +107,7 @@ TEST_CASE("large text STL: what is unusual is counted, the first of it named by 
         at = text.find("endfacet", text.find(line));
         text.insert(at + 8, " words here");
     }
-    const tf::mesh_file stray = read(text);
+    const tf::mesh_file stray = read_stl(text);
     check_facets(stray);
     REQUIRE(stray.warnings.size() == 1);
     CHECK(stray.warnings[0].text ==
@@ -116,7 +116,7 @@ TEST_CASE("large text STL: what is unusual is counted, the first of it named by 
 
 TEST_CASE("large text STL: what is wrong is named by its line, the first of it") {
     const auto with = [](std::string_view wrong) {
-        return refusal(text_stl([&](std::size_t f) {
+        return stl_refusal(text_stl([&](std::size_t f) {
             return before(f, 25000, wrong) + before(f, 39000, "nonsense\n");
         }));
     };
@@ -127,11 +127,11 @@ TEST_CASE("large text STL: what is wrong is named by its line, the first of it")
           "large.stl:175004: facet with 0 vertices");
     std::string cut = text_stl([](std::size_t) { return ""; });
     cut.resize(cut.size() - std::string_view("endsolid first\n").size());
-    CHECK(refusal(cut) == "large.stl:280002: the file ends without 'endsolid': cut off?");
+    CHECK(stl_refusal(cut) == "large.stl:280002: the file ends without 'endsolid': cut off?");
 }
 
 TEST_CASE("large meshes: written and read again, they are the same on any number of threads") {
-    tf::mesh_file file = read(text_stl([](std::size_t) { return ""; }));
+    tf::mesh_file file = read_stl(text_stl([](std::size_t) { return ""; }));
     file.attributes.parts = {{.object = "a", .first_face = 0}, {.object = "b", .first_face = 9999}};
     for (const char* const format : {"stl", "obj", "ply"})
         for (const bool ascii : {false, true}) {

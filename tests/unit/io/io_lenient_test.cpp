@@ -18,7 +18,7 @@
 
 namespace {
 
-tf::mesh_file read(std::string_view bytes, std::string_view name) {
+tf::mesh_file read_named(std::string_view bytes, std::string_view name) {
     return tf::read(std::as_bytes(std::span(bytes)), name, {});
 }
 
@@ -30,9 +30,9 @@ std::string warnings(const tf::mesh_file& file) {
 }
 
 /// What is said of bytes that are refused; nothing when they are read.
-std::string refusal(std::string_view bytes, std::string_view name) {
+std::string named_refusal(std::string_view bytes, std::string_view name) {
     try {
-        (void)read(bytes, name);
+        (void)read_named(bytes, name);
         return {};
     } catch (const tf::io_error& e) {
         return e.what();
@@ -76,10 +76,10 @@ std::string strips(const std::string& rows, int count = 1) {
 }  // namespace
 
 TEST_CASE("stl binary: bytes behind the triangles of the header are left out") {
-    const tf::mesh_file whole = read(binary_stl(2, 2), "a.stl");
+    const tf::mesh_file whole = read_named(binary_stl(2, 2), "a.stl");
     CHECK(whole.warnings.empty());
     for (const std::size_t behind : {1U, 49U, 51U, 4000U - 1U}) {
-        const tf::mesh_file file = read(binary_stl(2, 2, behind), "a.stl");
+        const tf::mesh_file file = read_named(binary_stl(2, 2, behind), "a.stl");
         CHECK(file.mesh.points == whole.mesh.points);
         CHECK(file.mesh.faces == whole.mesh.faces);
         CHECK(warnings(file) == "trailing-bytes: " + std::to_string(behind) +
@@ -90,9 +90,9 @@ TEST_CASE("stl binary: bytes behind the triangles of the header are left out") {
 
 TEST_CASE("stl binary: a size of whole triangles is believed more than the header") {
     for (const std::uint32_t stated : {0U, 2U, 4U, 4294967295U}) {
-        const tf::mesh_file file = read(binary_stl(stated, 3), "a.stl");
+        const tf::mesh_file file = read_named(binary_stl(stated, 3), "a.stl");
         CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
-        CHECK(file.mesh.points == read(binary_stl(3, 3), "a.stl").mesh.points);
+        CHECK(file.mesh.points == read_named(binary_stl(3, 3), "a.stl").mesh.points);
         CHECK(file.stored_faces == 3);
         CHECK(warnings(file) == "wrong-count: header says " + std::to_string(stated) +
                                     " triangles, file holds 3; these were read\n");
@@ -102,49 +102,50 @@ TEST_CASE("stl binary: a size of whole triangles is believed more than the heade
 TEST_CASE("stl binary: a file that ends within a triangle is refused, and so is any other text") {
     for (std::size_t lost = 1; lost < 50; ++lost) {
         const std::string whole = binary_stl(3, 3);
-        CHECK(refusal(whole.substr(0, whole.size() - lost), "a.stl") ==
+        CHECK(named_refusal(whole.substr(0, whole.size() - lost), "a.stl") ==
               "a.stl: byte 80: header says 3 triangles, file holds 2: damaged or cut off");
     }
-    CHECK(refusal(binary_stl(3, 0), "a.stl") ==
+    CHECK(named_refusal(binary_stl(3, 0), "a.stl") ==
           "a.stl: byte 80: header says 3 triangles, file holds 0: damaged or cut off");
-    CHECK(refusal(binary_stl(0, 0, 75), "a.stl") ==
+    CHECK(named_refusal(binary_stl(0, 0, 75), "a.stl") ==
           "a.stl: byte 80: header says 0 triangles, file holds 1: damaged or cut off");
-    CHECK(read(binary_stl(0, 0), "a.stl").mesh.faces.empty());
+    CHECK(read_named(binary_stl(0, 0), "a.stl").mesh.faces.empty());
     // Of the size of one triangle.
-    CHECK(refusal("<html>" + std::string(84 + 50 - 6, 'a'), "a.stl") ==
+    CHECK(named_refusal("<html>" + std::string(84 + 50 - 6, 'a'), "a.stl") ==
           "a.stl: text that does not start with 'solid', and no binary STL");
     std::string wide = "\xff\xfe";
     for (const char c : "solid\nendsolid\n" + std::string(50, ' ')) wide += {c, '\0'};
-    CHECK(refusal(wide, "a.stl") == "a.stl: byte 0: UTF-16 text; convert it to UTF-8 or ASCII");
+    CHECK(named_refusal(wide, "a.stl") ==
+          "a.stl: byte 0: UTF-16 text; convert it to UTF-8 or ASCII");
 }
 
 TEST_CASE("stl text: words after endloop and endfacet are left out") {
-    const tf::mesh_file whole = read("solid\n" + facet + facet + "endsolid\n", "a.stl");
+    const tf::mesh_file whole = read_named("solid\n" + facet + facet + "endsolid\n", "a.stl");
     CHECK(whole.warnings.empty());
     const std::string odd =
         replaced(replaced(facet, "endloop", "endloop 3 edges"), "endfacet", "ENDFACET facets 2");
-    const tf::mesh_file file = read("solid\n" + facet + odd + "endsolid\n", "a.stl");
+    const tf::mesh_file file = read_named("solid\n" + facet + odd + "endsolid\n", "a.stl");
     CHECK(file.mesh.points == whole.mesh.points);
     CHECK(file.mesh.faces == whole.mesh.faces);
     CHECK(warnings(file) ==
           "stray-words: 4 words after 'endloop' or 'endfacet' not read, the first in line 14\n");
     std::string flat = facet + replaced(facet, "endloop", "endloop x");
     for (char& c : flat) c = c == '\n' ? ' ' : c;
-    const tf::mesh_file line = read("solid\n" + flat + "endsolid", "a.stl");
+    const tf::mesh_file line = read_named("solid\n" + flat + "endsolid", "a.stl");
     CHECK(line.mesh.points == whole.mesh.points);
     CHECK(warnings(line) ==
           "stray-words: 1 word after 'endloop' or 'endfacet' not read, the first in line 2\n");
-    CHECK(refusal("solid\n" + replaced(facet, "endloop", "endloop\n3") + "endsolid", "a.stl") ==
-          "a.stl:8: '3' where 'endfacet' should stand");
+    CHECK(named_refusal("solid\n" + replaced(facet, "endloop", "endloop\n3") + "endsolid",
+                        "a.stl") == "a.stl:8: '3' where 'endfacet' should stand");
 }
 
 TEST_CASE("stl text: zero bytes between words are blanks, in and beside numbers they are refused") {
     using namespace std::string_literals;
-    const tf::mesh_file whole = read("solid a\n" + facet + facet + "endsolid\n", "a.stl");
+    const tf::mesh_file whole = read_named("solid a\n" + facet + facet + "endsolid\n", "a.stl");
     const std::string odd = replaced(replaced(facet, "endloop\n", "endloop\0\n\0"s),
                                      "vertex 1 0 0\n", "vertex 1 0 0 \0\n"s);
-    const tf::mesh_file file =
-        read("solid a\0bc\0\n"s + facet + odd + "endsolid\n"s + std::string(512, '\0'), "a.stl");
+    const tf::mesh_file file = read_named(
+        "solid a\0bc\0\n"s + facet + odd + "endsolid\n"s + std::string(512, '\0'), "a.stl");
     CHECK(file.format == "stl-ascii");
     CHECK(file.mesh.points == whole.mesh.points);
     CHECK(file.attributes.parts == whole.attributes.parts);
@@ -153,7 +154,7 @@ TEST_CASE("stl text: zero bytes between words are blanks, in and beside numbers 
                                     "vertex 1 0\0000 0\n"s, "vertex\0 1 0 0\n"s}) {
         const std::string text =
             "solid\n" + facet + replaced(facet, "vertex 1 0 0\n", line) + "endsolid\n";
-        CHECK(refusal(text, "a.stl").starts_with("a.stl:12: "));
+        CHECK(named_refusal(text, "a.stl").starts_with("a.stl:12: "));
     }
 }
 
@@ -168,46 +169,47 @@ TEST_CASE("hexadecimal numbers are read where decimal ones are") {
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\n"
         "property double z\nproperty uchar q\nend_header\n";
-    check(read("v " + text + "\n", "a.obj"));
-    check(read("OFF\n1 0 0\n" + text + "\n", "a.off"));
-    check(read(ply + text + " 1\n", "a.ply"));
-    check(read("1 2 3\n" + text + "\n", "a.xyz"));
-    check(read("x,y,z\n1,2,3\n0x1.8p1,-0x1.999999999999ap-4,0x0.0000000000001p-1022\n", "a.csv"));
-    check(
-        read("VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
-             "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n" +
-                 text + "\n",
-             "a.pcd"));
-    check(read("solid\n" + replaced(facet, "0 1 0", text) + "endsolid\n", "a.stl"));
-    const tf::mesh_file small = read(ply + "1 2 3 0xff\n", "a.ply");
+    check(read_named("v " + text + "\n", "a.obj"));
+    check(read_named("OFF\n1 0 0\n" + text + "\n", "a.off"));
+    check(read_named(ply + text + " 1\n", "a.ply"));
+    check(read_named("1 2 3\n" + text + "\n", "a.xyz"));
+    check(read_named("x,y,z\n1,2,3\n0x1.8p1,-0x1.999999999999ap-4,0x0.0000000000001p-1022\n",
+                     "a.csv"));
+    check(read_named(
+        "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+        "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n" +
+            text + "\n",
+        "a.pcd"));
+    check(read_named("solid\n" + replaced(facet, "0 1 0", text) + "endsolid\n", "a.stl"));
+    const tf::mesh_file small = read_named(ply + "1 2 3 0xff\n", "a.ply");
     CHECK(warnings(small) == said);
     CHECK(tf::number_at(small.attributes.elements[0].columns[3], 0) == 255.0);
 
-    CHECK(read("v 0 1 2 # 0x1\n", "a.obj").warnings.empty());
+    CHECK(read_named("v 0 1 2 # 0x1\n", "a.obj").warnings.empty());
     for (const char* const wrong : {"0x", "0xg", "0x1.8p", "0x-1", "0xnan", "0x1p5000", "00x1"})
-        CHECK(refusal("v 1 2 " + std::string(wrong) + "\n", "a.obj") ==
+        CHECK(named_refusal("v 1 2 " + std::string(wrong) + "\n", "a.obj") ==
               "a.obj:1: '" + std::string(wrong) + "' where a coordinate should stand");
 }
 
 TEST_CASE("ply: strips are triangles in turn, and start anew at -1") {
     const std::string said = "triangle-strips: the faces are those of triangle strips\n";
     const std::vector<tf::face> wanted{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {1, 3, 2}};
-    const tf::mesh_file file = read(strips("9 0 1 2 3 4 -1 1 3 2\n"), "a.ply");
+    const tf::mesh_file file = read_named(strips("9 0 1 2 3 4 -1 1 3 2\n"), "a.ply");
     CHECK(file.mesh.faces == wanted);
     CHECK(file.stored_faces == 4);
     CHECK(file.stored_face.empty());
     CHECK(warnings(file) == said);
-    CHECK(read(strips("5 0 1 2 3 4\n4 1 3 2 -1\n", 2), "a.ply").mesh.faces == wanted);
+    CHECK(read_named(strips("5 0 1 2 3 4\n4 1 3 2 -1\n", 2), "a.ply").mesh.faces == wanted);
     // A strip of one or two vertices has no triangle.
-    CHECK(read(strips("14 -1 4 -1 0 1 2 3 4 -1 1 3 2 -1 0\n"), "a.ply").mesh.faces == wanted);
+    CHECK(read_named(strips("14 -1 4 -1 0 1 2 3 4 -1 1 3 2 -1 0\n"), "a.ply").mesh.faces == wanted);
     // Repeated vertices join strips; what they make has no area, and keeps its number.
-    CHECK(read(strips("7 0 1 2 2 1 1 3\n"), "a.ply").mesh.faces ==
+    CHECK(read_named(strips("7 0 1 2 2 1 1 3\n"), "a.ply").mesh.faces ==
           std::vector<tf::face>{{0, 1, 2}, {2, 1, 2}, {2, 2, 1}, {1, 2, 1}, {1, 1, 3}});
     // Written, they are faces.
     const std::string again = tf::write_to_memory(file, {.format = "ply", .ascii = true});
     CHECK(again.find("tristrips") == std::string::npos);
-    CHECK(read(again, "a.ply").mesh.faces == wanted);
-    CHECK(read(again, "a.ply").warnings.empty());
+    CHECK(read_named(again, "a.ply").mesh.faces == wanted);
+    CHECK(read_named(again, "a.ply").warnings.empty());
 }
 
 TEST_CASE("ply: strips in bytes, and those that cannot be read") {
@@ -215,18 +217,19 @@ TEST_CASE("ply: strips in bytes, and those that cannot be read") {
         "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\n"
         "property char z\nelement tristrips 1\nproperty list uint char vertex_index\nend_header\n";
     bytes += std::string("\0\0\0\1\0\0\0\1\0", 9) + std::string("\4\0\0\0\0\1\2\xff", 8);
-    CHECK(read(bytes, "a.ply").mesh.faces == std::vector<tf::face>{{0, 1, 2}});
+    CHECK(read_named(bytes, "a.ply").mesh.faces == std::vector<tf::face>{{0, 1, 2}});
     bytes[bytes.size() - 5] = '\x7f';  // of the length
-    CHECK(refusal(bytes, "a.ply").find("a list of 2130706436 values") != std::string::npos);
-    CHECK(refusal(strips("3 0 1 5\n"), "a.ply").find("vertex index 5 is out of range") !=
+    CHECK(named_refusal(bytes, "a.ply").find("a list of 2130706436 values") != std::string::npos);
+    CHECK(named_refusal(strips("3 0 1 5\n"), "a.ply").find("vertex index 5 is out of range") !=
           std::string::npos);
-    CHECK(refusal(strips("3 0 1 -2\n"), "a.ply").find("vertex index -2 is out of range") !=
+    CHECK(named_refusal(strips("3 0 1 -2\n"), "a.ply").find("vertex index -2 is out of range") !=
           std::string::npos);
-    CHECK(refusal("ply\nformat ascii 1.0\n" + corners +
-                      "element tristrips 1\nproperty int n\nend_header\n" + five_points + "1\n",
-                  "a.ply") == "a.ply: element 'tristrips' has no list of vertex_indices");
-    CHECK(refusal(replaced(strips("3 0 1 2\n3 0 1 2\n"), "element tristrips",
-                           "element face 1\nproperty list int int vertex_indices\nelement "
-                           "tristrips"),
-                  "a.ply") == "a.ply: faces and triangle strips in one file are not read");
+    CHECK(named_refusal("ply\nformat ascii 1.0\n" + corners +
+                            "element tristrips 1\nproperty int n\nend_header\n" + five_points +
+                            "1\n",
+                        "a.ply") == "a.ply: element 'tristrips' has no list of vertex_indices");
+    CHECK(named_refusal(replaced(strips("3 0 1 2\n3 0 1 2\n"), "element tristrips",
+                                 "element face 1\nproperty list int int vertex_indices\nelement "
+                                 "tristrips"),
+                        "a.ply") == "a.ply: faces and triangle strips in one file are not read");
 }

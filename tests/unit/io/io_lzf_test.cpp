@@ -59,7 +59,7 @@ std::string made(std::size_t size, letters kind, test::random& random) {
     return bytes;
 }
 
-constexpr letters kinds[] = {letters::one, letters::few, letters::all, letters::repeated};
+constexpr letters letter_kinds[] = {letters::one, letters::few, letters::all, letters::repeated};
 
 }  // namespace
 
@@ -68,7 +68,7 @@ TEST_CASE("lzf: blocks packed alone, one after the other, are what all of them a
     constexpr std::size_t block = io::lzf_block;
     for (const std::size_t size :
          {block - 1, block, block + 1, block + 2, 2 * block, 3 * block - 2, 3 * block + 31})
-        for (const letters kind : kinds) {
+        for (const letters kind : letter_kinds) {
             CAPTURE(size);
             CAPTURE(kind);
             const std::string bytes = made(size, kind, random);
@@ -92,7 +92,7 @@ TEST_CASE("lzf: one goes on where the one before has ended, wherever that is") {
     test::random random(2);
     for (const std::size_t size :
          std::vector<std::size_t>{0, 1, 40, 8191, 8193, 100'000, 4'500'000})
-        for (const letters kind : kinds) {
+        for (const letters kind : letter_kinds) {
             CAPTURE(size);
             CAPTURE(kind);
             const std::string bytes = made(size, kind, random);

@@ -18,9 +18,8 @@
 
 namespace {
 
-/// One row a file: what a reader of doubles sees. None without models.
+/// One row a file: what a reader of doubles sees.
 std::vector<test::truth_row> truth(const std::filesystem::path& folder) {
-    if (folder.empty()) return {};
     std::vector<test::truth_row> rows = test::read_truth(folder / "TRUTH.csv");
     std::erase_if(rows, [](const auto& row) { return row.text("precision") == "f32"; });
     return rows;
@@ -34,7 +33,7 @@ bool is_whole(const test::truth_row& r) {
            file == "hostile/invalid_triangle_count.stl";
 }
 
-bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
+bool same_bits_or_nan(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
     if (a.size() != b.size()) return false;
     for (std::size_t v = 0; v < a.size(); ++v)
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -52,6 +51,7 @@ tf::mesh_file reread(const std::string& bytes, const char* name) {
 }  // namespace
 
 TEST_CASE("models: counts are those of the truth, and malformed files are refused with a reason") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
     for (const test::truth_row& r : truth(folder)) {
         const auto path = folder / r.text("file");
@@ -88,6 +88,7 @@ TEST_CASE("models: counts are those of the truth, and malformed files are refuse
 }
 
 TEST_CASE("models: what was read comes back bit for bit from every format that can hold it") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
     for (const test::truth_row& r : truth(folder)) {
         if (r.text("status") == "malformed") continue;
@@ -100,7 +101,7 @@ TEST_CASE("models: what was read comes back bit for bit from every format that c
                 CAPTURE(ascii);
                 const auto again =
                     reread(tf::write_to_memory(file, {.format = format, .ascii = ascii}), format);
-                CHECK(same_bits(again.mesh.points, file.mesh.points));
+                CHECK(same_bits_or_nan(again.mesh.points, file.mesh.points));
                 CHECK(again.mesh.faces == file.mesh.faces);
                 CHECK(again.stored_face == file.stored_face);
                 CHECK(again.stored_as == file.stored_as);
@@ -114,19 +115,15 @@ TEST_CASE("models: what was read comes back bit for bit from every format that c
             std::vector<tf::point3> corners;
             for (const tf::face& f : file.mesh.faces)
                 for (const std::uint32_t corner : f) corners.push_back(file.mesh.points[corner]);
-            CHECK(same_bits(stl.mesh.points, corners));
+            CHECK(same_bits_or_nan(stl.mesh.points, corners));
         }
     }
 }
 
 TEST_CASE("models: scenes come with a part for each node that shows triangles") {
-    const std::filesystem::path models = test::models_folder();
-    const auto folder = models / "scene";
-    if (models.empty()) return;
-    if (!std::filesystem::exists(folder / "nested.glb")) {
-        test::skip("the models have no scenes");
-        return;
-    }
+    NEEDS_MODELS();
+    const auto folder = test::models_folder() / "scene";
+    if (!std::filesystem::exists(folder / "nested.glb")) SKIP_CASE("the models have no scenes");
     CHECK(tf::read(folder / "cube_gears.3mf").attributes.parts.size() == 17);
     try {
         const tf::mesh_file menger = tf::read(folder / "mengerSponge3.glb");
@@ -139,6 +136,6 @@ TEST_CASE("models: scenes come with a part for each node that shows triangles") 
     } catch (const tf::io_error& e) {
         // A build without assimp says so.
         CHECK(std::string(e.what()).find("needs a build with assimp") != std::string::npos);
-        test::skip("built without assimp");
+        test::skip_part("built without assimp");
     }
 }

@@ -19,18 +19,18 @@ namespace {
 
 using namespace std::string_literals;
 
-tf::mesh_file read(std::string_view bytes, std::string_view name = "a.pcd") {
+tf::mesh_file read_pcd(std::string_view bytes, std::string_view name = "a.pcd") {
     return tf::read(std::as_bytes(std::span(bytes)), name, {});
 }
 
-std::string written(const tf::mesh_file& file, const char* format, bool ascii = false) {
+std::string written_pcd(const tf::mesh_file& file, const char* format, bool ascii = false) {
     return tf::write_to_memory(file, {.format = format, .ascii = ascii});
 }
 
 /// What the reader says against the bytes; empty when it says nothing.
-std::string complaint(const std::string& bytes) {
+std::string pcd_complaint(const std::string& bytes) {
     try {
-        (void)read(bytes);
+        (void)read_pcd(bytes);
         return {};
     } catch (const tf::io_error& e) {
         return e.what();
@@ -58,7 +58,7 @@ std::string raw(T value) {
     return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-std::string packed(const std::string& bytes) {
+std::string packed_pcd(const std::string& bytes) {
     std::string to(tf::detail::io::lzf_most_packed(bytes.size()), '\0');
     to.resize(tf::detail::io::lzf_pack(bytes, to.data()));
     return to;
@@ -119,13 +119,14 @@ TEST_CASE("pcd: a file by hand, in each encoding") {
     const std::vector<tf::point3> points{{1, 2, 3}, {-0.5, 0, 4}};
     const std::string one = raw(1.0F) + raw(2.0F) + raw(3.0F);
     const std::string two = raw(-0.5F) + raw(0.0F) + raw(4.0F);
-    CHECK(read(xyz_head(2, "ascii") + "1 2 3\n-0.5 0 4\n").mesh.points == points);
-    CHECK(read(xyz_head(2, "binary") + one + two).mesh.points == points);
+    CHECK(read_pcd(xyz_head(2, "ascii") + "1 2 3\n-0.5 0 4\n").mesh.points == points);
+    CHECK(read_pcd(xyz_head(2, "binary") + one + two).mesh.points == points);
     // A block a field, here as literals: 23 is a run of 24.
     const std::string blocks =
         raw(1.0F) + raw(-0.5F) + raw(2.0F) + raw(0.0F) + raw(3.0F) + raw(4.0F);
     const std::string lengths = raw(std::uint32_t{25}) + raw(std::uint32_t{24});
-    const tf::mesh_file file = read(xyz_head(2, "binary_compressed") + lengths + "\x17" + blocks);
+    const tf::mesh_file file =
+        read_pcd(xyz_head(2, "binary_compressed") + lengths + "\x17" + blocks);
     CHECK(file.mesh.points == points);
     CHECK(file.format == "pcd-binary-compressed");
     CHECK(file.stored_as == tf::precision::float32);
@@ -141,10 +142,10 @@ TEST_CASE("pcd: a header may be old, in another order, with CRLF, or without its
           "# hello\n# .PCD v.7\nVERSION .7\nFIELDS z x y\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
           "POINTS 1\nHEIGHT 1\nWIDTH 1\nDATA ascii\n3 1 2\n"}) {
         CAPTURE(text);
-        CHECK(read(text).mesh.points == std::vector<tf::point3>{{1, 2, 3}});
-        CHECK(read(text, "stdin").format == "pcd-ascii");
+        CHECK(read_pcd(text).mesh.points == std::vector<tf::point3>{{1, 2, 3}});
+        CHECK(read_pcd(text, "stdin").format == "pcd-ascii");
     }
-    CHECK(read("# hello\n# .PCD v.7\nVERSION .7\nFIELDS x y z\nPOINTS 0\nDATA ascii\n")
+    CHECK(read_pcd("# hello\n# .PCD v.7\nVERSION .7\nFIELDS x y z\nPOINTS 0\nDATA ascii\n")
               .attributes.comments == std::vector<std::string>{"hello"});
 }
 
@@ -155,9 +156,9 @@ TEST_CASE("pcd: every type, count and bit survives in each encoding, and again")
             CAPTURE(as);
             CAPTURE(ascii);
             file.format = as;
-            const std::string bytes = written(file, "pcd", ascii);
-            const tf::mesh_file again = read(bytes);
-            CHECK(written(again, "pcd", ascii) == bytes);
+            const std::string bytes = written_pcd(file, "pcd", ascii);
+            const tf::mesh_file again = read_pcd(bytes);
+            CHECK(written_pcd(again, "pcd", ascii) == bytes);
             REQUIRE(again.mesh.points.size() == 3);
             CHECK(std::isnan(again.mesh.points[1].y));
             CHECK(std::signbit(again.mesh.points[0].y));
@@ -172,15 +173,15 @@ TEST_CASE("pcd: every type, count and bit survives in each encoding, and again")
                 CHECK((after.type == before.type || (ascii && before.name == "rgb")));
             }
         }
-    const std::string header = written(file, "pcd", true).substr(0, 400);
+    const std::string header = written_pcd(file, "pcd", true).substr(0, 400);
     CHECK(holds(header, " f8 fpfh odd[1] alone[0] rgb\n"));
     CHECK(holds(header, "COUNT 1 1 1 1 1 1 1 1 1 1 1 1 1 3 1 1 1\n"));
 }
 
 TEST_CASE("pcd: types keep their bits through PLY, 64-bit integers too") {
     const tf::mesh_file file = rich();
-    const tf::mesh_file binary = read(written(file, "ply"), "a.ply");
-    const tf::mesh_file text = read(written(file, "ply", true), "a.ply");
+    const tf::mesh_file binary = read_pcd(written_pcd(file, "ply"), "a.ply");
+    const tf::mesh_file text = read_pcd(written_pcd(file, "ply", true), "a.ply");
     for (const tf::column& c : vertices_of(file).columns) {
         CAPTURE(c.name);
         CHECK(column_of(binary, c.name) == c);
@@ -193,17 +194,17 @@ TEST_CASE("pcd: an organized cloud and its viewpoint pass through PCD and PLY") 
         "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\n"
         "HEIGHT 2\nVIEWPOINT 0.1 2 3 1 0 0 0\nPOINTS 4\nDATA ascii\n"
         "1 2 3\nnan nan nan\n4 5 6\n7 8 9\n";
-    tf::mesh_file file = read(text);
+    tf::mesh_file file = read_pcd(text);
     CHECK(file.mesh.points.size() == 4);
     const std::string shape = "WIDTH 2\nHEIGHT 2\nVIEWPOINT 0.1 2 3 1 0 0 0\nPOINTS 4\n";
-    CHECK(holds(written(file, "pcd"), shape));
-    CHECK(holds(written(read(written(file, "ply"), "a.ply"), "pcd"), shape));
+    CHECK(holds(written_pcd(file, "pcd"), shape));
+    CHECK(holds(written_pcd(read_pcd(written_pcd(file, "ply"), "a.ply"), "pcd"), shape));
     // With a point less they are no grid any more, and that is said.
     file.mesh.points.pop_back();
     file.attributes.elements.clear();
     const auto result = tf::write("/dev/null", file, {.format = "pcd"});
     CHECK(result.warnings.at(0).code == "organization");
-    CHECK(holds(written(file, "pcd"), "WIDTH 3\nHEIGHT 1\n"));
+    CHECK(holds(written_pcd(file, "pcd"), "WIDTH 3\nHEIGHT 1\n"));
 }
 
 TEST_CASE("pcd: padding between the fields is no column") {
@@ -211,52 +212,55 @@ TEST_CASE("pcd: padding between the fields is no column") {
         head("x y z _ i _", "4 4 4 1 2 8", "F F F U U I", "1 1 1 3 1 2", 2, "binary") + raw(1.0F) +
         raw(2.0F) + raw(3.0F) + "abc" + raw(std::uint16_t{7}) + std::string(16, 'x') + raw(4.0F) +
         raw(5.0F) + raw(6.0F) + "abc" + raw(std::uint16_t{8}) + std::string(16, 'x');
-    const tf::mesh_file file = read(bytes);
+    const tf::mesh_file file = read_pcd(bytes);
     CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
     CHECK(vertices_of(file).columns.size() == 4);
     CHECK(tf::number_at(column_of(file, "i"), 1) == 8);
 }
 
 TEST_CASE("pcd: headers that lie are refused with line or byte") {
-    CHECK(holds(complaint(xyz_head(2, "ascii") + "1 2 3\n"), "promised"));
-    CHECK(holds(complaint(xyz_head(1, "ascii") + "1.5 2.5\n"), "a.pcd:12: the line ends"));
-    CHECK(holds(complaint(xyz_head(1, "ascii") + "1 2 3 4\n"), "a.pcd:12: more values"));
-    CHECK(holds(complaint(xyz_head(1, "ascii") + "1 b 3\n"), "a.pcd:12: 'b'"));
-    CHECK(holds(complaint(xyz_head(4'000'000'000, "binary") + "123"), "4000000000 promised"));
-    CHECK(holds(complaint(xyz_head(2, "tar") + "123"), "a.pcd:11: unknown encoding"));
-    CHECK(holds(complaint(head("x y", "4 4", "F F", "1 1", 0, "ascii")), "no field z"));
-    CHECK(holds(complaint(head("x y z", "4 4 4", "F F", "1 1 1", 0, "ascii")), "a.pcd:5: fewer"));
+    CHECK(holds(pcd_complaint(xyz_head(2, "ascii") + "1 2 3\n"), "promised"));
+    CHECK(holds(pcd_complaint(xyz_head(1, "ascii") + "1.5 2.5\n"), "a.pcd:12: the line ends"));
+    CHECK(holds(pcd_complaint(xyz_head(1, "ascii") + "1 2 3 4\n"), "a.pcd:12: more values"));
+    CHECK(holds(pcd_complaint(xyz_head(1, "ascii") + "1 b 3\n"), "a.pcd:12: 'b'"));
+    CHECK(holds(pcd_complaint(xyz_head(4'000'000'000, "binary") + "123"), "4000000000 promised"));
+    CHECK(holds(pcd_complaint(xyz_head(2, "tar") + "123"), "a.pcd:11: unknown encoding"));
+    CHECK(holds(pcd_complaint(head("x y", "4 4", "F F", "1 1", 0, "ascii")), "no field z"));
     CHECK(
-        holds(complaint(head("x y z", "4 4 4", "F F F F", "1 1 1", 0, "ascii")), "a.pcd:5: more"));
-    CHECK(holds(complaint(head("x y z", "4 4 3", "F F F", "1 1 1", 0, "ascii")), "3 bytes"));
-    CHECK(
-        holds(complaint(head("x y z", "4 4 4", "F F Q", "1 1 1", 0, "ascii")), "none of I, U, F"));
-    CHECK(holds(complaint(head("x y z h", "4 4 4 4", "F F F F", "1 1 1 99999", 0, "ascii")),
+        holds(pcd_complaint(head("x y z", "4 4 4", "F F", "1 1 1", 0, "ascii")), "a.pcd:5: fewer"));
+    CHECK(holds(pcd_complaint(head("x y z", "4 4 4", "F F F F", "1 1 1", 0, "ascii")),
+                "a.pcd:5: more"));
+    CHECK(holds(pcd_complaint(head("x y z", "4 4 3", "F F F", "1 1 1", 0, "ascii")), "3 bytes"));
+    CHECK(holds(pcd_complaint(head("x y z", "4 4 4", "F F Q", "1 1 1", 0, "ascii")),
+                "none of I, U, F"));
+    CHECK(holds(pcd_complaint(head("x y z h", "4 4 4 4", "F F F F", "1 1 1 99999", 0, "ascii")),
                 "a.pcd:6: a number from 1"));
-    CHECK(holds(complaint("VERSION .7\nFIELDS x y z\nDATA ascii\n"), "no number of points"));
-    CHECK(holds(complaint("VERSION .7\nFIELDS x y z\nWIDTH 3\nHEIGHT 2\nPOINTS 5\nDATA ascii\n"),
-                "POINTS is 5"));
-    CHECK(holds(complaint("VERSION .7\nFIELDS x y z\nWIDTH 1000000000000\nHEIGHT 1000000000000\n"
-                          "DATA ascii\n"),
-                "promised"));
-    CHECK(holds(complaint("VERSION .7\nFIELDS x y z\n"), "without 'DATA'"));
+    CHECK(holds(pcd_complaint("VERSION .7\nFIELDS x y z\nDATA ascii\n"), "no number of points"));
+    CHECK(
+        holds(pcd_complaint("VERSION .7\nFIELDS x y z\nWIDTH 3\nHEIGHT 2\nPOINTS 5\nDATA ascii\n"),
+              "POINTS is 5"));
+    CHECK(
+        holds(pcd_complaint("VERSION .7\nFIELDS x y z\nWIDTH 1000000000000\nHEIGHT 1000000000000\n"
+                            "DATA ascii\n"),
+              "promised"));
+    CHECK(holds(pcd_complaint("VERSION .7\nFIELDS x y z\n"), "without 'DATA'"));
     const auto packed_file = [&](std::uint32_t there, std::uint32_t size, const std::string& data) {
-        return complaint(xyz_head(2, "binary_compressed") + raw(there) + raw(size) + data);
+        return pcd_complaint(xyz_head(2, "binary_compressed") + raw(there) + raw(size) + data);
     };
     CHECK(holds(packed_file(9, 24, "\x17"s), "bytes promised"));
     CHECK(holds(packed_file(1, 25, "\x17"s), "not those of 2 points"));
     CHECK(holds(packed_file(1, 24, "\x17"s), "damaged"));
     CHECK(holds(packed_file(3, 24, "\x00\x61\x20"s), "damaged"));
-    CHECK(holds(complaint(xyz_head(300'000'000, "binary_compressed") + raw(std::uint32_t{3}) +
-                          raw(std::uint32_t{3'600'000'000}) + "abc"),
+    CHECK(holds(pcd_complaint(xyz_head(300'000'000, "binary_compressed") + raw(std::uint32_t{3}) +
+                              raw(std::uint32_t{3'600'000'000}) + "abc"),
                 "as long as promised"));
-    CHECK(holds(complaint(xyz_head(2, "binary_compressed") + "1234567"), "lengths"));
-    CHECK(read(xyz_head(1, "binary") + std::string(13, 'x')).warnings.at(0).code ==
+    CHECK(holds(pcd_complaint(xyz_head(2, "binary_compressed") + "1234567"), "lengths"));
+    CHECK(read_pcd(xyz_head(1, "binary") + std::string(13, 'x')).warnings.at(0).code ==
           "trailing-bytes");
 }
 
 TEST_CASE("pcd: faces and lists are left out with a warning, and doubles stay doubles") {
-    tf::mesh_file file = read(
+    tf::mesh_file file = read_pcd(
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
         "property float z\nproperty list uchar int tags\nelement face 1\n"
         "property list uchar int vertex_indices\nend_header\n0.1 0 0 0\n1 0 0 2 3 4\n0 1 0 0\n"
@@ -266,8 +270,8 @@ TEST_CASE("pcd: faces and lists are left out with a warning, and doubles stay do
     CHECK(result.warnings.at(0).code == "columns-dropped");
     CHECK(result.warnings.at(1).code == "faces-dropped");
     CHECK(result.written_as == tf::precision::float64);
-    CHECK(read(written(file, "pcd")).mesh.points == file.mesh.points);
-    CHECK(read(written(file, "pcd", true)).mesh.points == file.mesh.points);
+    CHECK(read_pcd(written_pcd(file, "pcd")).mesh.points == file.mesh.points);
+    CHECK(read_pcd(written_pcd(file, "pcd", true)).mesh.points == file.mesh.points);
 }
 
 TEST_CASE("lzf: what is packed comes back, runs and noise and everything between") {
@@ -280,14 +284,14 @@ TEST_CASE("lzf: what is packed comes back, runs and noise and everything between
             CAPTURE(letters);
             std::string bytes(size, '\0');
             for (char& c : bytes) c = static_cast<char>(random() % letters);
-            const std::string small = packed(bytes);
+            const std::string small = packed_pcd(bytes);
             CHECK(unpacked(small, size) == bytes);
             if (letters == 1 && size > 1000) CHECK(small.size() < size / 50);
             // A repetition from exactly as far back as it can be, and from one further.
             for (const std::size_t back : {std::size_t{8192}, std::size_t{8193}}) {
                 if (size < 3 || size > back) continue;
                 const std::string twice = bytes + std::string(back - size, 'x') + bytes;
-                CHECK(unpacked(packed(twice), twice.size()) == twice);
+                CHECK(unpacked(packed_pcd(twice), twice.size()) == twice);
             }
         }
     }

@@ -28,7 +28,7 @@ using test::cloud;
 using test::kind;
 using test::kinds;
 
-struct scratch {
+struct parts_folder {
     const test::own_folder own{"io_point_parts"};
     const fs::path& folder = own.path;
 };
@@ -36,7 +36,7 @@ struct scratch {
 }  // namespace
 
 TEST_CASE("point parts: parts written by several, put one after the other, are the whole file") {
-    const scratch here;
+    const parts_folder here;
     for (const kind& k : kinds) {
         CAPTURE(k.format);
         CAPTURE(k.ascii);
@@ -75,7 +75,7 @@ TEST_CASE("point parts: parts written by several, put one after the other, are t
 }
 
 TEST_CASE("point parts: parts of a compressed PCD share their values, and pack a share each") {
-    const scratch here;
+    const parts_folder here;
     // Values of 33 bytes a point: up to six blocks, which no field and no part begins with.
     for (const std::size_t count : std::vector<std::size_t>{0, 1, 5, 36'000, 180'000}) {
         CAPTURE(count);
@@ -140,7 +140,7 @@ TEST_CASE("point parts: parts of a compressed PCD share their values, and pack a
 }
 
 TEST_CASE("point parts: a shared place is refused where it is of no use, and has its own end") {
-    const scratch here;
+    const parts_folder here;
     tf::mesh_file file = cloud(3, false);
     const tf::point_block all{.points = file.mesh.points,
                               .properties = file.attributes.elements[0]};
@@ -159,7 +159,7 @@ TEST_CASE("point parts: a shared place is refused where it is of no use, and has
 }
 
 TEST_CASE("point parts: whether points are too many to be compressed, all of them say") {
-    const scratch here;
+    const parts_folder here;
     tf::mesh_file file = cloud(1, false);
     file.format = "pcd-binary-compressed";
     // 33 bytes a point; packed, at worst a byte more for each 32, and one.

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A folder and the files that are put into it.
-struct scratch {
+struct stream_folder {
     [[nodiscard]] fs::path put(const std::string& name, const std::string& bytes) const {
         std::ofstream(folder / name, std::ios::binary) << bytes;
         return folder / name;
@@ -42,7 +42,7 @@ using test::cloud;
 using test::kind;
 using test::kinds;
 
-bool same_bits(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
+bool same_bytes_of(const std::vector<tf::point3>& a, const std::vector<tf::point3>& b) {
     return a.size() == b.size() &&
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(tf::point3)) == 0);
 }
@@ -82,7 +82,7 @@ tf::mesh_file read_by(std::size_t most, const fs::path& path) {
 }  // namespace
 
 TEST_CASE("point streams: blocks of any size are what the whole file is") {
-    const scratch here;
+    const stream_folder here;
     for (const kind& k : kinds)
         for (const bool single : {false, true}) {
             CAPTURE(k.format);
@@ -93,10 +93,10 @@ TEST_CASE("point streams: blocks of any size are what the whole file is") {
                 here.put(std::string("a.") + k.format,
                          tf::write_to_memory(file, {.format = k.format, .ascii = k.ascii}));
             const tf::mesh_file whole = tf::read(path);
-            CHECK(same_bits(whole.mesh.points, file.mesh.points));
+            CHECK(same_bytes_of(whole.mesh.points, file.mesh.points));
             for (const std::size_t most : std::vector<std::size_t>{1, 7, 1000, 1 << 20}) {
                 const tf::mesh_file parts = read_by(most, path);
-                CHECK(same_bits(parts.mesh.points, whole.mesh.points));
+                CHECK(same_bytes_of(parts.mesh.points, whole.mesh.points));
                 CHECK(parts.attributes == whole.attributes);
                 CHECK(parts.format == whole.format);
             }
@@ -104,7 +104,7 @@ TEST_CASE("point streams: blocks of any size are what the whole file is") {
 }
 
 TEST_CASE("point streams: blocks written one by one are the bytes of the whole file") {
-    const scratch here;
+    const stream_folder here;
     for (const kind& k : kinds)
         for (const bool single : {false, true})
             for (const std::size_t count : std::vector<std::size_t>{0, 1, 2500}) {
@@ -136,7 +136,7 @@ TEST_CASE("point streams: blocks written one by one are the bytes of the whole f
 }
 
 TEST_CASE("point streams: what follows the first points is the rest of the file") {
-    const scratch here;
+    const stream_folder here;
     std::vector<kind> all(std::begin(kinds), std::end(kinds));
     all.push_back({"las", false, ""});
     all.push_back({"laz", false, ""});
@@ -156,9 +156,9 @@ TEST_CASE("point streams: what follows the first points is the rest of the file"
             tf::point_block block;
             for (std::size_t i = first; i < 700; i += block.points.size()) {
                 REQUIRE(reader.read(block, 100));
-                CHECK(same_bits(block.points, {whole.mesh.points.begin() + std::ptrdiff_t(i),
-                                               whole.mesh.points.begin() +
-                                                   std::ptrdiff_t(i + block.points.size())}));
+                CHECK(same_bytes_of(block.points, {whole.mesh.points.begin() + std::ptrdiff_t(i),
+                                                   whole.mesh.points.begin() +
+                                                       std::ptrdiff_t(i + block.points.size())}));
             }
             CHECK_FALSE(reader.read(block, 100));
         }
@@ -166,7 +166,7 @@ TEST_CASE("point streams: what follows the first points is the rest of the file"
 }
 
 TEST_CASE("point streams: lists and rows without coordinates alone pass through") {
-    const scratch here;
+    const stream_folder here;
     const fs::path path = here.put(
         "a.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty int z\nproperty list uchar short tags\n"
@@ -189,7 +189,7 @@ TEST_CASE("point streams: lists and rows without coordinates alone pass through"
 }
 
 TEST_CASE("point streams: uneven lines of text lose their further values from the first block on") {
-    const scratch here;
+    const stream_folder here;
     const fs::path path = here.put("a.xyz", "1 2 3 4\n1 2 3 4\n1 2 3\n");
     const tf::mesh_file parts = read_by(1, path);
     CHECK(parts.mesh.points.size() == 3);
@@ -198,7 +198,7 @@ TEST_CASE("point streams: uneven lines of text lose their further values from th
 }
 
 TEST_CASE("point streams: a pipe is read as its file is, more than once where it must be") {
-    const scratch here;
+    const stream_folder here;
     for (const kind& k : kinds) {
         CAPTURE(k.format);
         tf::mesh_file file = cloud(3000, true);
@@ -210,12 +210,12 @@ TEST_CASE("point streams: a pipe is read as its file is, more than once where it
         const tf::mesh_file parts = read_by(1000, pipe);
         feeder.join();
         fs::remove(pipe);
-        CHECK(same_bits(parts.mesh.points, file.mesh.points));
+        CHECK(same_bytes_of(parts.mesh.points, file.mesh.points));
     }
 }
 
 TEST_CASE("point streams: what is no file of points is refused") {
-    const scratch here;
+    const stream_folder here;
     const std::string head =
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
         "property float z\n";
@@ -236,7 +236,7 @@ TEST_CASE("point streams: what is no file of points is refused") {
 }
 
 TEST_CASE("point streams: a writer takes what was announced, and leaves nothing without commit") {
-    const scratch here;
+    const stream_folder here;
     const tf::mesh_file file = cloud(2, true);
     tf::point_block block{.points = file.mesh.points, .properties = file.attributes.elements[0]};
     {
@@ -292,7 +292,7 @@ void copy_by(std::size_t most, const fs::path& from, const fs::path& to, bool as
 }  // namespace
 
 TEST_CASE("point streams: rows behind the points are those of the file") {
-    const scratch here;
+    const stream_folder here;
     const fs::path text = here.put("text.ply", mesh_text);
     tf::mesh_file big = tf::read(text);
     for (const bool ascii : {true, false}) {
@@ -312,7 +312,7 @@ TEST_CASE("point streams: rows behind the points are those of the file") {
 }
 
 TEST_CASE("point streams: of a file in parts, each has some points, and some of the rows behind") {
-    const scratch here;
+    const stream_folder here;
     const fs::path text = here.put("text.ply", mesh_text);
     for (const char* const name : {"whole.ply", "whole.obj"}) {
         const fs::path to = here.folder / name;
@@ -364,7 +364,7 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
 }
 
 TEST_CASE("point streams: rows behind the points can be read alone, and are checked") {
-    const scratch here;
+    const stream_folder here;
     const fs::path text = here.put("text.ply", mesh_text);
     tf::point_reader reader(text, {}, 5, true);
     CHECK(reader.header().attributes.elements.at(1).rows == 4);

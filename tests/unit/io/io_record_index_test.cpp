@@ -28,7 +28,7 @@ namespace io = treeform::detail::io;
 
 io::source source_of(const std::string& text) { return {std::as_bytes(std::span(text)), "text"}; }
 
-struct kind {
+struct text_kind {
     std::string name;
     std::string head;
     std::function<io::record_index(const io::source&, const io::file_part&, std::size_t)> scan;
@@ -36,9 +36,9 @@ struct kind {
 };
 
 /// With a head for so many points.
-std::vector<kind> kinds(std::size_t points) {
+std::vector<text_kind> text_kinds(std::size_t points) {
     const std::string count = std::to_string(points);
-    std::vector<kind> all;
+    std::vector<text_kind> all;
     for (const auto& [format, head] : std::vector<std::pair<std::string, std::string>>{
              {"xyz", "# by hand\n"}, {"csv", "x,y,z,t\n"}, {"pts", count + "\n"}}) {
         const std::string name = format;
@@ -72,25 +72,25 @@ std::vector<kind> kinds(std::size_t points) {
     return all;
 }
 
-io::record_index scan_in_parts(const kind& k, const io::source& in, std::uint64_t parts,
+io::record_index scan_in_parts(const text_kind& k, const io::source& in, std::uint64_t parts,
                                std::size_t most) {
     io::record_index all;
     for (std::uint64_t rank = 0; rank < parts; ++rank) all.add(k.scan(in, {rank, parts}, most));
     return all;
 }
 
-struct values {
+struct row_values {
     std::vector<tf::point3> points{};
     std::vector<std::byte> more{};
     std::vector<std::string> warnings{};
-    bool operator==(const values&) const = default;
+    bool operator==(const row_values&) const = default;
 };
 
 /// What is read from a point on, in blocks.
-values read_from(const kind& k, const io::source& in, std::uint64_t first,
-                 const io::record_index* known) {
+row_values read_from(const text_kind& k, const io::source& in, std::uint64_t first,
+                     const io::record_index* known) {
     io::point_rows rows = k.open(in, first, known);
-    values all;
+    row_values all;
     tf::element vertices{.name = "vertex"};
     if (!rows.head.attributes.elements.empty()) vertices = rows.head.attributes.elements[0];
     CHECK(rows.left_out <= first);
@@ -132,7 +132,7 @@ TEST_CASE("record index: any number of parts find the records that one finds") {
     test::random random(1);
     for (std::size_t round = 0; round < 60; ++round) {
         const std::size_t points = 1 + random.below(round % 3 == 0 ? 4 : 300);
-        for (const kind& k : kinds(points)) {
+        for (const text_kind& k : text_kinds(points)) {
             const std::string text = k.head + lines(k.name, points, random, round % 5 == 0);
             CAPTURE(k.name);
             CAPTURE(text);
@@ -189,7 +189,7 @@ TEST_CASE("record index: marks of every some-th record are as few as others") {
 
 TEST_CASE("record index: what is unusual anywhere is known wherever the text is read") {
     const std::string plain = "1 2 3 4\n1 2 3 4\n1 2 3 4\n";
-    for (const kind& k : kinds(9)) {
+    for (const text_kind& k : text_kinds(9)) {
         if (k.name == "csv") continue;
         const std::string text = k.head + plain + "1 2 0x1p1 4\n" + plain + "5 6 7 8\n9 9 9 9\n";
         CAPTURE(k.name);
@@ -200,12 +200,12 @@ TEST_CASE("record index: what is unusual anywhere is known wherever the text is 
         CHECK(read_from(k, in, 8, &all).warnings.size() == 1);
     }
     for (const char* odd : {"1 2 3\n", "1 2 3 4 5\n", "1 2 3 tree\n"}) {
-        const kind k = kinds(9).front();
+        const text_kind k = text_kinds(9).front();
         const std::string text = plain + plain + odd + plain;
         const io::source in = source_of(text);
         const io::record_index all = scan_in_parts(k, in, 5, 4);
         CHECK_FALSE(all.even);
-        const values rest = read_from(k, in, 1, &all);
+        const row_values rest = read_from(k, in, 1, &all);
         CHECK(rest == read_from(k, in, 1, nullptr));
         CHECK(rest.more.empty());
         CHECK(rest.points.size() == 9);
@@ -216,7 +216,7 @@ TEST_CASE("record index: a part is looked at, and read, without a look at the ot
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     constexpr std::size_t points = 20'000;
     constexpr std::uint64_t parts = 4;
-    for (const kind& k : kinds(points)) {
+    for (const text_kind& k : text_kinds(points)) {
         CAPTURE(k.name);
         const std::string line = k.name == "csv" ? "10,11,12,100013\n" : "10 11 12 100013\n";
         const std::size_t body = k.head.size();

@@ -43,7 +43,7 @@ std::vector<std::optional<io::record_index>> look(const std::vector<fs::path>& p
 }
 
 /// All that a reader gives from a point on.
-std::string read_from(const fs::path& path, std::uint64_t first, const io::record_index* known) {
+std::string read_shared(const fs::path& path, std::uint64_t first, const io::record_index* known) {
     io::point_blocks reader(path, {}, first, io::row_use::none, known);
     std::string all = std::to_string(reader.count().value_or(0));
     tf::point_block block;
@@ -89,8 +89,8 @@ TEST_CASE("shared records: many know of lines what one knows") {
                     CHECK(shared[i]->even == alone[i]->even);
                     CHECK(shared[i]->hexadecimal == alone[i]->hexadecimal);
                     const std::uint64_t first = alone[i]->records * team.rank / size;
-                    CHECK(read_from(paths[i], first, &*shared[i]) ==
-                          read_from(paths[i], first, nullptr));
+                    CHECK(read_shared(paths[i], first, &*shared[i]) ==
+                          read_shared(paths[i], first, nullptr));
                 }
             }));
     }

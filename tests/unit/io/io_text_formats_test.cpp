@@ -10,25 +10,26 @@
 
 namespace {
 
-tf::mesh_file read(std::string_view text, std::string_view name) {
+tf::mesh_file read_text(std::string_view text, std::string_view name) {
     return tf::read(std::as_bytes(std::span(text)), name, {});
 }
 
 /// What the reader says against `text`; empty when it says nothing.
-std::string complaint(std::string_view text, std::string_view name) {
+std::string text_complaint(std::string_view text, std::string_view name) {
     try {
-        (void)read(text, name);
+        (void)read_text(text, name);
         return {};
     } catch (const tf::io_error& e) {
         return e.what();
     }
 }
 
-bool holds(const std::string& text, std::string_view part) {
+bool says_of_text(const std::string& text, std::string_view part) {
     return text.find(part) != std::string::npos;
 }
 
-const tf::column& column_of(const tf::mesh_file& file, std::string_view e, std::string_view name) {
+const tf::column& text_column(const tf::mesh_file& file, std::string_view e,
+                              std::string_view name) {
     const tf::element* found = tf::find_element(file.attributes, e);
     REQUIRE(found != nullptr);
     const tf::column* c = tf::find_column(*found, name);
@@ -51,7 +52,7 @@ TEST_CASE("obj: corners may be v, v/vt, v//vn, v/vt/vn, and count from the end w
           "f -3/-3/-3 -2/-2/-2 -1/-1/-1", "f\t1\t2\t3 # end", "  f 1 2 3  ", "f 1 2 \\\n3",
           "f 1 2 \\\r\n 3", "f 1 2 3\\\n\n"}) {
         CAPTURE(face);
-        const tf::mesh_file file = read(with_triangle(rows + face), "a.obj");
+        const tf::mesh_file file = read_text(with_triangle(rows + face), "a.obj");
         CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}});
         CHECK(file.stored_face.empty());
     }
@@ -61,63 +62,68 @@ TEST_CASE("obj: line ends may be CR, LF or CRLF, and errors count them alike") {
     for (const std::string end : {"\r", "\n", "\r\n"}) {
         const std::string text =
             "v 0 0 0" + end + "v 1 0 0" + end + "v 0 1 0" + end + end + "f 1 2 3" + end;
-        CHECK(read(text, "a.obj").mesh.faces.size() == 1);
-        CHECK(holds(complaint(text + "f 1 2 x" + end, "a.obj"), "a.obj:6: 'x'"));
+        CHECK(read_text(text, "a.obj").mesh.faces.size() == 1);
+        CHECK(says_of_text(text_complaint(text + "f 1 2 x" + end, "a.obj"), "a.obj:6: 'x'"));
     }
 }
 
 TEST_CASE("obj: a polygon is a fan from its first corner, and repeated corners stay") {
-    const tf::mesh_file file = read(with_triangle("f 1 2 3\nf 1 2 3 1\nf 3 2 1\n"), "a.obj");
+    const tf::mesh_file file = read_text(with_triangle("f 1 2 3\nf 1 2 3 1\nf 3 2 1\n"), "a.obj");
     CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 1, 2}, {0, 2, 0}, {2, 1, 0}});
     CHECK(file.stored_face == std::vector<std::uint32_t>{0, 1, 1, 2});
     CHECK(file.stored_faces == 3);
 }
 
 TEST_CASE("obj: faces may come ahead of their vertices; what never comes is named by its line") {
-    CHECK(read("f 1 2 3\n" + std::string(triangle), "a.obj").mesh.faces.size() == 1);
-    CHECK(holds(complaint(with_triangle("f 1 2 3\nf 1 2 4\n"), "a.obj"),
-                "a.obj:5: vertex index '4' is out of range"));
-    CHECK(holds(complaint("f 1 1 1\n", "a.obj"), "a.obj:1: vertex index '1' is out of range"));
-    CHECK(holds(complaint(with_triangle("f 0 1 2\n"), "a.obj"), "a.obj:4: vertex index 0"));
-    CHECK(holds(complaint(with_triangle("f -4 1 2\n"), "a.obj"), "a.obj:4: vertex index '-4'"));
-    CHECK(holds(complaint(with_triangle("f 1 2\n"), "a.obj"), "a.obj:4: face with 2 corners"));
-    CHECK(holds(complaint(with_triangle("f 1 2 3.5\n"), "a.obj"), "a.obj:4: '3.5'"));
-    CHECK(holds(complaint(with_triangle("f 1 2 3-1\n"), "a.obj"), "a.obj:4: '3-1'"));
+    CHECK(read_text("f 1 2 3\n" + std::string(triangle), "a.obj").mesh.faces.size() == 1);
+    CHECK(says_of_text(text_complaint(with_triangle("f 1 2 3\nf 1 2 4\n"), "a.obj"),
+                       "a.obj:5: vertex index '4' is out of range"));
+    CHECK(says_of_text(text_complaint("f 1 1 1\n", "a.obj"),
+                       "a.obj:1: vertex index '1' is out of range"));
+    CHECK(says_of_text(text_complaint(with_triangle("f 0 1 2\n"), "a.obj"),
+                       "a.obj:4: vertex index 0"));
+    CHECK(says_of_text(text_complaint(with_triangle("f -4 1 2\n"), "a.obj"),
+                       "a.obj:4: vertex index '-4'"));
+    CHECK(says_of_text(text_complaint(with_triangle("f 1 2\n"), "a.obj"),
+                       "a.obj:4: face with 2 corners"));
+    CHECK(says_of_text(text_complaint(with_triangle("f 1 2 3.5\n"), "a.obj"), "a.obj:4: '3.5'"));
+    CHECK(says_of_text(text_complaint(with_triangle("f 1 2 3-1\n"), "a.obj"), "a.obj:4: '3-1'"));
 }
 
 TEST_CASE("obj: numbers end at blanks, and a comma is no decimal mark") {
-    CHECK(holds(complaint("v 1,5 0 0\n", "a.obj"), "the decimal mark is the point"));
-    CHECK(holds(complaint("v 0 0 1.#IND\n", "a.obj"), "a.obj:1: '1.#IND'"));
-    CHECK(holds(complaint("v 0 0\n", "a.obj"), "the line ends where a coordinate should stand"));
-    const tf::mesh_file file = read("v nan -INF 1e400\n", "a.obj");
+    CHECK(says_of_text(text_complaint("v 1,5 0 0\n", "a.obj"), "the decimal mark is the point"));
+    CHECK(says_of_text(text_complaint("v 0 0 1.#IND\n", "a.obj"), "a.obj:1: '1.#IND'"));
+    CHECK(says_of_text(text_complaint("v 0 0\n", "a.obj"),
+                       "the line ends where a coordinate should stand"));
+    const tf::mesh_file file = read_text("v nan -INF 1e400\n", "a.obj");
     CHECK(std::isnan(file.mesh.points[0].x));
     CHECK(file.mesh.points[0].y == -INFINITY);
     CHECK(file.mesh.points[0].z == INFINITY);
 }
 
 TEST_CASE("obj: names make parts, vertex colors a column each") {
-    const tf::mesh_file file = read(
+    const tf::mesh_file file = read_text(
         "v 0 0 0 1 0.5 0\nv 1 0 0 0 0 1\nv 0 1 0 0 1 0\nf 1 2 3\no body\ng left arm\nusemtl red\n"
         "f 1 2 3\nf 1 2 3\nusemtl \nf 1 2 3\no next\n",
         "a.obj");
     CHECK(file.attributes.parts ==
           std::vector<tf::part>{{"body", "left arm", "red", 1}, {"body", "left arm", "", 3}});
-    CHECK(tf::number_at(column_of(file, "vertex", "green"), 0) == 0.5);
-    CHECK(tf::number_at(column_of(file, "vertex", "blue"), 1) == 1.0);
-    const tf::mesh_file some = read("v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0 1 1 1\n", "a.obj");
+    CHECK(tf::number_at(text_column(file, "vertex", "green"), 0) == 0.5);
+    CHECK(tf::number_at(text_column(file, "vertex", "blue"), 1) == 1.0);
+    const tf::mesh_file some = read_text("v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0 1 1 1\n", "a.obj");
     CHECK(some.attributes.elements.empty());
     CHECK(some.warnings.at(0).code == "vertex-colors");
 }
 
 TEST_CASE(
     "obj: points and lines are counted, other statements left alone, other files not opened") {
-    const tf::mesh_file file =
-        read(with_triangle(
-                 "mtllib ../../etc/passwd\nvt 0 0\nvn 0 0 1\ns off\np 1 2\nl 1 2 \\\n3\nf 1 2 3\n"),
-             "a.obj");
+    const tf::mesh_file file = read_text(
+        with_triangle(
+            "mtllib ../../etc/passwd\nvt 0 0\nvn 0 0 1\ns off\np 1 2\nl 1 2 \\\n3\nf 1 2 3\n"),
+        "a.obj");
     CHECK(file.mesh.faces.size() == 1);
     CHECK(file.warnings.at(0).text == "2 point and line elements were not read");
-    CHECK(holds(complaint("hello\nworld\n", "a.obj"), "not an OBJ file"));
+    CHECK(says_of_text(text_complaint("hello\nworld\n", "a.obj"), "not an OBJ file"));
 }
 
 TEST_CASE("stl text: any case, any blanks, several solids, normals of any kind") {
@@ -125,9 +131,9 @@ TEST_CASE("stl text: any case, any blanks, several solids, normals of any kind")
         "FACET NORMAL -nan(ind) -nan(ind) -nan(ind)\r\n\tOuter Loop\rVERTEX 0 0 0\nvertex 1 0 0\n"
         "vertex 0 1 0\nendloop endfacet\n";
     const tf::mesh_file file =
-        read("  SOLID first one\n" + facet + facet + "endsolid\nsolid\nendsolid\nsolid last\n" +
-                 facet + "EndSolid whatever",
-             "a.stl");
+        read_text("  SOLID first one\n" + facet + facet +
+                      "endsolid\nsolid\nendsolid\nsolid last\n" + facet + "EndSolid whatever",
+                  "a.stl");
     CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
     CHECK_FALSE(file.indexed);
     CHECK(file.attributes.parts ==
@@ -137,44 +143,49 @@ TEST_CASE("stl text: any case, any blanks, several solids, normals of any kind")
 TEST_CASE("stl text: a facet has three vertices and a file ends with endsolid") {
     const std::string start =
         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
-    CHECK(holds(complaint(start + "endloop\nendfacet\nendsolid\n", "a.stl"), "with 2 vertices"));
-    CHECK(holds(complaint(start + "vertex 0 1 0\nvertex 1 1 0\nendloop\n", "a.stl"),
-                "a.stl:7: facet with more than 3 vertices"));
-    CHECK(holds(complaint(start + "vertex 0 1 0\nendloop\nendfacet\n", "a.stl"), "cut off?"));
-    CHECK(holds(complaint(start + "vertex 0 1,5 0\n", "a.stl"), "a.stl:6: '1,5'"));
-    CHECK(holds(complaint(start + "vertex 0 1\n", "a.stl"), "a coordinate"));
+    CHECK(says_of_text(text_complaint(start + "endloop\nendfacet\nendsolid\n", "a.stl"),
+                       "with 2 vertices"));
+    CHECK(says_of_text(text_complaint(start + "vertex 0 1 0\nvertex 1 1 0\nendloop\n", "a.stl"),
+                       "a.stl:7: facet with more than 3 vertices"));
+    CHECK(says_of_text(text_complaint(start + "vertex 0 1 0\nendloop\nendfacet\n", "a.stl"),
+                       "cut off?"));
+    CHECK(says_of_text(text_complaint(start + "vertex 0 1,5 0\n", "a.stl"), "a.stl:6: '1,5'"));
+    CHECK(says_of_text(text_complaint(start + "vertex 0 1\n", "a.stl"), "a coordinate"));
 }
 
 TEST_CASE("off: first words, comments and counts") {
     const std::string cell = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     for (const std::string head : {"OFF\n", "OFF ", "# c\nOFF # c\n\n", "", "nOFF 3\n"}) {
         CAPTURE(head);
-        CHECK(read(head + cell, "a.off").mesh.faces == std::vector<tf::face>{{0, 1, 2}});
+        CHECK(read_text(head + cell, "a.off").mesh.faces == std::vector<tf::face>{{0, 1, 2}});
     }
     // Three more numbers are a point or a color; nobody can tell.
-    CHECK(holds(complaint("OFF\n3 1\n0 0 0 1 0 0 0 1 0\n3 0 1 2", "a.off"), "a.off:3:"));
-    CHECK(read("OFF\n3 1\n0 0\n0\n1 0 0\n0 1 0\n3 0 1 2", "a.off").mesh.points.size() == 3);
-    CHECK(holds(complaint("OFF\n-3 1 0\n", "a.off"), "a.off:2: negative count"));
-    CHECK(holds(complaint("OFF\n3000000000 1 0\n0 0 0\n", "a.off"), "larger than the file"));
-    CHECK(holds(complaint("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "a.off"),
-                "a.off:6: vertex index 3 is out of range"));
-    CHECK(holds(complaint("OFF BINARY\n", "a.off"), "binary OFF"));
-    CHECK(holds(complaint("OFF\n1 0 0\n0 0 0 255 0 0\n", "a.off"), "first word"));
-    CHECK(holds(complaint("4OFF\n1 0 0\n0 0 0 2\n", "a.off"), "weight"));
+    CHECK(
+        says_of_text(text_complaint("OFF\n3 1\n0 0 0 1 0 0 0 1 0\n3 0 1 2", "a.off"), "a.off:3:"));
+    CHECK(read_text("OFF\n3 1\n0 0\n0\n1 0 0\n0 1 0\n3 0 1 2", "a.off").mesh.points.size() == 3);
+    CHECK(says_of_text(text_complaint("OFF\n-3 1 0\n", "a.off"), "a.off:2: negative count"));
+    CHECK(says_of_text(text_complaint("OFF\n3000000000 1 0\n0 0 0\n", "a.off"),
+                       "larger than the file"));
+    CHECK(says_of_text(text_complaint("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "a.off"),
+                       "a.off:6: vertex index 3 is out of range"));
+    CHECK(says_of_text(text_complaint("OFF BINARY\n", "a.off"), "binary OFF"));
+    CHECK(says_of_text(text_complaint("OFF\n1 0 0\n0 0 0 255 0 0\n", "a.off"), "first word"));
+    CHECK(says_of_text(text_complaint("4OFF\n1 0 0\n0 0 0 2\n", "a.off"), "weight"));
 }
 
 TEST_CASE("off: normals, colors and texture coordinates become columns") {
-    const tf::mesh_file file = read(
+    const tf::mesh_file file = read_text(
         "STCNOFF\n3 2 0\n0 0 0 0 0 1 255 0 7 0.5 1\n1 0 0 0 0 1 1 2 3 0 0\n0 1 0 0 0 1 1 2 3 0 0\n"
         "3 0 1 2 1 0 0.5\n3 2 1 0 0 0 0\n",
         "a.off");
-    CHECK(tf::number_at(column_of(file, "vertex", "nz"), 0) == 1.0);
-    CHECK(tf::number_at(column_of(file, "vertex", "red"), 0) == 255.0);
-    CHECK(tf::number_at(column_of(file, "vertex", "t"), 0) == 1.0);
-    CHECK(tf::number_at(column_of(file, "face", "blue"), 0) == 0.5);
+    CHECK(tf::number_at(text_column(file, "vertex", "nz"), 0) == 1.0);
+    CHECK(tf::number_at(text_column(file, "vertex", "red"), 0) == 255.0);
+    CHECK(tf::number_at(text_column(file, "vertex", "t"), 0) == 1.0);
+    CHECK(tf::number_at(text_column(file, "face", "blue"), 0) == 0.5);
     const tf::mesh_file uneven =
-        read("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9\n3 2 1 0\n", "a.off");
-    CHECK(column_of(uneven, "face", "off_color").list_begin == std::vector<std::uint64_t>{0, 1, 1});
+        read_text("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9\n3 2 1 0\n", "a.off");
+    CHECK(text_column(uneven, "face", "off_color").list_begin ==
+          std::vector<std::uint64_t>{0, 1, 1});
 }
 
 TEST_CASE("xyz: separators, headings, further columns") {
@@ -182,21 +193,22 @@ TEST_CASE("xyz: separators, headings, further columns") {
                                    "1;2;3\n4;5;6", "1\t2\t3\r4\t5\t6", "2\n1 2 3\n4 5 6\n",
                                    "x y z\n1 2 3\n4 5 6\n", "//X Y Z\n# c\n1 2 3\n\n4 5 6\n"}) {
         CAPTURE(text);
-        const tf::mesh_file file = read(text, "a.xyz");
+        const tf::mesh_file file = read_text(text, "a.xyz");
         CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
         CHECK(file.mesh.faces.empty());
     }
-    CHECK(tf::number_at(column_of(read("1 2 3 4 5\n1 2 3 4 6\n", "a.xyz"), "vertex", "column_5"),
-                        1) == 6.0);
-    CHECK(read("1 2 3 4\n1 2 3\n", "a.xyz").warnings.at(0).code == "columns");
-    CHECK(holds(complaint("1,5 2,5 3,5\n", "a.xyz"), "the decimal mark is the point"));
-    CHECK(holds(complaint("1 2 3\n1 2\n", "a.xyz"), "a.xyz:2:"));
-    CHECK(holds(complaint("1 2 3\nabc\n", "a.xyz"), "a.xyz:2: 'abc'"));
+    CHECK(tf::number_at(
+              text_column(read_text("1 2 3 4 5\n1 2 3 4 6\n", "a.xyz"), "vertex", "column_5"), 1) ==
+          6.0);
+    CHECK(read_text("1 2 3 4\n1 2 3\n", "a.xyz").warnings.at(0).code == "columns");
+    CHECK(says_of_text(text_complaint("1,5 2,5 3,5\n", "a.xyz"), "the decimal mark is the point"));
+    CHECK(says_of_text(text_complaint("1 2 3\n1 2\n", "a.xyz"), "a.xyz:2:"));
+    CHECK(says_of_text(text_complaint("1 2 3\nabc\n", "a.xyz"), "a.xyz:2: 'abc'"));
 }
 
 TEST_CASE("pts: a count comes first, and columns have their usual names") {
     const auto names = [](std::string_view text, std::string_view name = "a.PTS") {
-        const tf::mesh_file file = read(text, name);
+        const tf::mesh_file file = read_text(text, name);
         CHECK(file.warnings.empty());
         CHECK(file.format == "xyz");
         std::string all;
@@ -212,39 +224,39 @@ TEST_CASE("pts: a count comes first, and columns have their usual names") {
     CHECK(names("1\n1 2 3 5 10\n") == "column_4 column_5 ");
     CHECK(names("1 2 3 4\n") == "column_4 ");
     CHECK(names("1 2 3 4\n", "a.xyz") == "column_4 ");
-    const tf::mesh_file file = read("2\n1 2 3 5 10 20 30\n4 5 6 7 40 50 60\n", "a.pts");
+    const tf::mesh_file file = read_text("2\n1 2 3 5 10 20 30\n4 5 6 7 40 50 60\n", "a.pts");
     CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
-    CHECK(tf::number_at(column_of(file, "vertex", "intensity"), 1) == 7);
-    CHECK(tf::number_at(column_of(file, "vertex", "blue"), 0) == 30);
+    CHECK(tf::number_at(text_column(file, "vertex", "intensity"), 1) == 7);
+    CHECK(tf::number_at(text_column(file, "vertex", "blue"), 0) == 30);
 }
 
 TEST_CASE("pts: a wrong count is a warning, and an error where points are missing") {
-    const tf::mesh_file more = read("1\n1 2 3\n4 5 6\n", "a.pts");
+    const tf::mesh_file more = read_text("1\n1 2 3\n4 5 6\n", "a.pts");
     CHECK(more.mesh.points.size() == 2);
     REQUIRE(more.warnings.size() == 1);
     CHECK(more.warnings[0].code == "count");
     CHECK(more.warnings[0].text == "1 points promised, 2 there");
-    CHECK(holds(complaint("3\n1 2 3\n4 5 6\n", "a.pts"), "3 points promised, 2 there"));
-    CHECK(holds(complaint("99999999999999999\n1 2 3\n", "a.pts"), "promised, 1 there"));
-    CHECK(holds(complaint("2\n", "a.pts"), "no point found"));
-    CHECK(read("1.5\n1 2 3\n", "a.pts").warnings.at(0).code == "heading");
-    CHECK(read("7\n1 2 3\n", "a.xyz").warnings.at(0).code == "heading");
+    CHECK(says_of_text(text_complaint("3\n1 2 3\n4 5 6\n", "a.pts"), "3 points promised, 2 there"));
+    CHECK(says_of_text(text_complaint("99999999999999999\n1 2 3\n", "a.pts"), "promised, 1 there"));
+    CHECK(says_of_text(text_complaint("2\n", "a.pts"), "no point found"));
+    CHECK(read_text("1.5\n1 2 3\n", "a.pts").warnings.at(0).code == "heading");
+    CHECK(read_text("7\n1 2 3\n", "a.xyz").warnings.at(0).code == "heading");
 }
 
 TEST_CASE("csv: a heading names the columns, x y z are found by name, and text comes back") {
     const tf::mesh_file file =
-        read("id,\"Z\",y,\"a \"\"b\"\", c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n", "a.csv");
+        read_text("id,\"Z\",y,\"a \"\"b\"\", c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n", "a.csv");
     CHECK(file.format == "csv");
     CHECK(file.warnings.empty());
     CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
-    CHECK(tf::number_at(column_of(file, "vertex", "id"), 1) == 8.0);
-    CHECK(tf::number_at(column_of(file, "vertex", "a_\"b\",_c"), 0) == 0.5);
+    CHECK(tf::number_at(text_column(file, "vertex", "id"), 1) == 8.0);
+    CHECK(tf::number_at(text_column(file, "vertex", "a_\"b\",_c"), 0) == 0.5);
     const std::string csv = tf::write_to_memory(file, {.format = "csv"});
     CHECK(csv == "id,z,y,\"a_\"\"b\"\",_c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n");
-    CHECK(read(csv, "a.csv").attributes == file.attributes);
-    CHECK(read(csv, "stdin").format == "csv");
+    CHECK(read_text(csv, "a.csv").attributes == file.attributes);
+    CHECK(read_text(csv, "stdin").format == "csv");
     // The properties of another format come with their names.
-    const tf::mesh_file plain = read("1 2 3 4\n5 6 7 8\n", "a.xyz");
+    const tf::mesh_file plain = read_text("1 2 3 4\n5 6 7 8\n", "a.xyz");
     CHECK(tf::write_to_memory(plain, {.format = "csv"}) == "x,y,z,column_4\n1,2,3,4\n5,6,7,8\n");
     CHECK(tf::write_to_memory(file, {.format = "txt"}) == "1 2 3 7 0.5\n4 5 6 8 -1\n");
 }
@@ -256,54 +268,55 @@ TEST_CASE("csv: headings of other programs, and those that are of no use") {
           "x;y;z;Intensity\n1;2;3;4\n", "Intensity z y x\n4 3 2 1\n",
           "x, y, z, Intensity\n1, 2, 3, 4\n"}) {
         CAPTURE(text);
-        const tf::mesh_file file = read(text, "a.txt");
+        const tf::mesh_file file = read_text(text, "a.txt");
         CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
-        CHECK(tf::number_at(column_of(file, "vertex", "Intensity"), 0) == 4.0);
+        CHECK(tf::number_at(text_column(file, "vertex", "Intensity"), 0) == 4.0);
     }
-    CHECK(read("easting,northing,height\n1,2,3\n", "a.csv").warnings.at(0).code == "heading");
-    CHECK(read("# some words here more\n1 2 3 4\n", "a.xyz").attributes ==
-          read("1 2 3 4\n", "a.xyz").attributes);
+    CHECK(read_text("easting,northing,height\n1,2,3\n", "a.csv").warnings.at(0).code == "heading");
+    CHECK(read_text("# some words here more\n1 2 3 4\n", "a.xyz").attributes ==
+          read_text("1 2 3 4\n", "a.xyz").attributes);
     // Fewer names than values: they are numbered.
-    CHECK(tf::number_at(column_of(read("x,y,z\n1,2,3,4\n", "a.csv"), "vertex", "column_4"), 0) ==
-          4);
-    CHECK(read("x y z\n1 2 3\n", "stdin").format == "xyz");
-    CHECK(holds(complaint("x,y,z\n", "a.csv"), "no point found"));
-    CHECK(holds(complaint("a,x,y,z\n1,2,3,4\n1,2,3\n", "a.csv"), "a.csv:3:"));
-    CHECK(holds(complaint("a,x,y,z\nred,2,3,4\n", "a.csv"), "a.csv:2: 'red,"));
+    CHECK(tf::number_at(text_column(read_text("x,y,z\n1,2,3,4\n", "a.csv"), "vertex", "column_4"),
+                        0) == 4);
+    CHECK(read_text("x y z\n1 2 3\n", "stdin").format == "xyz");
+    CHECK(says_of_text(text_complaint("x,y,z\n", "a.csv"), "no point found"));
+    CHECK(says_of_text(text_complaint("a,x,y,z\n1,2,3,4\n1,2,3\n", "a.csv"), "a.csv:3:"));
+    CHECK(says_of_text(text_complaint("a,x,y,z\nred,2,3,4\n", "a.csv"), "a.csv:2: 'red,"));
 }
 
 TEST_CASE("detection: what is no LAS is not read as LAS") {
-    CHECK(holds(complaint(std::string_view("LASF\0\0\1\2", 8), "stdin"), "ends in the header"));
-    CHECK(holds(complaint("anything", "a.laz"), "no LAS or LAZ file"));
+    CHECK(says_of_text(text_complaint(std::string_view("LASF\0\0\1\2", 8), "stdin"),
+                       "ends in the header"));
+    CHECK(says_of_text(text_complaint("anything", "a.laz"), "no LAS or LAZ file"));
 }
 
 TEST_CASE("detection: the content comes first, then the name") {
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
         "property float y\nproperty float z\nend_header\n1 2 3\n";
-    CHECK(read(ply, "a.stl").format == "ply-ascii");
-    CHECK(read("OFF\n0 0 0\n", "a.obj").format == "off");
-    CHECK(read("# c\nv 1 2 3\n", "stdin").format == "obj");
-    CHECK(read("1 2 3\n", "stdin").format == "xyz");
-    CHECK(read("VERSION 1\nFIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n", "a.xyz").format ==
+    CHECK(read_text(ply, "a.stl").format == "ply-ascii");
+    CHECK(read_text("OFF\n0 0 0\n", "a.obj").format == "off");
+    CHECK(read_text("# c\nv 1 2 3\n", "stdin").format == "obj");
+    CHECK(read_text("1 2 3\n", "stdin").format == "xyz");
+    CHECK(read_text("VERSION 1\nFIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n", "a.xyz").format ==
           "pcd-ascii");
-    CHECK(read("solid\nendsolid\n", "stdin").format == "stl-ascii");
-    CHECK(read("\xef\xbb\xbfv 1 2 3\n", "a.obj").mesh.points.size() == 1);
-    CHECK(holds(complaint("", "a.obj"), "a.obj: empty file"));
-    CHECK(holds(complaint(std::string_view("\xff\xfev\0 \0", 6), "a.obj"), "UTF-16"));
-    CHECK(holds(complaint("hello", "a.nothing"), "not a format"));
-    CHECK(holds(complaint("hello", "stdin"), "not a format"));
+    CHECK(read_text("solid\nendsolid\n", "stdin").format == "stl-ascii");
+    CHECK(read_text("\xef\xbb\xbfv 1 2 3\n", "a.obj").mesh.points.size() == 1);
+    CHECK(says_of_text(text_complaint("", "a.obj"), "a.obj: empty file"));
+    CHECK(says_of_text(text_complaint(std::string_view("\xff\xfev\0 \0", 6), "a.obj"), "UTF-16"));
+    CHECK(says_of_text(text_complaint("hello", "a.nothing"), "not a format"));
+    CHECK(says_of_text(text_complaint("hello", "stdin"), "not a format"));
 }
 
 TEST_CASE("detection: a binary STL is one by its size, whatever its header says") {
     std::string stl = "solid facet normal";
     stl.resize(84 + 50, '\0');
     stl[80] = 1;
-    CHECK(read(stl, "a.stl").format == "stl-binary");
-    CHECK(read(stl, "stdin").mesh.faces.size() == 1);
-    CHECK(read(stl + "x", "a.stl").format == "stl-binary");
+    CHECK(read_text(stl, "a.stl").format == "stl-binary");
+    CHECK(read_text(stl, "stdin").mesh.faces.size() == 1);
+    CHECK(read_text(stl + "x", "a.stl").format == "stl-binary");
     stl.resize(stl.size() - 1);
-    CHECK(holds(complaint(stl, "a.stl"), "header says 1 triangles, file holds 0"));
+    CHECK(says_of_text(text_complaint(stl, "a.stl"), "header says 1 triangles, file holds 0"));
 }
 
 TEST_CASE("reading: a missing file and a folder are named") {

@@ -16,7 +16,7 @@
 
 namespace {
 
-tf::mesh_file reread(const std::string& bytes, const std::string& name) {
+tf::mesh_file read_again(const std::string& bytes, const std::string& name) {
     return tf::read(std::as_bytes(std::span(bytes)), name, {});
 }
 
@@ -56,7 +56,7 @@ const std::string rich_ply =
     "0 1 65535\n2 3 1\n"
     "4294967295 4 0 1 2 3 2 0.1 -1e300\n7 3 0 1 2 0\n";
 
-std::filesystem::path scratch() {
+std::filesystem::path written_folder() {
     const auto folder =
         std::filesystem::temp_directory_path() / ("io_write_test." + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
@@ -70,24 +70,24 @@ std::size_t files_in(const std::filesystem::path& folder) {
 }  // namespace
 
 TEST_CASE("ply: every element and property survives in order, name, type and value") {
-    tf::mesh_file file = reread(rich_ply, "a.ply");
+    tf::mesh_file file = read_again(rich_ply, "a.ply");
     CHECK(file.mesh.points.size() == 4);
     CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}});
     CHECK(file.attributes.elements.size() == 5);
     CHECK(file.attributes.comments == std::vector<std::string>{"first", " two  blanks"});
     const std::string ascii = written(file, "ply", true);
-    CHECK(reread(ascii, "b.ply").attributes == file.attributes);
+    CHECK(read_again(ascii, "b.ply").attributes == file.attributes);
     // Once more: the text is already as short as it gets.
-    CHECK(written(reread(ascii, "b.ply"), "ply", true) == ascii);
+    CHECK(written(read_again(ascii, "b.ply"), "ply", true) == ascii);
     const std::string little = written(file, "ply");
-    CHECK(reread(little, "b.ply").attributes == file.attributes);
-    CHECK(written(reread(little, "b.ply"), "ply") == little);
+    CHECK(read_again(little, "b.ply").attributes == file.attributes);
+    CHECK(written(read_again(little, "b.ply"), "ply") == little);
     file.format = "ply-binary-be";
     const std::string big = written(file, "ply");
-    CHECK(reread(big, "b.ply").format == "ply-binary-be");
-    CHECK(reread(big, "b.ply").attributes == file.attributes);
-    CHECK(written(reread(big, "b.ply"), "ply") == big);
-    CHECK(reread(big, "b.ply").mesh == file.mesh);
+    CHECK(read_again(big, "b.ply").format == "ply-binary-be");
+    CHECK(read_again(big, "b.ply").attributes == file.attributes);
+    CHECK(written(read_again(big, "b.ply"), "ply") == big);
+    CHECK(read_again(big, "b.ply").mesh == file.mesh);
 }
 
 TEST_CASE("ply: binary is what another program would write") {
@@ -114,7 +114,7 @@ TEST_CASE("ply: a polygon of 300 corners widens a byte-sized list length") {
     }
     file.stored_face.assign(298, 0);
     for (const bool ascii : {false, true}) {
-        const auto again = reread(written(file, "ply", ascii), "a.ply");
+        const auto again = read_again(written(file, "ply", ascii), "a.ply");
         CHECK(again.stored_faces == 1);
         CHECK(again.mesh.faces == file.mesh.faces);
     }
@@ -126,11 +126,10 @@ TEST_CASE("writing: doubles survive in every format that holds them") {
         for (const char* const format : {"obj", "off", "ply", "xyz"})
             for (const bool ascii : {false, true}) {
                 CAPTURE(format);
-                CHECK(
-                    reread(written(file, format, ascii), std::string("a.") + format).mesh.points ==
-                    file.mesh.points);
+                CHECK(read_again(written(file, format, ascii), std::string("a.") + format)
+                          .mesh.points == file.mesh.points);
             }
-        const auto stl = reread(written(file, "stl", true), "a.stl");
+        const auto stl = read_again(written(file, "stl", true), "a.stl");
         for (std::size_t f = 0; f < 4; ++f)
             for (std::size_t c = 0; c < 3; ++c)
                 CHECK(stl.mesh.points[3 * f + c] == file.mesh.points[file.mesh.faces[f][c]]);
@@ -140,7 +139,7 @@ TEST_CASE("writing: doubles survive in every format that holds them") {
 TEST_CASE("writing: rounding to float32 is reported, and refused where it would be infinite") {
     tf::mesh_file file = tetrahedron(1);
     file.mesh.points[0].x = 0.1;
-    const auto folder = scratch();
+    const auto folder = written_folder();
     const auto result = tf::write(folder / "a.stl", file);
     CHECK(result.format == "stl-binary");
     CHECK(result.written_as == tf::precision::float32);
@@ -152,7 +151,7 @@ TEST_CASE("writing: rounding to float32 is reported, and refused where it would 
     for (const char* const format : {"ply", "obj", "off"}) {
         const auto text = tf::write_to_memory(
             file, {.format = format, .ascii = true, .precision = tf::precision::float32});
-        CHECK(reread(text, std::string("a.") + format).mesh.points[0].x ==
+        CHECK(read_again(text, std::string("a.") + format).mesh.points[0].x ==
               static_cast<double>(0.1F));
     }
     file.mesh.points[0].x = 1e300;
@@ -165,14 +164,15 @@ TEST_CASE("stl: header, names of solids and attribute bits come back") {
     tf::mesh_file file = tetrahedron(2);
     file.attributes.parts = {{.object = "one", .first_face = 0},
                              {.object = "two", .first_face = 3}};
-    CHECK(reread(written(file, "stl", true), "a.stl").attributes.parts == file.attributes.parts);
+    CHECK(read_again(written(file, "stl", true), "a.stl").attributes.parts ==
+          file.attributes.parts);
     const std::vector<std::uint16_t> bits{0, 0, 65535, 7};
     tf::obtain_element(file.attributes, "face", 4)
         .columns.push_back(tf::make_column<std::uint16_t>("stl_attribute", bits));
     file.attributes.header = "HEADER" + std::string(73, '*') + '\0';
     const std::string bytes = written(file, "stl");
     CHECK(bytes.size() == 84 + 4 * 50);
-    const auto again = reread(bytes, "a.stl");
+    const auto again = read_again(bytes, "a.stl");
     CHECK(again.attributes.header == file.attributes.header);
     CHECK(again.attributes.elements == file.attributes.elements);
     CHECK(written(again, "stl") == bytes);
@@ -205,7 +205,7 @@ TEST_CASE("obj: parts, colors and polygons come back") {
     const std::string text =
         "v 0 0 0 1 0.5 0\nv 1 0 0 0 0 1\nv 1 1 0 0 1 0\nv 0 1 0 0 0 0\nf 1 2 3 4\no a\ng b\n"
         "usemtl c\nf 1 2 3\no d\nf 2 3 4\n";
-    CHECK(written(reread(text, "a.obj"), "obj") == text);
+    CHECK(written(read_again(text, "a.obj"), "obj") == text);
 }
 
 TEST_CASE("off: colors come back, and 1.0 stays apart from 1") {
@@ -216,9 +216,9 @@ TEST_CASE("off: colors come back, and 1.0 stays apart from 1") {
           "0 1 0 0.0 0.0 1.0 1.0 0.0 0.5 0.0 0.0\n3 0 1 2 1.0 0.0 0.5 0.25\n"}) {
         // The reader keeps the columns of a row in the order of the file.
         CAPTURE(text);
-        if (text.starts_with("OFF")) CHECK(written(reread(text, "a.off"), "off") == text);
-        const auto once = written(reread(text, "a.off"), "off");
-        CHECK(reread(once, "a.off").attributes == reread(text, "a.off").attributes);
+        if (text.starts_with("OFF")) CHECK(written(read_again(text, "a.off"), "off") == text);
+        const auto once = written(read_again(text, "a.off"), "off");
+        CHECK(read_again(once, "a.off").attributes == read_again(text, "a.off").attributes);
     }
 }
 
@@ -239,10 +239,10 @@ TEST_CASE("glb: coordinates, one primitive a color, and an offset that loses not
     // Far from the origin float32 alone would lose most digits.
     tf::mesh_file far = file;
     for (auto& p : far.mesh.points) p = {p.x + 0x1p20, p.y - 0x1p22, p.z};
-    const auto folder = scratch();
+    const auto folder = written_folder();
     CHECK(tf::write(folder / "far.glb", far).max_displacement < 1e-6);
     try {
-        const auto again = reread(bytes, "a.glb");
+        const auto again = read_again(bytes, "a.glb");
         CHECK(again.mesh.faces.size() == 4);
         const auto far_again = tf::read(folder / "far.glb");
         CHECK(std::abs(far_again.mesh.points[0].y) > 0x1p21);
@@ -270,14 +270,14 @@ TEST_CASE("writing: a mesh of nothing is read again as one") {
             if (std::string(format) == "glb" && !tf::reads_scenes()) continue;
             const std::string bytes = written({}, format, ascii);
             CHECK(!bytes.empty());
-            CHECK(reread(bytes, std::string("a.") + format).mesh == tf::mesh{});
+            CHECK(read_again(bytes, std::string("a.") + format).mesh == tf::mesh{});
         }
-    CHECK_THROWS_AS(static_cast<void>(reread("hello\n", "a.obj")), tf::io_error);
-    CHECK_THROWS_AS(static_cast<void>(reread("", "a.obj")), tf::io_error);
+    CHECK_THROWS_AS(static_cast<void>(read_again("hello\n", "a.obj")), tf::io_error);
+    CHECK_THROWS_AS(static_cast<void>(read_again("", "a.obj")), tf::io_error);
 }
 
 TEST_CASE("writing: a file appears whole or not at all") {
-    const auto folder = scratch();
+    const auto folder = written_folder();
     const tf::mesh_file good = tetrahedron(4);
     CHECK_THROWS_AS(tf::write(folder / "none" / "a.ply", good), tf::io_error);
     CHECK_THROWS_AS(tf::write(folder / "a.step", good), tf::io_error);
@@ -316,7 +316,7 @@ TEST_CASE("writing: data that cannot be meant is refused") {
 }
 
 TEST_CASE("polygons: splitting repeats the rows of faces and renumbers parts") {
-    tf::mesh_file file = reread(
+    tf::mesh_file file = read_again(
         "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\no b\nf 2 3 4\n", "a.obj");
     const std::vector<int> numbers{10, 20, 30};
     tf::obtain_element(file.attributes, "face", 3)
@@ -326,7 +326,7 @@ TEST_CASE("polygons: splitting repeats the rows of faces and renumbers parts") {
     CHECK(file.attributes.elements[0].columns[0] == tf::make_column<std::int32_t>("n", expected));
     CHECK(file.attributes.parts[1].first_face == 3);
     CHECK(file.stored_faces == 4);
-    CHECK(reread(written(file, "ply"), "a.ply").stored_face.empty());
+    CHECK(read_again(written(file, "ply"), "a.ply").stored_face.empty());
 }
 
 namespace {
@@ -344,7 +344,7 @@ TEST_CASE("curves: written as lines of an OBJ or as edges of a PLY") {
                         {{0, 1, 2}, {3, 4, 5}}};
     const auto pairs = tf::self_intersections(mesh).pairs;
     REQUIRE(pairs.size() == 1);
-    const std::filesystem::path folder = scratch();
+    const std::filesystem::path folder = written_folder();
     const tf::pair_numbers kinds{"kind", {7}};
     tf::write_curves(folder / "lines.obj", mesh, pairs, {&kinds, 1});
     CHECK(content(folder / "lines.obj") == "v 1 1 0\nv 1.5 1 0\nl 1 2\n");

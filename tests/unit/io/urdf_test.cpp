@@ -18,17 +18,17 @@
 namespace {
 
 /// A folder that goes away.
-class scratch {
+class robot_folder {
   public:
-    scratch() {
+    robot_folder() {
         path_ = std::filesystem::temp_directory_path() /
                 ("treeform_urdf_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)));
         std::filesystem::create_directories(path_ / "arm" / "meshes");
         std::ofstream(path_ / "arm" / "meshes" / "a.stl") << "solid\nendsolid\n";
     }
-    ~scratch() { std::filesystem::remove_all(path_); }
-    scratch(const scratch&) = delete;
-    scratch& operator=(const scratch&) = delete;
+    ~robot_folder() { std::filesystem::remove_all(path_); }
+    robot_folder(const robot_folder&) = delete;
+    robot_folder& operator=(const robot_folder&) = delete;
 
     [[nodiscard]] std::filesystem::path write(const std::string& text,
                                               const std::string& name = "arm/robot.urdf") const {
@@ -58,8 +58,8 @@ void check_near(const tf::point3& p, const tf::point3& q) {
 }
 
 /// What `read_urdf` says of this text, without the path.
-std::string refusal(const std::string& text) {
-    const scratch folder;
+std::string urdf_refusal(const std::string& text) {
+    const robot_folder folder;
     const auto path = folder.write(text);
     try {
         static_cast<void>(tf::read_urdf(path));
@@ -72,7 +72,7 @@ std::string refusal(const std::string& text) {
 }  // namespace
 
 TEST_CASE("urdf: a chain of joints of each kind puts links where the joints say") {
-    const scratch folder;
+    const robot_folder folder;
     const auto path = folder.write(
         robot("<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link name=\"d\"/><link "
               "name=\"e\"/>" +
@@ -102,7 +102,7 @@ TEST_CASE("urdf: a chain of joints of each kind puts links where the joints say"
 }
 
 TEST_CASE("urdf: roll, pitch and yaw are about the fixed axes x, y and z, in this order") {
-    const scratch folder;
+    const robot_folder folder;
     const auto path =
         folder.write(robot("<link name=\"a\"/><link name=\"b\"/>" +
                            joint("j", "fixed", "a", "b",
@@ -113,7 +113,7 @@ TEST_CASE("urdf: roll, pitch and yaw are about the fixed axes x, y and z, in thi
 }
 
 TEST_CASE("urdf: a joint that mimics another follows it, unless it has a value of its own") {
-    const scratch folder;
+    const robot_folder folder;
     const auto path = folder.write(robot(
         three + joint("p", "prismatic", "a", "b") +
         joint("q", "prismatic", "a", "c", "<mimic joint=\"p\" multiplier=\"-2\" offset=\"1\"/>")));
@@ -127,7 +127,7 @@ TEST_CASE("urdf: a joint that mimics another follows it, unless it has a value o
 }
 
 TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is said") {
-    const scratch folder;
+    const robot_folder folder;
     const auto with = [&](const std::string& name, const std::string& more = {}) {
         return robot(
             "<link name=\"a\"><collision><origin xyz=\"0 0 1\"/><geometry><mesh filename=\"" +
@@ -155,7 +155,7 @@ TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is 
 }
 
 TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame of its link") {
-    const scratch folder;
+    const robot_folder folder;
     const auto box = [](const char* x) {
         return "<collision><origin xyz=\"" + std::string(x) +
                " 0 0\"/><geometry><box size=\"2 2 2\"/></geometry></collision>";
@@ -194,7 +194,7 @@ TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame
 }
 
 TEST_CASE("urdf: boxes are exact, cylinders and spheres are closed meshes around them") {
-    const scratch folder;
+    const robot_folder folder;
     const auto link = [](const std::string& shape) {
         return robot("<link name=\"a\"><collision><origin xyz=\"0 0 1\"/><geometry>" + shape +
                      "</geometry></collision></link>");
@@ -237,12 +237,12 @@ TEST_CASE("urdf: boxes are exact, cylinders and spheres are closed meshes around
           "<sphere radius=\"-1\"/>", "<cylinder radius=\"1\"/>", "<sphere radius=\"nan\"/>",
           "<sphere radius=\"1.797e308\"/>"}) {
         CAPTURE(wrong);
-        CHECK(refusal(link(wrong)).starts_with("link a: a "));
+        CHECK(urdf_refusal(link(wrong)).starts_with("link a: a "));
     }
 }
 
 TEST_CASE("urdf: links are adjacent across links without meshes") {
-    const scratch folder;
+    const robot_folder folder;
     const auto link = [](const std::string& name, bool mesh) {
         return "<link name=\"" + name + "\">" +
                (mesh ? "<collision><geometry><mesh "
@@ -259,37 +259,40 @@ TEST_CASE("urdf: links are adjacent across links without meshes") {
 }
 
 TEST_CASE("urdf: what is wrong is named") {
-    CHECK(refusal("<robot").starts_with("byte "));
-    CHECK(refusal("<a/>") == "no <robot>: is it a URDF file? (xacro has to be run first)");
-    CHECK(refusal(robot("")) == "the robot has no link");
-    CHECK(refusal(robot("<link/>")) == "a link has no name");
-    CHECK(refusal(robot("<link name=\"a\"/><link name=\"a\"/>")) == "two links have the name a");
+    CHECK(urdf_refusal("<robot").starts_with("byte "));
+    CHECK(urdf_refusal("<a/>") == "no <robot>: is it a URDF file? (xacro has to be run first)");
+    CHECK(urdf_refusal(robot("")) == "the robot has no link");
+    CHECK(urdf_refusal(robot("<link/>")) == "a link has no name");
+    CHECK(urdf_refusal(robot("<link name=\"a\"/><link name=\"a\"/>")) ==
+          "two links have the name a");
     CHECK(
-        refusal(robot(three + joint("j", "floating", "a", "b"))) ==
+        urdf_refusal(robot(three + joint("j", "floating", "a", "b"))) ==
         "joint j: of type \"floating\"; only fixed, revolute, continuous and prismatic joints are "
         "read");
-    CHECK(refusal(robot(three + joint("j", "fixed", "a", "x"))) ==
+    CHECK(urdf_refusal(robot(three + joint("j", "fixed", "a", "x"))) ==
           "joint j: its child link \"x\" is not there");
-    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b") + joint("j", "fixed", "a", "c"))) ==
-          "two joints have the name j");
-    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b") + joint("k", "fixed", "c", "b"))) ==
+    CHECK(urdf_refusal(robot(three + joint("j", "fixed", "a", "b") +
+                             joint("j", "fixed", "a", "c"))) == "two joints have the name j");
+    CHECK(urdf_refusal(
+              robot(three + joint("j", "fixed", "a", "b") + joint("k", "fixed", "c", "b"))) ==
           "link b is the child of two joints");
-    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "a"))) ==
+    CHECK(urdf_refusal(
+              robot(three + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "a"))) ==
           "joints lead from a link back to it");
-    CHECK(refusal(robot(three + joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/>"))) ==
+    CHECK(urdf_refusal(robot(three + joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/>"))) ==
           "joint j: its axis has no direction");
-    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b", "<origin xyz=\"1 nan 0\"/>"))) ==
+    CHECK(urdf_refusal(robot(three + joint("j", "fixed", "a", "b", "<origin xyz=\"1 nan 0\"/>"))) ==
           "joint j: xyz=\"1 nan 0\": expected 3 finite numbers");
-    CHECK(refusal(robot(three + joint("j", "fixed", "a", "b", "<origin xyz=\"1 2 3 4\"/>"))) ==
+    CHECK(urdf_refusal(robot(three + joint("j", "fixed", "a", "b", "<origin xyz=\"1 2 3 4\"/>"))) ==
           "joint j: xyz=\"1 2 3 4\": expected 3 finite numbers");
-    CHECK(refusal(robot("<link name=\"a\"><collision><geometry><mesh filename=\"no.stl\"/>"
-                        "</geometry></collision></link>")) ==
+    CHECK(urdf_refusal(robot("<link name=\"a\"><collision><geometry><mesh filename=\"no.stl\"/>"
+                             "</geometry></collision></link>")) ==
           "link a: its mesh no.stl is not found");
     CHECK_THROWS_AS(static_cast<void>(tf::read_urdf("/no/such.urdf")), tf::io_error);
 }
 
 TEST_CASE("urdf: values of joints that are not there, fixed or not finite are refused") {
-    const scratch folder;
+    const robot_folder folder;
     const auto r = tf::read_urdf(folder.write(
         robot(three + joint("j", "fixed", "a", "b") + joint("k", "continuous", "a", "c"))));
     const auto with = [&](const tf::joint_value& one) {
@@ -303,7 +306,7 @@ TEST_CASE("urdf: values of joints that are not there, fixed or not finite are re
 }
 
 TEST_CASE("urdf: every prefix of a file is read or refused, none ends the program") {
-    const scratch folder;
+    const robot_folder folder;
     const std::string whole = robot(
         "<link name=\"a\"><collision><geometry><mesh filename=\"meshes/a.stl\"/></geometry>"
         "</collision></link><link name=\"b\"/>" +

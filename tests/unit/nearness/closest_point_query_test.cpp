@@ -5,6 +5,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
+#include <support/extremes.hpp>
 #include <support/soups.hpp>
 
 #include <cmath>
@@ -14,15 +15,11 @@
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
+using test::triangle_of;
 
-tf::triangle3 triangle_of(const tf::mesh& mesh, std::size_t i) {
-    const tf::face& f = mesh.faces[i];
-    return {mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
-}
-
-std::optional<tf::closest_point_result> by_brute_force(const tf::mesh& mesh,
-                                                       const tf::point3& query) {
+std::optional<tf::closest_point_result> closest_by_brute_force(const tf::mesh& mesh,
+                                                               const tf::point3& query) {
     std::optional<tf::closest_point_result> best;
     double squared = infinity;
     for (std::uint32_t i = 0; i < mesh.faces.size(); ++i) {
@@ -88,7 +85,7 @@ TEST_CASE("closest point query: the answer is that of a loop over all faces, to 
         const auto batch = query.nearest(queries);
         REQUIRE(batch.size() == queries.size());
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            const auto expected = by_brute_force(mesh, queries[i]);
+            const auto expected = closest_by_brute_force(mesh, queries[i]);
             REQUIRE(query.nearest(queries[i]) == expected);
             REQUIRE(batch[i] == expected);
         }

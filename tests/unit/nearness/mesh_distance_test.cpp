@@ -14,10 +14,7 @@
 
 namespace {
 
-tf::triangle3 triangle_of(const tf::mesh& mesh, std::size_t i) {
-    const tf::face& f = mesh.faces[i];
-    return {mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
-}
+using test::triangle_of;
 
 tf::tree<3> tree_of(const tf::mesh& mesh) {
     return tf::build(mesh.faces, [&](const tf::face& f) {
@@ -27,7 +24,7 @@ tf::tree<3> tree_of(const tf::mesh& mesh) {
     });
 }
 
-tf::closest_points_result by_brute_force(const tf::mesh& a, const tf::mesh& b) {
+tf::closest_points_result distance_by_brute_force(const tf::mesh& a, const tf::mesh& b) {
     tf::closest_points_result best;
     double squared = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < a.faces.size(); ++i)
@@ -81,7 +78,7 @@ TEST_CASE("mesh distance: the nearest faces are those of a loop over all pairs")
         const tf::mesh b = test::moved(round % 2 == 0 ? test::random_soup(source, 150, 0.2)
                                                       : test::lattice_soup(source, 100, 80, 4),
                                        {x, source.in(-1, 1), source.in(-1, 1)});
-        const tf::closest_points_result expected = by_brute_force(a, b);
+        const tf::closest_points_result expected = distance_by_brute_force(a, b);
         const auto found = tf::closest_points(a, b);
         REQUIRE(found);
         REQUIRE(found->distance == expected.distance);

@@ -20,21 +20,19 @@
 
 namespace {
 
-tf::triangle3 corners(const tf::mesh& m, std::uint32_t f) {
-    return {m.points[m.faces[f][0]], m.points[m.faces[f][1]], m.points[m.faces[f][2]]};
-}
+using test::triangle_of;
 
 /// Counts the crossings of rays in random directions until one meets interiors only.
 tf::point_location by_random_rays(test::random& random, const tf::mesh& mesh, const tf::point3& q) {
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-        if (tf::intersect(corners(mesh, f), {q, q, q}).kind != tf::overlap::none)
+        if (tf::intersect(triangle_of(mesh, f), {q, q, q}).kind != tf::overlap::none)
             return {tf::location::boundary, 0, f};
     for (;;) {
         const tf::point3 d{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
         tf::point_location found;
         bool grazed = false;
         for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-            const tf::triangle3 t = corners(mesh, f);
+            const tf::triangle3 t = triangle_of(mesh, f);
             const auto hit = tf::intersect({{q.x, q.y, q.z}, {d.x, d.y, d.z}}, t);
             if (!hit) continue;
             grazed |= hit->coplanar || hit->at != tf::feature::interior;

@@ -20,16 +20,14 @@
 
 namespace {
 
-tf::triangle3 corners(const tf::mesh& m, std::uint32_t f) {
-    return {m.points[m.faces[f][0]], m.points[m.faces[f][1]], m.points[m.faces[f][2]]};
-}
+using test::triangle_of;
 
 /// Every face met, in order, by looking at all of them.
-std::vector<std::pair<std::uint32_t, tf::ray_contact>> by_brute_force(const tf::mesh& mesh,
-                                                                      const tf::ray3& ray) {
+std::vector<std::pair<std::uint32_t, tf::ray_contact>> hits_by_brute_force(const tf::mesh& mesh,
+                                                                           const tf::ray3& ray) {
     std::vector<std::pair<std::uint32_t, tf::ray_contact>> found;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-        if (const auto contact = tf::intersect(ray, corners(mesh, f)))
+        if (const auto contact = tf::intersect(ray, triangle_of(mesh, f)))
             found.emplace_back(f, *contact);
     std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
         return tf::compare(ray, a.second, b.second) < 0;
@@ -45,7 +43,7 @@ void check_against_brute_force(const tf::mesh& mesh, const std::vector<tf::ray3>
     const auto all = query.all(rays);
     REQUIRE(all.begin.size() == rays.size() + 1);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const auto expected = by_brute_force(mesh, rays[i]);
+        const auto expected = hits_by_brute_force(mesh, rays[i]);
         const auto hits = query.all(rays[i]);
         REQUIRE(hits.size() == expected.size());
         REQUIRE(all.begin[i + 1] - all.begin[i] == hits.size());

@@ -26,7 +26,7 @@ using tf::align_method;
 using tf::point3;
 
 /// A shape that no motion brings onto itself: boxes of three sizes.
-tf::mesh shape() {
+tf::mesh three_boxes() {
     return test::together(
         test::together(test::box(3, 2, 1), test::moved(test::box(1, 1, 2), {0.3, 0.4, 1})),
         test::moved(test::box(0.5, 1.5, 1), {2.2, 0.3, 1}));
@@ -81,7 +81,7 @@ double largest_difference(const std::vector<point3>& a, const std::vector<point3
 
 TEST_CASE("align: a known motion is found to the last digits, on planes and on points") {
     test::random source(1);
-    const tf::mesh fixed = shape();
+    const tf::mesh fixed = three_boxes();
     const std::vector<point3> home = points_on(source, fixed, 3000);
     for (int round = 0; round < 6; ++round) {
         CAPTURE(round);
@@ -107,7 +107,7 @@ TEST_CASE("align: a known motion is found to the last digits, on planes and on p
 
 TEST_CASE("align: a third of the points are somewhere else, and are trimmed") {
     test::random source(2);
-    const tf::mesh fixed = shape();
+    const tf::mesh fixed = three_boxes();
     for (int round = 0; round < 4; ++round) {
         std::vector<point3> home = points_on(source, fixed, 2000);
         const auto away = motion(0.06, 1.0, {0.05, -0.06, 0.04});
@@ -133,7 +133,7 @@ TEST_CASE("align: a third of the points are somewhere else, and are trimmed") {
 TEST_CASE("align: far from the origin as well as the coordinates there allow, and in any unit") {
     test::random source(3);
     const point3 offset{1e6, -2e6, 1e6};
-    const tf::mesh fixed = test::moved(shape(), offset);
+    const tf::mesh fixed = test::moved(three_boxes(), offset);
     const std::vector<point3> home = points_on(source, fixed, 3000);
     const auto about = [&](const tf::transform<3>& m) {
         return tf::after(tf::translation<3>(offset),
@@ -149,7 +149,7 @@ TEST_CASE("align: far from the origin as well as the coordinates there allow, an
         for (std::size_t c = 0; c < 3; ++c)
             CHECK(std::abs(found.matrix.rows[r][c] - expected.rows[r][c]) < 1e-9);
 
-    const tf::mesh near = shape();
+    const tf::mesh near = three_boxes();
     const std::vector<point3> points = points_on(source, near, 500);
     const std::vector<point3> off = moved(points, motion(0.05, 1.0, {0.1, 0.1, 0.1}));
     const auto plain = tf::align(off, near);
@@ -164,7 +164,7 @@ TEST_CASE("align: far from the origin as well as the coordinates there allow, an
 
 TEST_CASE("align: a uniform scale is found when it is asked for, and only then") {
     test::random source(4);
-    const tf::mesh fixed = shape();
+    const tf::mesh fixed = three_boxes();
     const std::vector<point3> home = points_on(source, fixed, 2000);
     const std::vector<point3> there = moved(home, motion(0.03, 1.03, {0.02, 0.01, -0.02}));
     const auto found = tf::align(there, fixed, {.scale = true});
@@ -178,7 +178,7 @@ TEST_CASE("align: a uniform scale is found when it is asked for, and only then")
 
 TEST_CASE("align: a start brings the points near, and is part of the matrix, mirrored or not") {
     test::random source(5);
-    const tf::mesh fixed = shape();
+    const tf::mesh fixed = three_boxes();
     const std::vector<point3> home = points_on(source, fixed, 1000);
     tf::transform<3> start = motion(2.0, 1.0, {50, 60, -70});
     for (double& entry : start.rows[1]) entry = -entry;
@@ -243,7 +243,7 @@ TEST_CASE("align: flat on flat slides nowhere, and a mirror image is not mirrore
 }
 
 TEST_CASE("align: nothing, one point, and what is there already") {
-    const tf::mesh fixed = shape();
+    const tf::mesh fixed = three_boxes();
     const auto none = tf::align(tf::points_view{}, fixed);
     CHECK_FALSE(none.converged);
     CHECK(none.matrix == tf::transform<3>{});
@@ -261,7 +261,7 @@ TEST_CASE("align: nothing, one point, and what is there already") {
 
 TEST_CASE("align: the same on any number of threads") {
     test::random source(8);
-    const tf::mesh fixed = shape();
+    const tf::mesh fixed = three_boxes();
     const std::vector<point3> there =
         moved(points_on(source, fixed, 20000), motion(0.05, 1.0, {0.1, 0, 0.1}));
     const auto one = tf::align(there, fixed, {.overlap = 0.9});
@@ -275,7 +275,7 @@ TEST_CASE("align: the same on any number of threads") {
 
 TEST_CASE("align: what cannot be meant is refused") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    tf::mesh fixed = shape();
+    tf::mesh fixed = three_boxes();
     std::vector<point3> there = fixed.points;
     const auto refused = [&](const tf::align_options& o) {
         CHECK_THROWS_AS(static_cast<void>(tf::align(there, fixed, o)), std::invalid_argument);
@@ -299,7 +299,7 @@ TEST_CASE("align: what cannot be meant is refused") {
 
 TEST_CASE("align: a noisy scan converges, and again from its own answer") {
     test::random source(9);
-    const tf::mesh solid = shape();
+    const tf::mesh solid = three_boxes();
     for (const double noise : {1e-5, 1e-4, 1e-3})
         for (const auto method : {align_method::point_to_plane, align_method::point_to_point}) {
             CAPTURE(noise);
@@ -319,7 +319,7 @@ TEST_CASE("align: a noisy scan converges, and again from its own answer") {
 
 TEST_CASE("align: a tolerance of 0 asks for a pose that does not move, a large one for little") {
     test::random source(10);
-    const auto scan = test::scan_of(shape(), {.noise = 1e-4, .degrees = 8}, source);
+    const auto scan = test::scan_of(three_boxes(), {.noise = 1e-4, .degrees = 8}, source);
     const auto usual = tf::align(scan.moving, scan.fixed);
     const auto coarse = tf::align(scan.moving, scan.fixed, {.tolerance = 0.5});
     CHECK(coarse.iterations <= usual.iterations);
@@ -335,7 +335,7 @@ TEST_CASE("align: acceleration takes fewer steps from points to points, to the s
     test::random source(11);
     unsigned with = 0, without = 0;
     for (int round = 0; round < 5; ++round) {
-        const auto scan = test::scan_of(shape(), {.noise = 1e-4, .degrees = 6}, source);
+        const auto scan = test::scan_of(three_boxes(), {.noise = 1e-4, .degrees = 6}, source);
         tf::align_options options{.method = align_method::point_to_point, .max_iterations = 1000};
         const auto fast = tf::align(scan.moving, scan.fixed, options);
         options.accelerate = false;
@@ -353,7 +353,7 @@ TEST_CASE("align: what has no partner is found by weights, trimmed by its share,
     test::random source(12);
     for (int round = 0; round < 3; ++round) {
         const auto scan = test::scan_of(
-            shape(),
+            three_boxes(),
             {.noise = 1e-5, .degrees = 8, .share = 0.6, .what = test::scanned::part_of_fixed},
             source);
         CHECK(tf::align(scan.moving, scan.fixed).end == tf::align_end::doubtful);
@@ -370,7 +370,7 @@ TEST_CASE("align: several starts find what is turned any way, the present one fi
     test::random source(13);
     for (const double degrees : {90.0, 135.0, 180.0}) {
         CAPTURE(degrees);
-        const auto scan = test::scan_of(shape(), {.noise = 1e-5, .degrees = degrees}, source);
+        const auto scan = test::scan_of(three_boxes(), {.noise = 1e-5, .degrees = degrees}, source);
         CHECK_FALSE(tf::align(scan.moving, scan.fixed).converged);
         for (const unsigned starts : {5U, 60U}) {
             const auto found = tf::align(scan.moving, scan.fixed, {.starts = starts});
@@ -380,7 +380,7 @@ TEST_CASE("align: several starts find what is turned any way, the present one fi
             CHECK(test::error_of(scan, found.matrix, false) < 1e-5);
         }
     }
-    const auto near = test::scan_of(shape(), {.degrees = 2}, source);
+    const auto near = test::scan_of(three_boxes(), {.degrees = 2}, source);
     CHECK(tf::align(near.moving, near.fixed, {.starts = 20}).start == 0);
 }
 
@@ -403,7 +403,7 @@ TEST_CASE(
         CHECK(std::abs(flat.freedoms[i].turn.x) + std::abs(flat.freedoms[i].turn.y) < 1e-12);
     }
     CHECK(flat.freedoms[5].stiffness == doctest::Approx(1.0));
-    CHECK(free_of(shape()).undetermined() == 0);
+    CHECK(free_of(three_boxes()).undetermined() == 0);
     // without its ends, a bar slides along itself
     tf::mesh bar = test::box(1, 2, 9);
     std::erase_if(bar.faces, [&](const tf::face& f) {
@@ -420,7 +420,7 @@ TEST_CASE(
 
 TEST_CASE("align: clouds to planes fitted to clouds, the same points thousands of times") {
     test::random source(15);
-    const tf::mesh solid = shape();
+    const tf::mesh solid = three_boxes();
     std::vector<point3> fixed = points_on(source, solid, 20000);
     const std::vector<point3> home = points_on(source, solid, 3000);
     for (int i = 0; i < 3000; ++i) fixed.push_back({0, 0, 0});
@@ -439,8 +439,8 @@ TEST_CASE("align: clouds to planes fitted to clouds, the same points thousands o
 }
 
 TEST_CASE("align: of scans of real solids, right places converge and wrong ones never do") {
+    NEEDS_MODELS();
     const std::filesystem::path folder = test::models_folder();
-    if (folder.empty()) return;
     test::random source(16);
     // A sample; all of it: tests/stress/align_stress.cpp.
     for (const char* file : {"decimated_knight_1k.off", "fertility_9k.off", "fish_2k.obj"}) {

@@ -30,6 +30,7 @@ namespace {
 
 using test::box;
 using test::moved;
+using test::triangle_of;
 using tf::mesh_relation;
 
 tf::mesh cloud(std::vector<tf::point3> points) {
@@ -44,11 +45,6 @@ tf::mesh random_cloud(test::random& source, std::size_t count, double size,
         points.push_back({center.x + source.in(-size, size), center.y + source.in(-size, size),
                           center.z + source.in(-size, size)});
     return cloud(std::move(points));
-}
-
-tf::triangle3 triangle_of(const tf::mesh& mesh, std::size_t f) {
-    const tf::face& corners = mesh.faces[f];
-    return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
 }
 
 /// By asking each point on its own.

@@ -76,7 +76,7 @@ std::set<corner_set> corners_by_hull(const points& p, const tf::convex_hull_resu
     return sides;
 }
 
-bool between(const tf::point3& q, const tf::point3& a, const tf::point3& b) {
+bool between_points(const tf::point3& q, const tf::point3& a, const tf::point3& b) {
     return tf::collinear(a, b, q) && tf::compare_along(a, b, a, q) > 0 &&
            tf::compare_along(a, b, q, b) > 0;
 }
@@ -119,7 +119,7 @@ std::set<corner_set> corners_by_brute_force(const points& all) {
                     for (const tf::point3& d : in_plane)
                         for (const tf::point3& e : in_plane) {
                             if (!extreme || d == e) continue;
-                            if (between(q, d, e)) extreme = false;
+                            if (between_points(q, d, e)) extreme = false;
                             for (const tf::point3& f : in_plane)
                                 if (strictly_in_triangle(q, d, e, f)) extreme = false;
                         }

@@ -21,9 +21,8 @@
 
 namespace {
 
+using std::numbers::pi;
 using tf::feature_kind;
-
-constexpr double pi = 3.14159265358979323846;
 
 double dot(const tf::point3& a, const tf::point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double length(const tf::point3& a) { return std::sqrt(dot(a, a)); }
@@ -74,7 +73,8 @@ tf::mesh moved_by(tf::mesh mesh, const tf::transform<3>& by) {
 }
 
 /// That it penetrates nothing, and that the matrix says how it went there.
-void check(const tf::mesh& moving, const tf::mesh& fixed, const tf::feature_mating& found) {
+void check_features(const tf::mesh& moving, const tf::mesh& fixed,
+                    const tf::feature_mating& found) {
     REQUIRE(found);
     const tf::mesh there{found.at.points, moving.faces};
     CHECK(tf::relation(there, fixed).relation != tf::mesh_relation::penetrating);
@@ -166,7 +166,7 @@ TEST_CASE("mate features: a block comes to lie flat on another, center above cen
         const auto of_base = tf::find_features(base, feature_kind::plane)[0];
         const tf::feature_mate_options options{.clearance = round % 2 == 0 ? 0.0 : 0.5};
         const auto found = tf::mate_features(block, base, of_block, of_base, options);
-        check(block, base, found);
+        check_features(block, base, found);
         CHECK(found.offset == doctest::Approx(options.clearance).epsilon(1e-12));
         CHECK(found.at.end == tf::placement_end::contact);
         const tf::mesh there{found.at.points, block.faces};
@@ -206,7 +206,7 @@ TEST_CASE("mate features: a bolt goes into its hole, coaxial, until its head is 
             *std::find_if(in_plate.begin(), in_plate.end(), [](const auto& f) { return f.hollow; });
         for (const bool flip : {false, true}) {
             const auto found = tf::mate_features(bolt, plate, shank, hole, {.flip = flip});
-            check(bolt, plate, found);
+            check_features(bolt, plate, found);
             CHECK(found.at.end == tf::placement_end::contact);
             const tf::point3 center = minus(found.at.matrix(shank.origin), hole.origin);
             const double along = dot(center, hole.direction);
@@ -228,7 +228,7 @@ TEST_CASE("mate features: a shaft that goes through its bore stays in the middle
     const auto in_bore = tf::find_features(bore, feature_kind::axis)[1];
     const auto on_shaft = tf::find_features(shaft, feature_kind::axis)[0];
     const auto found = tf::mate_features(shaft, bore, on_shaft, in_bore);
-    check(shaft, bore, found);
+    check_features(shaft, bore, found);
     CHECK(found.at.end == tf::placement_end::stays);
     CHECK(std::abs(found.offset) < 1e-12);
     CHECK(found.at.at_place == tf::standing::separate);
@@ -236,7 +236,7 @@ TEST_CASE("mate features: a shaft that goes through its bore stays in the middle
     const tf::mesh thick = test::moved(tube(10.2, 4, 30, 64), {50, 3, 2});
     const auto stopped =
         tf::mate_features(thick, bore, tf::find_features(thick, feature_kind::axis)[0], in_bore);
-    check(thick, bore, stopped);
+    check_features(thick, bore, stopped);
     CHECK(std::abs(stopped.offset) == doctest::Approx(18));
 }
 

@@ -48,12 +48,13 @@ double largest_of(tf::points_view points) {
     return most;
 }
 
-double distance(const tf::point3& a, const tf::point3& b) {
+double distance_between(const tf::point3& a, const tf::point3& b) {
     return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 /// What the header says of what `lay` returns.
-void check(const tf::mesh& mesh, const tf::laid_flat& laid, const tf::lay_flat_options& options) {
+void check_laid(const tf::mesh& mesh, const tf::laid_flat& laid,
+                const tf::lay_flat_options& options) {
     REQUIRE(laid.points.size() == mesh.points.size());
     const double unit = (options.precision == tf::precision::float32) ? 0x1p-24 : 0x1p-53;
     const double largest =
@@ -71,7 +72,7 @@ void check(const tf::mesh& mesh, const tf::laid_flat& laid, const tf::lay_flat_o
         down += on_bed;
         CHECK((on_bed ? q.z == laid.bed : q.z >= laid.bed));
         CHECK(std::binary_search(laid.on_bed.begin(), laid.on_bed.end(), i) == on_bed);
-        CHECK(distance(q, laid.matrix(p[i])) <= 16 * unit * largest);
+        CHECK(distance_between(q, laid.matrix(p[i])) <= 16 * unit * largest);
         for (std::size_t k = 0; k < 3; ++k)
             if ((options.precision == tf::precision::float32))
                 CHECK(q[k] == static_cast<double>(static_cast<float>(q[k])));
@@ -131,7 +132,7 @@ TEST_CASE(
         CHECK(laid->points[i].x == box.points[i].x);
         CHECK(laid->points[i].y == box.points[i].y);
     }
-    check(box, *laid, {});
+    check_laid(box, *laid, {});
     // of the six equal sides of a cube, too
     const tf::mesh cube = test::box(1, 1, 1);
     for (const bool keep : {false, true})
@@ -196,7 +197,7 @@ TEST_CASE(
         options.bed = source.in(-1, 1);
         const auto laid = tf::lay_flat(mesh, options);
         REQUIRE(laid);
-        check(mesh, *laid, options);
+        check_laid(mesh, *laid, options);
     }
 }
 
@@ -238,7 +239,7 @@ TEST_CASE(
             const auto laid = tf::lay_flat(sheet, options);
             REQUIRE(laid);
             REQUIRE(laid->on_bed.size() == 4);
-            check(sheet, *laid, options);
+            check_laid(sheet, *laid, options);
             CHECK(laid->matrix.rows[2][2] == doctest::Approx(-z).epsilon(1e-5));
         }
 }
@@ -253,7 +254,7 @@ TEST_CASE("lay flat: points that no face uses move along and do not count") {
     CHECK(with.matrix == without.matrix);
     CHECK(with.on_bed == without.on_bed);
     CHECK(with.points.size() == 9);
-    CHECK(distance(with.points[8], with.matrix(mesh.points[8])) < 1e-12);
+    CHECK(distance_between(with.points[8], with.matrix(mesh.points[8])) < 1e-12);
 }
 
 TEST_CASE("lay flat: there is no side to a line, a point or nothing") {
@@ -318,7 +319,7 @@ TEST_CASE("lay flat: a box tips over the nearest edge of the side that it stands
     const auto laid = tf::lay_flat(box, {.choose = lay_choice::most_stable});
     REQUIRE(laid);
     CHECK(laid->mass == tf::mass_of::solid);
-    CHECK(distance(laid->center_of_mass, {103, -18, 4}) < 1e-12);
+    CHECK(distance_between(laid->center_of_mass, {103, -18, 4}) < 1e-12);
     REQUIRE(laid->stability.size() == 6);
     for (std::size_t i = 0; i < 6; ++i) {
         const double height = 48.0 / laid->sides[i].area;  // the box has a volume of 48
@@ -358,7 +359,7 @@ TEST_CASE("lay flat: the most stable side need not be the largest, and some do n
     const auto by_angle = tf::lay_flat(sign, {.choose = lay_choice::most_stable});
     CHECK(by_area->stability[by_area->chosen].tip_angle <
           by_angle->stability[by_angle->chosen].tip_angle);
-    check(flag, *stable, {.choose = lay_choice::most_stable});
+    check_laid(flag, *stable, {.choose = lay_choice::most_stable});
     // By its definition: the least tilt over an edge of the side, seen from above after the turn.
     for (const auto* laid : {&*largest, &*stable}) {
         const tf::point3 c = laid->matrix(laid->center_of_mass);
@@ -387,15 +388,15 @@ TEST_CASE("lay flat: the center of mass is of the solid, of the surface, or of t
     const auto open = tf::lay_flat(box);
     REQUIRE(open);
     CHECK(open->mass == tf::mass_of::surface);
-    CHECK(distance(open->center_of_mass, {1, 1, 0.8}) < 1e-14);
+    CHECK(distance_between(open->center_of_mass, {1, 1, 0.8}) < 1e-14);
     tf::mesh inside_out = test::box(2, 2, 2);
     for (auto& [a, b, c] : inside_out.faces) std::swap(a, b);
     CHECK(tf::lay_flat(inside_out)->mass == tf::mass_of::solid);
-    CHECK(distance(tf::lay_flat(inside_out)->center_of_mass, {1, 1, 1}) < 1e-14);
+    CHECK(distance_between(tf::lay_flat(inside_out)->center_of_mass, {1, 1, 1}) < 1e-14);
     const auto cloud = tf::lay_flat(tf::mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {}});
     REQUIRE(cloud);
     CHECK(cloud->mass == tf::mass_of::points);
-    CHECK(distance(cloud->center_of_mass, {1, 1, 1}) < 1e-14);
+    CHECK(distance_between(cloud->center_of_mass, {1, 1, 1}) < 1e-14);
 }
 
 TEST_CASE("lay flat: overhang is what looks down by more than the angle and is not on the bed") {

@@ -24,15 +24,15 @@ tf::point3 point_of(const tf::mesh& mesh, const tf::surface_point& at) {
     return sum;
 }
 
-double between(const tf::point3& a, const tf::point3& b) {
+double between_ends(const tf::point3& a, const tf::point3& b) {
     return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 void check_points(const tf::mesh& a, const tf::mesh& b, const tf::mesh_measure& found) {
-    CHECK(between(found.on_a.point, found.on_b.point) ==
+    CHECK(between_ends(found.on_a.point, found.on_b.point) ==
           doctest::Approx(found.surface_distance).epsilon(1e-14));
-    CHECK(between(point_of(a, found.on_a), found.on_a.point) < 1e-13);
-    CHECK(between(point_of(b, found.on_b), found.on_b.point) < 1e-13);
+    CHECK(between_ends(point_of(a, found.on_a), found.on_a.point) < 1e-13);
+    CHECK(between_ends(point_of(b, found.on_b), found.on_b.point) < 1e-13);
     for (const auto& w : {found.on_a.barycentric, found.on_b.barycentric}) {
         CHECK(std::abs(w[0] + w[1] + w[2] - 1.0) < 1e-15);
         for (const double one : w) CHECK((one >= 0.0 && one <= 1.0));
@@ -108,7 +108,7 @@ TEST_CASE("measure: weights give points of slivers, segments and single points")
         tf::point3 q{};
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t k = 0; k < 3; ++k) q[k] += w[i] * t[i][k];
-        CHECK(between(p, q) < 1e-9);
+        CHECK(between_ends(p, q) < 1e-9);
         CHECK(std::abs(w[0] + w[1] + w[2] - 1.0) < 1e-15);
     }
 }

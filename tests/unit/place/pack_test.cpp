@@ -72,8 +72,8 @@ tf::mesh arch(double leg, double depth) {
 }
 
 /// What the header says of what `arrange` returns, by looking at all pairs.
-void check(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
-           const tf::packing& found) {
+void check_packed(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
+                  const tf::packing& found) {
     REQUIRE(found);
     REQUIRE(found.parts.size() == parts.size());
     CHECK(found.certificate.precision == o.precision);
@@ -162,7 +162,7 @@ TEST_CASE("pack: equal boxes come in rows, exactly the spacing apart") {
     // 4 boxes and 3 gaps are 86: not a hair to spare
     const tf::pack_options options{.size = {86, 64, any_height}};
     const auto found = tf::pack(views(parts), options);
-    check(parts, options, found);
+    check_packed(parts, options, found);
     CHECK(found.not_placed.empty());
     std::set<std::pair<double, double>> corners;
     for (const tf::packed_part& part : found.parts) {
@@ -177,7 +177,7 @@ TEST_CASE("pack: equal boxes come in rows, exactly the spacing apart") {
     // one less does not do
     const tf::pack_options smaller{.size = {std::nextafter(86.0, 0.0), 64, any_height}};
     const auto fewer = tf::pack(views(parts), smaller);
-    check(parts, smaller, fewer);
+    check_packed(parts, smaller, fewer);
     CHECK(fewer.not_placed.size() == 3);
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("pack: a part as large as the plate fits, turned if need be; a larger 
     const std::vector<tf::mesh> parts{test::box(30, 100, 20)};
     const auto placed = [&](const tf::pack_options& o) {
         const auto found = tf::pack(views(parts), o);
-        check(parts, o, found);
+        check_packed(parts, o, found);
         return found.not_placed.empty();
     };
     CHECK(placed({.size = {30, 100, 20}, .turns = plate_turns::none}));
@@ -203,12 +203,12 @@ TEST_CASE("pack: parts stand in the holes of others when they are small enough")
     const std::vector<tf::mesh> parts{test::tube(50, 40, 10, 48), test::box(40, 40, 30)};
     const tf::pack_options options{.size = {101, 101, any_height}, .spacing = 3};
     const auto found = tf::pack(views(parts), options);
-    check(parts, options, found);
+    check_packed(parts, options, found);
     CHECK(found.not_placed.empty());
     CHECK(found.pairs_measured > 0);
     const std::vector<tf::mesh> larger{parts[0], test::box(60, 60, 30)};
     const auto other = tf::pack(views(larger), options);
-    check(larger, options, other);
+    check_packed(larger, options, other);
     CHECK(other.not_placed.size() == 1);
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("pack: angle pieces and rings that fit only into each other are placed
         const tf::pack_options options{
             .size = {30 + spacing + 1e-3, 20 + spacing + 1e-3, any_height}, .spacing = spacing};
         const auto found = tf::pack(views(two), options);
-        check(two, options, found);
+        check_packed(two, options, found);
         CHECK(found.not_placed.empty());
     }
     std::vector<tf::mesh> rings;
@@ -228,7 +228,7 @@ TEST_CASE("pack: angle pieces and rings that fit only into each other are placed
         rings.push_back(test::tube(outer, outer - 7.0, 10, 64));
     const tf::pack_options options{.size = {100.5, 100.5, any_height}, .spacing = 2};
     const auto found = tf::pack(views(rings), options);
-    check(rings, options, found);
+    check_packed(rings, options, found);
     CHECK(found.not_placed.empty());
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("pack: stacked boxes fill a box to its height, and not one more") {
                                        .tries = 2,
                                        .precision = precision};
         const auto found = tf::pack(views(parts), options);
-        check(parts, options, found);
+        check_packed(parts, options, found);
         CHECK(found.not_placed.size() == 1);
         CHECK(found.tries == 2);
     }
@@ -251,7 +251,7 @@ TEST_CASE("pack: stacked boxes fill a box to its height, and not one more") {
     tf::pack_options high = flat;
     high.stack = true;
     const auto found = tf::pack(views(eight), high);
-    check(eight, high, found);
+    check_packed(eight, high, found);
     CHECK(found.not_placed.empty());
 }
 
@@ -259,14 +259,14 @@ TEST_CASE("pack: stacked, a part goes under an arch, into a ring, and into no cl
     const std::vector<tf::mesh> under{arch(10, 10), test::box(7, 9, 7)};
     const tf::pack_options options{.size = {30.5, 10.5, 20.5}, .spacing = 0.5, .stack = true};
     const auto found = tf::pack(views(under), options);
-    check(under, options, found);
+    check_packed(under, options, found);
     CHECK(found.not_placed.empty());
 
     const std::vector<tf::mesh> in_ring{test::tube(20, 15, 30, 32), test::ball(3, 5),
                                         test::ball(3, 5)};
     const tf::pack_options tube{.size = {40, 40, 30}, .spacing = 1, .stack = true};
     const auto filled = tf::pack(views(in_ring), tube);
-    check(in_ring, tube, filled);
+    check_packed(in_ring, tube, filled);
     CHECK(filled.not_placed.empty());
 
     tf::mesh hollow = test::ball(3, 19);
@@ -274,7 +274,7 @@ TEST_CASE("pack: stacked, a part goes under an arch, into a ring, and into no cl
     const std::vector<tf::mesh> shell{test::together(test::ball(3, 20), hollow), test::ball(3, 8)};
     const tf::pack_options around{.size = {40, 40, 40}, .spacing = 1, .stack = true};
     const auto kept = tf::pack(views(shell), around);
-    check(shell, around, kept);
+    check_packed(shell, around, kept);
     CHECK(kept.not_placed == std::vector<std::uint32_t>{1});
 }
 
@@ -292,7 +292,7 @@ TEST_CASE("pack: stacked parts of all kinds keep the spacing in the coordinates 
         options.tries = 2;
         options.precision = round % 2 == 1 ? tf::precision::float32 : tf::precision::float64;
         const auto found = tf::pack(views(parts), options);
-        check(parts, options, found);
+        check_packed(parts, options, found);
         placed += parts.size() - found.not_placed.size();
         CHECK(found.density > 0.0);
         CHECK(found.density <= 1.0);
@@ -304,7 +304,7 @@ TEST_CASE("pack: what is too much for a plate goes to the next, as many as there
     const std::vector<tf::mesh> parts(10, test::box(20, 20, 5));
     tf::pack_options options{.size = {42, 42, any_height}, .plates = 5, .plate_step = {50, 0, 0}};
     const auto found = tf::pack(views(parts), options);
-    check(parts, options, found);
+    check_packed(parts, options, found);
     CHECK(found.not_placed.empty());
     CHECK(found.plates_used == 3);
     CHECK(found.tries == 1);
@@ -315,7 +315,7 @@ TEST_CASE("pack: what is too much for a plate goes to the next, as many as there
     options.plates = 2;
     options.tries = 3;
     const auto fewer = tf::pack(views(parts), options);
-    check(parts, options, fewer);
+    check_packed(parts, options, fewer);
     CHECK(fewer.not_placed == std::vector<std::uint32_t>{8, 9});
     CHECK(fewer.message() ==
           "8 of 10 parts placed on 2 plates; a place for all was not found in 3 tries");
@@ -332,7 +332,7 @@ TEST_CASE("pack: more tries place more, and what is said of them holds") {
         CHECK(once.tries == 1);
         options.tries = 40;
         const auto often = tf::pack(views(parts), options);
-        check(parts, options, often);
+        check_packed(parts, options, often);
         CHECK(often.not_placed.size() <= once.not_placed.size());
         if (!often.not_placed.empty()) CHECK(often.tries == 40);
         first += once.not_placed.size();
@@ -361,7 +361,7 @@ TEST_CASE("pack: no two parts nearer than the spacing, none off the plate, whate
         options.tighten = round % 6 != 5;
         options.precision = round % 2 == 1 ? tf::precision::float32 : tf::precision::float64;
         const auto found = tf::pack(views(parts), options);
-        check(parts, options, found);
+        check_packed(parts, options, found);
         placed += parts.size() - found.not_placed.size();
         left += found.not_placed.size();
     }

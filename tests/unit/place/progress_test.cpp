@@ -30,7 +30,7 @@ using test::ball;
 using test::moved;
 using tf::detail::place::shape;
 
-const tf::point3 down{0.0, 0.0, -1.0};
+const tf::point3 downwards{0.0, 0.0, -1.0};
 
 struct operation {
     std::string name;
@@ -81,26 +81,27 @@ struct operations {
              }},
             {"time of impact",
              [=, this](const auto& p) {
-                 return cancelled(tf::time_of_impact(above, still, down, {.progress = p}));
+                 return cancelled(tf::time_of_impact(above, still, downwards, {.progress = p}));
              }},
             {"time to distance",
              [=, this](const auto& p) {
-                 return cancelled(tf::time_to_distance(above, still, down, 0.25, {.progress = p}));
+                 return cancelled(
+                     tf::time_to_distance(above, still, downwards, 0.25, {.progress = p}));
              }},
             {"sweep among",
              [=, this](const auto& p) {
-                 return cancelled(
-                     tf::detail::place::sweep_among(shape(above), parts, down, {.progress = p}));
+                 return cancelled(tf::detail::place::sweep_among(shape(above), parts, downwards,
+                                                                 {.progress = p}));
              }},
             {"sweep among to a clearance",
              [=, this](const auto& p) {
                  return cancelled(tf::detail::place::sweep_among(
-                     shape(above), parts, down, {.clearance = 0.125, .progress = p}));
+                     shape(above), parts, downwards, {.clearance = 0.125, .progress = p}));
              }},
             {"settle among",
              [=, this](const auto& p) {
-                 return cancelled(
-                     tf::detail::place::settle_among(above, parts, down, 3.0, {.progress = p}));
+                 return cancelled(tf::detail::place::settle_among(above, parts, downwards, 3.0,
+                                                                  {.progress = p}));
              }},
             {"moves apart",
              [=, this](const auto& p) {
@@ -109,12 +110,12 @@ struct operations {
              }},
             {"slide",
              [=, this](const auto& p) {
-                 return cancelled(tf::slide(above, fixed, down, {.progress = p}));
+                 return cancelled(tf::slide(above, fixed, downwards, {.progress = p}));
              }},
             {"slide to a clearance",
              [=, this](const auto& p) {
                  return cancelled(
-                     tf::slide(above, fixed, down, {.clearance = 0.125, .progress = p}));
+                     tf::slide(above, fixed, downwards, {.clearance = 0.125, .progress = p}));
              }},
             {"separate",
              [=, this](const auto& p) {
@@ -179,8 +180,8 @@ TEST_CASE("who is told of the progress gets the same answer") {
     const tf::progress_callback patient = [](double) { return true; };
     const auto alone = tf::separate(given.inside, given.fixed);
     CHECK(alone.points == tf::separate(given.inside, given.fixed, {.progress = patient}).points);
-    CHECK(tf::slide(given.above, given.fixed, down).points ==
-          tf::slide(given.above, given.fixed, down, {.progress = patient}).points);
+    CHECK(tf::slide(given.above, given.fixed, downwards).points ==
+          tf::slide(given.above, given.fixed, downwards, {.progress = patient}).points);
     CHECK(tf::align(given.above, given.still).matrix ==
           tf::align(given.above, given.still, {.progress = patient}).matrix);
 }

@@ -21,11 +21,7 @@ namespace {
 
 using test::box;
 using test::moved;
-
-tf::triangle3 triangle_of(const tf::mesh& mesh, std::size_t i) {
-    const tf::face& f = mesh.faces[i];
-    return {mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]};
-}
+using test::triangle_of;
 
 struct expected {
     std::optional<tf::sweep_contact> first;
@@ -47,7 +43,7 @@ expected by_brute_force(const tf::mesh& a, const tf::mesh& b, const tf::point3& 
     return best;
 }
 
-void check(const tf::mesh& a, const tf::mesh& b, const tf::point3& d) {
+void check_impact(const tf::mesh& a, const tf::mesh& b, const tf::point3& d) {
     const auto ours = tf::time_of_impact(a, b, d, {.limit = 1'000'000});
     if (tf::intersects(a, b)) {
         CHECK(ours.end == tf::motion_end::at_start);
@@ -120,7 +116,7 @@ TEST_CASE("time of impact is that of all pairs of faces, also where times are eq
             lattice ? tf::point3{static_cast<double>(source.below(3)) - (offset.x == 0.0 ? 1 : 0),
                                  -static_cast<double>(source.below(3)), 1.0}
                     : tf::point3{-offset.x + source.in(-0.5, 0.5), -offset.y, away};
-        check(moved(soup(), offset), soup(), d);
+        check_impact(moved(soup(), offset), soup(), d);
     }
 }
 
@@ -145,7 +141,7 @@ TEST_CASE(
             tf::time_of_impact(scaled(a), scaled(b), {d.x * scale, d.y * scale, d.z * scale});
         CHECK(together.time == plain.time);
     }
-    check(moved(a, {1e9, -1e9, 1e9}), moved(b, {1e9, -1e9, 1e9}), d);
+    check_impact(moved(a, {1e9, -1e9, 1e9}), moved(b, {1e9, -1e9, 1e9}), d);
 }
 
 TEST_CASE(

@@ -20,9 +20,9 @@
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
-tf::mesh moved_by(const tf::mesh& mesh, const tf::transform<3>& by) {
+tf::mesh turned_by(const tf::mesh& mesh, const tf::transform<3>& by) {
     tf::mesh there = mesh;
     for (tf::point3& p : there.points) p = by(p);
     return there;
@@ -37,8 +37,8 @@ tf::transform<3> about_z(double angle) {
 }
 
 /// What the header says of a place.
-void check(const tf::mesh& moving, const tf::mesh& fixed, const tf::turn_result& found,
-           const tf::turn_options& options = {}) {
+void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::turn_result& found,
+                const tf::turn_options& options = {}) {
     REQUIRE(found);
     REQUIRE(found.at.points.size() == moving.points.size());
     const tf::mesh there{found.at.points, moving.faces};
@@ -78,7 +78,7 @@ TEST_CASE("turn: a door stops at the wall, at the angle that it is known to") {
         for (const auto precision : {tf::precision::float64, tf::precision::float32}) {
             const tf::turn_options options{.clearance = clearance, .precision = precision};
             const auto found = tf::turn(door, wall, {}, options);
-            check(door, wall, found, options);
+            check_turn(door, wall, found, options);
             const double angle = (std::asin((5 - clearance) / radius) - begin) * 180 / pi;
             const double unit = precision == tf::precision::float32 ? 1e-4 : 1e-7;
             CHECK(found.angle <= angle + unit);
@@ -87,7 +87,7 @@ TEST_CASE("turn: a door stops at the wall, at the angle that it is known to") {
         }
     // The other way round it comes to the wall's other end.
     const auto back = tf::turn(door, wall, {.direction = {0, 0, -3}});
-    check(door, wall, back);
+    check_turn(door, wall, back);
 }
 
 TEST_CASE("turn: what is free all around meets nothing, also in a bore that it nearly fills") {
@@ -104,7 +104,7 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     const tf::mesh nut = test::tube(20, 11, 10, 6),
                    screw = test::moved(test::tube(10.5, 5, 10, 6), {0, 0, 0.5});
     const auto stuck = tf::turn(screw, nut, {});
-    check(screw, nut, stuck);
+    check_turn(screw, nut, stuck);
     CHECK(stuck.angle > 1.0);
     CHECK(stuck.angle < 30.0);
     // where a corner of the screw is on a side of the nut
@@ -131,15 +131,15 @@ TEST_CASE("turn: on the way nothing is met, and a little further something is") 
         if (tf::distance(a, b) <= options.clearance) continue;
         const auto found = tf::turn(a, b, {}, options);
         const double last = found ? found.angle * pi / 180 : 2 * pi;
-        if (found) check(a, b, found, options);
+        if (found) check_turn(a, b, found, options);
         ++(found ? met : free);
         for (int i = 0; i < 60; ++i) {
-            const tf::mesh there = moved_by(a, about_z(last * i / 60));
+            const tf::mesh there = turned_by(a, about_z(last * i / 60));
             CHECK(tf::distance(there, b) >= options.clearance);
             CHECK(tf::relation(there, b).relation == tf::mesh_relation::separate);
         }
         if (!found) continue;
-        const tf::mesh there = moved_by(a, about_z(last + 1e-4));
+        const tf::mesh there = turned_by(a, about_z(last + 1e-4));
         beyond += tf::distance(there, b) <= options.clearance ||
                   tf::relation(there, b).relation != tf::mesh_relation::separate;
     }

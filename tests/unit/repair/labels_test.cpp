@@ -22,7 +22,7 @@
 
 namespace {
 
-void require_solid(const tf::repair_result& result, double volume) {
+void require_volume(const tf::repair_result& result, double volume) {
     REQUIRE_MESSAGE(result.certificate, result.certificate.message());
     CHECK(tf::self_intersections(result.mesh).pairs.empty());
     const tf::mesh joined = tf::weld(result.mesh).mesh;
@@ -61,7 +61,7 @@ TEST_CASE("labels: rooms with one wall between two are one solid") {
     for (const auto& [x, y, z] :
          {std::array{2U, 2U, 1U}, {3U, 3U, 1U}, {2U, 2U, 2U}, {4U, 3U, 5U}}) {
         const tf::repair_result made = tf::repair(test::rooms(x, y, z));
-        require_solid(made, x * y * z);
+        require_volume(made, x * y * z);
         CHECK(made.statistics.labeled_cells == x * y * z);
         const double walls = (x - 1.0) * y * z + x * (y - 1.0) * z + x * y * (z - 1.0);
         CHECK(made.statistics.dropped_area == doctest::Approx(walls));
@@ -76,7 +76,7 @@ TEST_CASE("labels: outer walls are outward, however they and inner ones are turn
     for (int round = 0; round < 10; ++round) {
         tf::mesh dirty = test::rooms(4, 3, 1);
         turn_some(dirty, source, 2);
-        require_solid(tf::repair(dirty), 12.0);
+        require_volume(tf::repair(dirty), 12.0);
     }
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("labels: a wall that is missing, and one that ends somewhere") {
         });
     };
     CHECK(std::erase_if(dirty.faces, is_inner) == 2);
-    require_solid(tf::repair(dirty), 9.0);
+    require_volume(tf::repair(dirty), 9.0);
 
     dirty = test::box(2, 1, 1);
     // From the edge at x = 0, y = 0 inward: it bounds nothing.
@@ -100,7 +100,7 @@ TEST_CASE("labels: a wall that is missing, and one that ends somewhere") {
             edge[dirty.points[p].z > 0.0 ? 1 : 0] = p;
     dirty.faces.push_back({edge[0], edge[1], first + 1});
     dirty.faces.push_back({edge[0], first + 1, first});
-    require_solid(tf::repair(dirty), 2.0);
+    require_volume(tf::repair(dirty), 2.0);
 }
 
 TEST_CASE("labels: rooms with a hole in the roof are closed by a guess") {
@@ -123,7 +123,7 @@ TEST_CASE("labels: a cavity in a room stays one") {
     for (tf::point3& p : dirty.points) p = {4.0 * p.x, 4.0 * p.y, 4.0 * p.z};
     // In the first room, and apart from its walls.
     const tf::mesh cavity = test::inside_out(test::moved(test::box(1, 1, 1), {1, 1, 1}));
-    require_solid(tf::repair(test::together(dirty, cavity)), 4.0 * 64.0 - 1.0);
+    require_volume(tf::repair(test::together(dirty, cavity)), 4.0 * 64.0 - 1.0);
 }
 
 TEST_CASE("labels: what faces say without a doubt is not asked about") {
@@ -167,9 +167,9 @@ TEST_CASE("labels: the same on any number of threads, in floats, too, and far fr
     const tf::repair_result many = tf::repair(dirty, {.precision = tf::precision::float32});
     CHECK(one.mesh == many.mesh);
     CHECK(one.face_source == many.face_source);
-    require_solid(many, 27.0);
-    require_solid(tf::repair(test::scaled(test::rooms(2, 2, 2), 0x1p-40)), 8 * 0x1p-120);
-    require_solid(tf::repair(test::moved(test::rooms(2, 2, 2), {0x1p30, 0, 0})), 8.0);
+    require_volume(many, 27.0);
+    require_volume(tf::repair(test::scaled(test::rooms(2, 2, 2), 0x1p-40)), 8 * 0x1p-120);
+    require_volume(tf::repair(test::moved(test::rooms(2, 2, 2), {0x1p30, 0, 0})), 8.0);
 }
 
 TEST_CASE("labels: progress never goes back, and can stop them") {

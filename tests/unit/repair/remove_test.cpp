@@ -9,6 +9,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/repaired.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
@@ -22,11 +23,9 @@
 
 namespace {
 
-using mode = tf::resolve_mode;
+using test::two_balls;
 
-tf::mesh two_balls() {
-    return test::together(test::ball(3, 1.0), test::moved(test::ball(3, 1.0), {0.7, 0.3, 0.1}));
-}
+using mode = tf::resolve_mode;
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
+#include <support/extremes.hpp>
 #include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
@@ -15,9 +16,9 @@
 
 namespace {
 
-using points = std::vector<tf::point3>;
+using test::infinity;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using points = std::vector<tf::point3>;
 
 }  // namespace
 

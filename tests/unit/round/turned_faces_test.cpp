@@ -4,6 +4,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/extremes.hpp>
 #include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
@@ -20,10 +21,9 @@
 namespace {
 
 using test::box;
+using test::infinity;
 using test::moved;
 using test::together;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<std::uint32_t> all_faces(const tf::mesh& mesh) {
     std::vector<std::uint32_t> all(mesh.faces.size());

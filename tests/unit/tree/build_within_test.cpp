@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>
+#include <support/extremes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,9 @@ namespace {
 
 using test::box_family;
 using test::boxes;
+using test::infinity;
 using test::itself;
 using ids = std::vector<std::uint32_t>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <std::size_t D>
 ids sorted_ids(const tf::tree<D>& tree) {

@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>
 #include <support/dynamic_twin.hpp>
+#include <support/extremes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -31,20 +32,10 @@ using test::box;
 using test::box_family;
 using test::boxes;
 using test::ids;
+using test::infinity;
 using test::itself;
+using test::squared_between;
 using test::twin;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-template <std::size_t D>
-double squared_between(const box<D>& a, const box<D>& b) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < D; ++k) {
-        const double gap = std::max({0.0, a.min[k] - b.max[k], b.min[k] - a.max[k]});
-        sum += gap * gap;
-    }
-    return sum;
-}
 
 template <std::size_t D>
 std::optional<double> entry(const tf::ray<double, D>& r, const box<D>& b) {
@@ -59,7 +50,7 @@ std::optional<double> entry(const tf::ray<double, D>& r, const box<D>& b) {
 }
 
 template <std::size_t D>
-void check_boxes(const twin<D>& both, const box<D>& query) {
+void check_twin_boxes(const twin<D>& both, const box<D>& query) {
     ids expected;
     for (const auto& [id, of] : both.all)
         if (overlaps(of, query)) expected.push_back(id);
@@ -154,12 +145,12 @@ void check_pairs(const twin<D>& both, const boxes<D>& others) {
 }
 
 template <std::size_t D>
-void check_answers(const twin<D>& both, test::random& random, const boxes<D>& source) {
+void check_twin_answers(const twin<D>& both, test::random& random, const boxes<D>& source) {
     check_shape(both);
     for (int i = 0; i < 2; ++i) {
         box<D> query = source[random.below(source.size())];
         for (std::size_t k = 0; k < D; ++k) query.min[k] -= 0.05;
-        check_boxes(both, query);
+        check_twin_boxes(both, query);
         check_nearness(both, query);
         check_ray(both, query, random);
     }
@@ -174,12 +165,12 @@ void check_long_run(const std::string& family, std::uint64_t seed) {
     (void)both.insert(box_family<D>(family, 400, seed + 1));
     for (int step = 0; step < 60; ++step) {
         both.step(random, source);
-        if (step % 6 == 0) check_answers(both, random, source);
+        if (step % 6 == 0) check_twin_answers(both, random, source);
     }
     both.remove(both.some(both.all.size(), random));
-    check_answers(both, random, source);
+    check_twin_answers(both, random, source);
     (void)both.insert(source);
-    check_answers(both, random, source);
+    check_twin_answers(both, random, source);
 }
 
 template <std::size_t D>
@@ -237,17 +228,17 @@ TEST_CASE("dynamic_tree: empty, of one, and empty again") {
     twin<2> both;
     test::random random(1);
     const boxes<2> source = box_family<2>("random", 20, 1);
-    check_answers(both, random, source);
+    check_twin_answers(both, random, source);
     (void)both.insert({});
     both.remove({});
     both.move({}, {});
     CHECK(both.tree.top().empty());
     CHECK(both.insert({source[0]}) == ids{0});
-    check_answers(both, random, source);
+    check_twin_answers(both, random, source);
     both.move({0}, {source[1]});
-    check_answers(both, random, source);
+    check_twin_answers(both, random, source);
     both.remove({0});
-    check_answers(both, random, source);
+    check_twin_answers(both, random, source);
     CHECK(both.tree.top().empty());
 }
 

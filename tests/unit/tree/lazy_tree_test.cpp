@@ -27,8 +27,9 @@ namespace {
 using test::box_family;
 using test::boxes;
 using test::itself;
+using test::squared_between;
 using ids = std::vector<std::uint32_t>;
-using box = tf::aabb<double, 3>;
+using box3 = tf::aabb<double, 3>;
 
 /// Boxes along a winding line: neighbors in the list are neighbors in space.
 boxes<3> along_a_line(std::size_t count, std::uint64_t seed) {
@@ -48,17 +49,8 @@ boxes<3> shuffled(boxes<3> of, std::uint64_t seed) {
     return of;
 }
 
-double squared_between(const box& a, const box& b) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double gap = std::max({0.0, a.min[k] - b.max[k], b.min[k] - a.max[k]});
-        sum += gap * gap;
-    }
-    return sum;
-}
-
 /// Where a ray along the first axis enters a box.
-std::optional<double> entry(const tf::ray<double, 3>& ray, const box& of) {
+std::optional<double> entry_along_x(const tf::ray<double, 3>& ray, const box3& of) {
     for (std::size_t k = 1; k < 3; ++k)
         if (ray.origin[k] < of.min[k] || of.max[k] < ray.origin[k]) return {};
     return of.min[0] - ray.origin[0];
@@ -69,7 +61,7 @@ void check_answers(const boxes<3>& of, std::uint64_t seed) {
     test::random random(seed);
     for (int i = 0; i < 20; ++i) {
         const tf::lazy_tree tree(of, itself);
-        const box query =
+        const box3 query =
             test::box_at<3>({random.unit(), 0.1 * random.unit(), random.unit()}, 0.05);
         const auto exact = [&](std::uint32_t id) { return overlaps(of[id], query); };
         const ids expected = tf::search_all(whole, query, exact);
@@ -78,7 +70,7 @@ void check_answers(const boxes<3>& of, std::uint64_t seed) {
         const auto distance = [&](std::uint32_t id) { return squared_between(of[id], query); };
         REQUIRE(tf::nearest(tree, query, distance) == tf::nearest(whole, query, distance));
         const tf::ray<double, 3> ray{{-1.0, query.min[1], query.min[2]}, {1, 0, 0}};
-        const auto hit_of = [&](std::uint32_t id) { return entry(ray, of[id]); };
+        const auto hit_of = [&](std::uint32_t id) { return entry_along_x(ray, of[id]); };
         const auto first = tf::first_hit(whole, ray, hit_of);
         const auto found = tf::first_hit(tree, ray, hit_of);
         REQUIRE(found.has_value() == first.has_value());
@@ -106,7 +98,7 @@ TEST_CASE("lazy_tree: splits only what a search comes into") {
     CHECK(tree.size() == 100'000);
     CHECK(tree.blocks() == 25);
     CHECK(tree.split() == 0);
-    const box query = test::box_at<3>({0.5, 0.05, 0.25}, 1e-3);
+    const box3 query = test::box_at<3>({0.5, 0.05, 0.25}, 1e-3);
     CHECK(!tf::search_any(tree, query, [](std::uint32_t) { return false; }));
     const std::size_t split = tree.split();
     CHECK(split >= 1);
@@ -126,7 +118,7 @@ TEST_CASE("lazy_tree: two trees have a contact where brute force finds one, on 1
     const boxes<3> a = along_a_line(20'000, 8);
     for (const double by : {0.0, 0.099, 0.2}) {
         boxes<3> b = along_a_line(20'000, 9);
-        for (box& one : b) one.min[1] += by, one.max[1] += by;
+        for (box3& one : b) one.min[1] += by, one.max[1] += by;
         const auto exact = [&](std::uint32_t x, std::uint32_t y) { return overlaps(a[x], b[y]); };
         const bool expected = tf::search_any(tf::build(a, itself), tf::build(b, itself), exact);
         CHECK(expected == (by < 0.15));
@@ -145,7 +137,7 @@ TEST_CASE("lazy_tree: searches on several threads split a block once") {
     const tf::lazy_tree tree(of, itself);
     std::vector<std::size_t> found(64);
     tf::for_chunks(64, 1, [&](std::size_t i, std::size_t, std::size_t) {
-        tf::search(tree, box{{0, 0, 0}, {2, 2, 2}}, [&](std::uint32_t) { ++found[i]; });
+        tf::search(tree, box3{{0, 0, 0}, {2, 2, 2}}, [&](std::uint32_t) { ++found[i]; });
     });
     for (const std::size_t one : found) CHECK(one == of.size());
     CHECK(tree.split() == tree.blocks());
@@ -179,7 +171,7 @@ TEST_CASE("lazy_tree: pairs, k nearest, batches and all hits are those of a whol
     CHECK(tf::all_within_batch(tree, few, 0.01, from).neighbors ==
           tf::all_within_batch(whole, few, 0.01, from).neighbors);
     const tf::ray<double, 3> ray{{-1.0, 0.05, 0.25}, {1, 0, 0}};
-    const auto hit_of = [&](std::uint32_t id) { return entry(ray, of[id]); };
+    const auto hit_of = [&](std::uint32_t id) { return entry_along_x(ray, of[id]); };
     const auto ids_of = [](const auto& hits) {
         ids result;
         for (const auto& hit : hits) result.push_back(hit.id);
@@ -192,7 +184,7 @@ TEST_CASE("lazy_tree: of nothing finds nothing") {
     const boxes<3> none;
     const tf::lazy_tree tree(none, itself);
     CHECK(tree.blocks() == 0);
-    const box query = test::box_at<3>({0, 0, 0}, 1.0);
+    const box3 query = test::box_at<3>({0, 0, 0}, 1.0);
     CHECK(!tf::search_any(tree, query, [](std::uint32_t) { return true; }));
     CHECK(!tf::search_any(tree, tree, [](std::uint32_t, std::uint32_t) { return true; }));
     CHECK(!tf::nearest(tree, query, [](std::uint32_t) { return 0.0; }));

@@ -31,7 +31,7 @@ id_pairs sorted(const std::vector<id_pairs>& parts) {
 }
 
 template <std::size_t D>
-void check(const std::string& name, const tf::tree_config& config) {
+void check_nary(const std::string& name, const tf::tree_config& config) {
     for (const std::size_t count : {0UL, 1UL, 5UL, 300UL}) {
         CAPTURE(name);
         CAPTURE(count);
@@ -67,8 +67,8 @@ TEST_CASE("nary search: finds what brute force finds at every arity and leaf siz
             for (const unsigned leaf : {1U, 4U, 7U}) {
                 CAPTURE(arity);
                 CAPTURE(leaf);
-                check<2>(name, {.inner_size = arity, .leaf_size = leaf});
-                check<3>(name, {.inner_size = arity, .leaf_size = leaf});
+                check_nary<2>(name, {.inner_size = arity, .leaf_size = leaf});
+                check_nary<3>(name, {.inner_size = arity, .leaf_size = leaf});
             }
 }
 

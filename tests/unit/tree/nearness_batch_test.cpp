@@ -14,7 +14,7 @@ namespace {
 
 using point = std::array<double, 3>;
 
-double squared_between(const point& a, const point& b) {
+double squared_distance(const point& a, const point& b) {
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
     return sum;
@@ -36,7 +36,7 @@ struct scene {
     std::vector<point> queries = clustered(1500, 2);
     tf::tree<3> tree = tf::build(points, [](const point& p) { return tf::aabb<double, 3>{p, p}; });
     double operator()(std::size_t query, std::uint32_t id) const {
-        return squared_between(points[id], queries[query]);
+        return squared_distance(points[id], queries[query]);
     }
 };
 

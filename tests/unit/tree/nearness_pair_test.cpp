@@ -14,21 +14,12 @@
 namespace {
 
 using test::boxes;
-using pairs = std::vector<tf::near_pair<double>>;
+using test::squared_between;
+using near_pairs = std::vector<tf::near_pair<double>>;
 
 template <std::size_t D>
-double squared_between(const tf::aabb<double, D>& a, const tf::aabb<double, D>& b) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < D; ++k) {
-        const double gap = std::max({0.0, a.min[k] - b.max[k], b.min[k] - a.max[k]});
-        sum += gap * gap;
-    }
-    return sum;
-}
-
-template <std::size_t D>
-pairs by_brute_force(const boxes<D>& a, const boxes<D>& b) {
-    pairs all;
+near_pairs pairs_by_brute_force(const boxes<D>& a, const boxes<D>& b) {
+    near_pairs all;
     for (std::uint32_t i = 0; i < a.size(); ++i)
         for (std::uint32_t j = 0; j < b.size(); ++j)
             all.push_back({i, j, squared_between(a[i], b[j])});
@@ -37,7 +28,7 @@ pairs by_brute_force(const boxes<D>& a, const boxes<D>& b) {
 }
 
 /// Whether `found` are the first of `all`, up to which of the pairs that touch they are.
-bool are_first(const pairs& found, const pairs& all, std::size_t k) {
+bool are_first(const near_pairs& found, const near_pairs& all, std::size_t k) {
     if (found.size() != std::min(k, all.size())) return false;
     if (!found.empty() && found.back().answer == 0.0)
         return std::all_of(found.begin(), found.end(),
@@ -47,7 +38,7 @@ bool are_first(const pairs& found, const pairs& all, std::size_t k) {
 }
 
 template <std::size_t D>
-boxes<D> moved(boxes<D> of, double x) {
+boxes<D> shifted(boxes<D> of, double x) {
     for (auto& box : of) {
         box.min[0] += x;
         box.max[0] += x;
@@ -56,14 +47,14 @@ boxes<D> moved(boxes<D> of, double x) {
 }
 
 template <std::size_t D>
-void compare_with_brute_force(const std::string& family, std::size_t count) {
+void compare_pairs(const std::string& family, std::size_t count) {
     const boxes<D> a = test::box_family<D>(family, count, 1);
     const auto tree_a = tf::build(a, test::itself);
     for (const double x : {0.0, 0.75, -64.0}) {
         CAPTURE(x);
-        const boxes<D> b = moved(test::box_family<D>(family, count / 2 + 1, 2), x);
+        const boxes<D> b = shifted(test::box_family<D>(family, count / 2 + 1, 2), x);
         const auto tree_b = tf::build(b, test::itself);
-        const pairs all = by_brute_force(a, b);
+        const near_pairs all = pairs_by_brute_force(a, b);
         const auto between = [&](std::uint32_t i, std::uint32_t j) {
             return squared_between(a[i], b[j]);
         };
@@ -126,8 +117,8 @@ TEST_CASE("nearest pair: one and k agree with brute force") {
         CAPTURE(family);
         for (const std::size_t count : {1U, 9U, 150U}) {
             CAPTURE(count);
-            compare_with_brute_force<2>(family, count);
-            compare_with_brute_force<3>(family, count);
+            compare_pairs<2>(family, count);
+            compare_pairs<3>(family, count);
         }
     }
 }
@@ -138,14 +129,14 @@ TEST_CASE("nearest pair: a tree that is treated as transformed is searched where
     const auto tree_a = tf::build(a, test::itself);
     const auto tree_b = tf::build(b, test::itself);
     const std::array<double, 3> offset{1024, 0, 0};
-    const boxes<3> there = moved(b, 1024);
+    const boxes<3> there = shifted(b, 1024);
     const auto between = [&](std::uint32_t i, std::uint32_t j) {
         return squared_between(a[i], there[j]);
     };
     const auto found =
         tf::k_nearest_pairs(tf::transformed<3>(tree_a),
                             tf::transformed<3>(tree_b, tf::translation<3>(offset)), 9, between);
-    CHECK(are_first(found, by_brute_force(a, there), 9));
+    CHECK(are_first(found, pairs_by_brute_force(a, there), 9));
 }
 
 TEST_CASE("nearest pair: many equally near pairs give the same answer on any number of threads") {

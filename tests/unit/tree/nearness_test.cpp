@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>
+#include <support/extremes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,29 +14,20 @@
 namespace {
 
 using test::boxes;
+using test::infinity;
+using test::squared_between;
 using answers = std::vector<tf::neighbor<double>>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 template <std::size_t D>
-double squared_between(const tf::aabb<double, D>& a, const tf::aabb<double, D>& b) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < D; ++k) {
-        const double gap = std::max({0.0, a.min[k] - b.max[k], b.min[k] - a.max[k]});
-        sum += gap * gap;
-    }
-    return sum;
-}
-
-template <std::size_t D>
-answers by_brute_force(const boxes<D>& of, const tf::aabb<double, D>& query,
-                       double radius = infinity) {
+answers neighbors_by_brute_force(const boxes<D>& of, const tf::aabb<double, D>& query,
+                                 double radius = infinity) {
     answers all;
     for (std::uint32_t i = 0; i < of.size(); ++i) {
         const double squared = squared_between(of[i], query);
         if (std::sqrt(squared) <= radius) all.push_back({i, squared});
     }
-    std::sort(all.begin(), all.end(), tf::nearer<tf::neighbor<double>>);
+    std::sort(all.begin(), all.end(),
+              [](const auto& a, const auto& b) { return tf::nearer(a, b); });
     return all;
 }
 
@@ -73,7 +65,7 @@ void compare_with_brute_force(const std::string& family, std::size_t count) {
     std::size_t turn = 0;
     for (const tf::aabb<double, D>& query : queries_for<D>(family, 30)) {
         const auto distance_of = [&](std::uint32_t id) { return squared_between(of[id], query); };
-        const answers all = by_brute_force(of, query);
+        const answers all = neighbors_by_brute_force(of, query);
         const double radius = all.empty() ? 1.0 : std::sqrt(all[all.size() / 2].answer);
         const tf::nearness_strategy& strategy = strategies[turn++ % strategies.size()];
         const auto one = tf::nearest(tree, query, distance_of, {.strategy = strategy});
@@ -82,7 +74,7 @@ void compare_with_brute_force(const std::string& family, std::size_t count) {
         for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{40}, count + 1})
             REQUIRE(tf::k_nearest(tree, query, k, distance_of, {.strategy = strategy}) ==
                     first(all, k));
-        const answers inside = by_brute_force(of, query, radius);
+        const answers inside = neighbors_by_brute_force(of, query, radius);
         REQUIRE(tf::all_within(tree, query, radius, distance_of, strategy) == inside);
         REQUIRE(tf::k_nearest(tree, query, 9, distance_of,
                               {.radius = radius, .strategy = strategy}) == first(inside, 9));

@@ -13,7 +13,7 @@ namespace {
 
 template <std::size_t D>
 using cloud = std::vector<std::array<double, D>>;
-using answers = std::vector<tf::near_point>;
+using near_points = std::vector<tf::near_point>;
 
 /// The lower corners of a family of boxes.
 template <std::size_t D>
@@ -25,8 +25,9 @@ cloud<D> points_of(const std::string& family, std::size_t count, std::uint64_t s
 
 /// Everything by distance, then by number; `unit` keeps the squares in the range of double.
 template <std::size_t D>
-answers by_brute_force(const cloud<D>& points, const std::array<double, D>& query, double unit) {
-    answers all;
+near_points points_by_brute_force(const cloud<D>& points, const std::array<double, D>& query,
+                                  double unit) {
+    near_points all;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         double squared = 0.0;
         for (std::size_t k = 0; k < D; ++k) {
@@ -47,18 +48,18 @@ double unit_of(const std::string& family) {
     return family == "huge" || family == "extreme" ? 0x1p-1000 : 1.0;
 }
 
-answers first(answers all, std::size_t k) {
+near_points first_points(near_points all, std::size_t k) {
     all.resize(std::min(k, all.size()));
     return all;
 }
 
-answers inside(answers all, double radius) {
+near_points inside(near_points all, double radius) {
     std::erase_if(all, [&](const tf::near_point& one) { return one.distance > radius; });
     return all;
 }
 
 template <std::size_t D>
-void compare_with_brute_force(const std::string& family, std::size_t count) {
+void compare_points(const std::string& family, std::size_t count) {
     const cloud<D> points = points_of<D>(family, count, 7);
     const tf::point_search<D> search(points);
     cloud<D> queries = points_of<D>(family, 290, 8);
@@ -69,17 +70,18 @@ void compare_with_brute_force(const std::string& family, std::size_t count) {
         const auto batch = search.k_nearest(queries, k);
         REQUIRE(batch.size() == queries.size());
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            const answers expected = first(by_brute_force(points, queries[i], unit_of(family)), k);
+            const near_points expected =
+                first_points(points_by_brute_force(points, queries[i], unit_of(family)), k);
             REQUIRE(std::ranges::equal(batch[i], expected));
             if (i % 16 == 0) REQUIRE(search.k_nearest(queries[i], k) == expected);
         }
     }
-    const answers all = by_brute_force(points, queries[0], unit_of(family));
+    const near_points all = points_by_brute_force(points, queries[0], unit_of(family));
     const double radius = all[all.size() / 2].distance * (1.0 + 0x1p-30);
     const auto batch = search.all_within(queries, radius);
     for (std::size_t i = 0; i < queries.size(); ++i)
         REQUIRE(std::ranges::equal(
-            batch[i], inside(by_brute_force(points, queries[i], unit_of(family)), radius)));
+            batch[i], inside(points_by_brute_force(points, queries[i], unit_of(family)), radius)));
     REQUIRE(search.all_within(queries[0], radius) == inside(all, radius));
     REQUIRE(search.nearest(queries[0]) == all[0]);
 }
@@ -101,10 +103,10 @@ TEST_CASE("point search: nothing is near where there are no points") {
 TEST_CASE("point search: the radius is inclusive, and zero finds equal points") {
     const cloud<2> points{{3, 4}, {0, 0}, {6, 8}, {0, 0}};
     const tf::point_search<2> search(points);
-    CHECK(search.all_within({0, 0}, 0.0) == answers{{1, 0.0}, {3, 0.0}});
-    CHECK(search.all_within({0, 0}, 5.0) == answers{{1, 0.0}, {3, 0.0}, {0, 5.0}});
+    CHECK(search.all_within({0, 0}, 0.0) == near_points{{1, 0.0}, {3, 0.0}});
+    CHECK(search.all_within({0, 0}, 5.0) == near_points{{1, 0.0}, {3, 0.0}, {0, 5.0}});
     CHECK(search.all_within({0, 0}, std::nextafter(5.0, 0.0)).size() == 2);
-    CHECK(search.k_nearest({6, 0}, 2, 5.0) == answers{{0, 5.0}});
+    CHECK(search.k_nearest({6, 0}, 2, 5.0) == near_points{{0, 5.0}});
     CHECK(!search.nearest({6, 0}, 4.0));
     CHECK(search.k_nearest({6, 0}, 0).empty());
 }
@@ -143,8 +145,8 @@ TEST_CASE("point search: answers are those of brute force, to the last bit and t
         CAPTURE(family);
         for (const std::size_t count : {1U, 9U, 600U}) {
             CAPTURE(count);
-            compare_with_brute_force<2>(family, count);
-            compare_with_brute_force<3>(family, count);
+            compare_points<2>(family, count);
+            compare_points<3>(family, count);
         }
     }
 }

@@ -4,6 +4,7 @@
 #include <treeform/tree/ray.hpp>
 
 #include <doctest/doctest.h>
+#include <support/box_families.hpp>
 #include <support/random.hpp>
 
 #include <algorithm>
@@ -18,11 +19,12 @@
 
 namespace {
 
+using test::itself;
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr auto itself = [](const auto& box) { return box; };
 
 template <std::size_t D>
-using box = tf::aabb<double, D>;
+using ray_box = tf::aabb<double, D>;
 
 /// A ray and boxes of small whole numbers, and whether they meet in exact arithmetic.
 template <std::size_t D>
@@ -41,7 +43,7 @@ struct ratio {
 };
 
 template <std::size_t D>
-bool meets(const whole_ray<D>& r, const box<D>& b) {
+bool meets(const whole_ray<D>& r, const ray_box<D>& b) {
     ratio near{r.t_min, 1};
     ratio far{r.t_max, 1};
     for (std::size_t k = 0; k < D; ++k) {
@@ -75,8 +77,8 @@ tf::ray<double, D> placed(const whole_ray<D>& r, double offset, double scale, do
 }
 
 template <std::size_t D>
-std::vector<box<D>> placed(std::vector<box<D>> boxes, double offset, double scale) {
-    for (box<D>& b : boxes)
+std::vector<ray_box<D>> placed(std::vector<ray_box<D>> boxes, double offset, double scale) {
+    for (ray_box<D>& b : boxes)
         for (std::size_t k = 0; k < D; ++k) {
             b.min[k] = (b.min[k] + offset) * scale;
             b.max[k] = (b.max[k] + offset) * scale;
@@ -85,9 +87,9 @@ std::vector<box<D>> placed(std::vector<box<D>> boxes, double offset, double scal
 }
 
 template <std::size_t D>
-std::vector<box<D>> whole_boxes(test::random& random, std::size_t count, std::size_t side) {
-    std::vector<box<D>> boxes(count);
-    for (box<D>& b : boxes)
+std::vector<ray_box<D>> whole_boxes(test::random& random, std::size_t count, std::size_t side) {
+    std::vector<ray_box<D>> boxes(count);
+    for (ray_box<D>& b : boxes)
         for (std::size_t k = 0; k < D; ++k) {
             b.min[k] = static_cast<double>(random.below(side));
             b.max[k] = b.min[k] + static_cast<double>(random.below(3));  // flat ones, too
@@ -179,8 +181,8 @@ void check_corners_are_met(std::uint64_t seed) {
         const auto x = static_cast<double>(random.below(count));
         return random.below(2) == 0 ? x : -x;
     };
-    std::vector<box<D>> boxes(500);
-    for (box<D>& b : boxes)
+    std::vector<ray_box<D>> boxes(500);
+    for (ray_box<D>& b : boxes)
         for (std::size_t k = 0; k < D; ++k) {
             b.min[k] = signed_below(std::size_t{1} << random.below(21));
             b.max[k] = b.min[k] + 1.0 + static_cast<double>(random.below(3));
@@ -209,10 +211,10 @@ TEST_CASE("ray: a box touched at a corner only is visited") {
 }
 
 TEST_CASE("ray: an origin far away does not blur what is met") {
-    std::vector<box<3>> boxes;
+    std::vector<ray_box<3>> boxes;
     for (int x = 0; x < 32; ++x)
         for (int y = 0; y < 32; ++y) {
-            box<3> b;
+            ray_box<3> b;
             b.include(std::array{x + 0.25, y + 0.25, 0.0});
             b.include(std::array{x + 0.75, y + 0.75, 1.0});
             boxes.push_back(b);
@@ -229,7 +231,7 @@ TEST_CASE("ray: an origin far away does not blur what is met") {
 }
 
 TEST_CASE("ray: a component that is nearly zero is not taken for none") {
-    std::vector<box<2>> boxes(2);
+    std::vector<ray_box<2>> boxes(2);
     boxes[0].include(std::array{0.0, 0.0});
     boxes[1].include(std::array{0x1p+900, 1.0});  // reached by climbing 2^-900 a step
     const auto tree = tf::build(boxes, itself);
@@ -239,8 +241,8 @@ TEST_CASE("ray: a component that is nearly zero is not taken for none") {
 
 TEST_CASE("ray: empty trees, one box, points and empty ranges") {
     const tf::ray<double, 3> x_axis{{-1, 0, 0}, {1, 0, 0}};
-    CHECK(visited(tf::build(std::vector<box<3>>{}, itself), x_axis).empty());
-    const auto tree = tf::build(std::vector{box<3>{{0, 0, 0}, {1, 1, 1}}}, itself);
+    CHECK(visited(tf::build(std::vector<ray_box<3>>{}, itself), x_axis).empty());
+    const auto tree = tf::build(std::vector{ray_box<3>{{0, 0, 0}, {1, 1, 1}}}, itself);
     const auto one = std::vector<std::uint32_t>{0};
     CHECK(visited(tree, x_axis) == one);  // along an edge of the box
     CHECK(visited(tree, {{-1, 0, 0}, {1, 0, 0}, 0.0, 1.0}) == one);
@@ -255,7 +257,7 @@ TEST_CASE("ray: empty trees, one box, points and empty ranges") {
 }
 
 TEST_CASE("ray: what is no number is refused") {
-    const auto tree = tf::build(std::vector{box<3>{{0, 0, 0}, {1, 1, 1}}}, itself);
+    const auto tree = tf::build(std::vector{ray_box<3>{{0, 0, 0}, {1, 1, 1}}}, itself);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto visit = [](std::uint32_t) { return 1.0; };
     CHECK_THROWS_AS(tf::visit_along(tree, tf::ray<double, 3>{{nan, 0, 0}, {1, 0, 0}}, visit),
@@ -268,12 +270,12 @@ TEST_CASE("ray: what is no number is refused") {
 
 /// Where a ray enters a closed disc or ball; also the definition that the tree is compared with.
 template <std::size_t D>
-struct ball {
+struct round_shape {
     std::array<double, D> center;
     double radius;
 
-    [[nodiscard]] box<D> bounds() const {
-        box<D> b;
+    [[nodiscard]] ray_box<D> bounds() const {
+        ray_box<D> b;
         for (std::size_t k = 0; k < D; ++k) {
             b.min[k] = center[k] - radius;
             b.max[k] = center[k] + radius;
@@ -302,13 +304,13 @@ struct named_hit {
 template <std::size_t D>
 void check_against_a_loop(std::uint64_t seed) {
     test::random random(seed);
-    std::vector<ball<D>> balls(seed % 2 == 0 ? 400 : 9);
-    for (ball<D>& b : balls) {
+    std::vector<round_shape<D>> balls(seed % 2 == 0 ? 400 : 9);
+    for (round_shape<D>& b : balls) {
         for (double& x : b.center) x = random.unit();
         b.radius = random.in(0.001, 0.1);
         if (random.below(3) == 0) b = balls[random.below(balls.size())];  // ties
     }
-    const auto tree = tf::build(balls, [](const ball<D>& b) { return b.bounds(); });
+    const auto tree = tf::build(balls, [](const round_shape<D>& b) { return b.bounds(); });
     for (int i = 0; i < 100; ++i) {
         tf::ray<double, D> r;
         for (double& x : r.origin) x = random.in(-1, 2);
@@ -344,8 +346,8 @@ TEST_CASE("ray: first, all and any hit agree with a loop over all primitives") {
 }
 
 TEST_CASE("ray: a hit may be a struct, a ray of floats, and any_hit a yes or no") {
-    const std::vector<ball<2>> balls{{{0, 0}, 1}, {{5, 0}, 1}, {{5, 0}, 1}};
-    const auto tree = tf::build(balls, [](const ball<2>& b) { return b.bounds(); });
+    const std::vector<round_shape<2>> balls{{{0, 0}, 1}, {{5, 0}, 1}, {{5, 0}, 1}};
+    const auto tree = tf::build(balls, [](const round_shape<2>& b) { return b.bounds(); });
     const tf::ray<float, 2> r{{2, 0}, {1, 0}};
     const auto hit_of = [&](std::uint32_t id) -> std::optional<named_hit> {
         return named_hit{id == 0 ? -3.0F : 2.0F, 10 + id};
@@ -360,7 +362,7 @@ TEST_CASE("ray: a hit may be a struct, a ray of floats, and any_hit a yes or no"
 }
 
 TEST_CASE("ray: the first hit is found without looking at everything behind it") {
-    std::vector<box<3>> boxes;
+    std::vector<ray_box<3>> boxes;
     for (int i = 0; i < 4096; ++i) {
         const double x = i;
         boxes.push_back({{x, 0, 0}, {x + 0.5, 1, 1}});

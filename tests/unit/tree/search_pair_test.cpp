@@ -31,7 +31,7 @@ id_pairs found(const boxes<D>& a, const boxes<D>& b) {
 }
 
 template <std::size_t D>
-void check(const boxes<D>& a, const boxes<D>& b) {
+void check_two_trees(const boxes<D>& a, const boxes<D>& b) {
     const id_pairs expected = test::overlapping(a, b);
     REQUIRE(found(a, b) == expected);
     id_pairs turned;
@@ -90,17 +90,17 @@ void check_under_maps() {
         const auto by_a = coarse_map<D>(source), by_b = coarse_map<D>(source);
         const auto tree_a = tf::build(a, itself);
         const auto tree_b = tf::build(b, itself);
-        const auto check_pairs = [&](const auto& on_a, const auto& on_b, const boxes<D>& moved_a,
-                                     const boxes<D>& moved_b) {
+        const auto check_two_trees = [&](const auto& on_a, const auto& on_b,
+                                         const boxes<D>& moved_a, const boxes<D>& moved_b) {
             const id_pairs pairs = tf::search_all(
                 on_a, on_b,
                 [&](std::uint32_t i, std::uint32_t j) { return overlaps(moved_a[i], moved_b[j]); });
             REQUIRE(pairs == test::overlapping(moved_a, moved_b));
         };
-        check_pairs(tf::transformed{tree_a, by_a}, tree_b, images(a, by_a), b);
-        check_pairs(tree_a, tf::transformed{tree_b, by_b}, a, images(b, by_b));
-        check_pairs(tf::transformed{tree_a, by_a}, tf::transformed{tree_b, by_b}, images(a, by_a),
-                    images(b, by_b));
+        check_two_trees(tf::transformed{tree_a, by_a}, tree_b, images(a, by_a), b);
+        check_two_trees(tree_a, tf::transformed{tree_b, by_b}, a, images(b, by_b));
+        check_two_trees(tf::transformed{tree_a, by_a}, tf::transformed{tree_b, by_b},
+                        images(a, by_a), images(b, by_b));
     }
 }
 
@@ -113,8 +113,8 @@ TEST_CASE("search of two trees: finds the pairs that brute force finds, whatever
         for (const std::size_t n : counts) {
             CAPTURE(m);
             CAPTURE(n);
-            check(box_family<3>("random", m, m), box_family<3>("random", n, n + 1));
-            check(box_family<2>("grid", m, m), box_family<2>("grid", n, n + 1));
+            check_two_trees(box_family<3>("random", m, m), box_family<3>("random", n, n + 1));
+            check_two_trees(box_family<2>("grid", m, m), box_family<2>("grid", n, n + 1));
         }
 }
 
@@ -123,8 +123,8 @@ TEST_CASE("search of two trees: finds them between trees of any two frames and s
         for (const std::string& b : test::box_families) {
             CAPTURE(a);
             CAPTURE(b);
-            check(box_family<3>(a, 130, 1), box_family<3>(b, 70, 2));
-            check(box_family<2>(a, 40, 3), box_family<2>(b, 300, 4));
+            check_two_trees(box_family<3>(a, 130, 1), box_family<3>(b, 70, 2));
+            check_two_trees(box_family<2>(a, 40, 3), box_family<2>(b, 300, 4));
         }
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("search of two trees: finds the pairs of scaled and shifted copies") {
                     box.max[k] = std::ldexp(box.max[k], exponent);
                 }
             for (auto& box : a) box.min[0] += shift, box.max[0] += shift;
-            check(a, b);
+            check_two_trees(a, b);
         }
 }
 

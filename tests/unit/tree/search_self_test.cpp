@@ -21,7 +21,7 @@ using test::id_pairs;
 using test::itself;
 
 template <std::size_t D>
-void check(const boxes<D>& of) {
+void check_self(const boxes<D>& of) {
     const auto accept = [&](std::uint32_t i, std::uint32_t j) { return overlaps(of[i], of[j]); };
     REQUIRE(tf::search_self_all(tf::build(of, itself), accept) == test::overlapping(of));
 }
@@ -33,8 +33,8 @@ TEST_CASE("search_self_all: finds the pairs that brute force finds, ascending") 
         for (const std::size_t count : {0UL, 1UL, 2UL, 8UL, 9UL, 300UL}) {
             CAPTURE(name);
             CAPTURE(count);
-            check(box_family<3>(name, count, count));
-            check(box_family<2>(name, count, count));
+            check_self(box_family<3>(name, count, count));
+            check_self(box_family<2>(name, count, count));
         }
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("search_self_all: a box that is infinite in the frame of the tree meet
         boxes<3> of = box_family<3>("tiny", count, count);
         of[0] = {{-1e308, -1e308, -1e308}, {1e308, 1e308, 1e308}};
         of[count - 1] = of[0];
-        check(of);
+        check_self(of);
         CHECK(tf::search_self_all(tf::build(of, itself)).size() <= count * (count - 1) / 2);
     }
 }

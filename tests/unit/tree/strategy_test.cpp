@@ -35,7 +35,7 @@ std::vector<int> in_order(const std::string& order, std::size_t count) {
 
 }  // namespace
 
-using strategies =
+using sorting_strategies =
     std::tuple<tf::strategy::nth_element, tf::strategy::pdq_select, tf::strategy::floyd_rivest,
                tf::strategy::median_of_medians, tf::strategy::median_of_ninthers,
                tf::strategy::median_of_3_random, tf::strategy::heap_select>;
@@ -87,5 +87,5 @@ TEST_CASE_TEMPLATE_DEFINE("strategy: needs few comparisons on large ranges in an
         }
 }
 
-TEST_CASE_TEMPLATE_APPLY(separates, strategies);
-TEST_CASE_TEMPLATE_APPLY(few_comparisons, strategies);
+TEST_CASE_TEMPLATE_APPLY(separates, sorting_strategies);
+TEST_CASE_TEMPLATE_APPLY(few_comparisons, sorting_strategies);

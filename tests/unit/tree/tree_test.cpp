@@ -28,11 +28,11 @@ using test::itself;
 
 const std::vector<std::size_t> sizes{0, 1, 2, 7, 8, 9, 16, 17, 63, 64, 65, 129, 1000, 4097};
 
-using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+using numbered_pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 template <std::size_t D>
-pairs overlapping_by_brute_force(const boxes<D>& of) {
-    pairs result;
+numbered_pairs overlapping_by_brute_force(const boxes<D>& of) {
+    numbered_pairs result;
     for (std::uint32_t a = 0; a < of.size(); ++a)
         for (std::uint32_t b = a + 1; b < of.size(); ++b)
             if (overlaps(of[a], of[b])) result.emplace_back(a, b);
@@ -40,13 +40,13 @@ pairs overlapping_by_brute_force(const boxes<D>& of) {
 }
 
 template <std::size_t D>
-pairs overlapping_by_tree(const tf::tree<D>& tree, const boxes<D>& of) {
-    pairs result;
-    for (const pairs& chunk :
-         tf::search_self<pairs>(tree, [&](pairs&found, std::uint32_t a, std::uint32_t b) {
-             if (overlaps(of[a], of[b])) found.emplace_back(std::min(a, b), std::max(a, b));
-             return false;
-         }))
+numbered_pairs overlapping_by_tree(const tf::tree<D>& tree, const boxes<D>& of) {
+    numbered_pairs result;
+    for (const numbered_pairs& chunk : tf::search_self<numbered_pairs>(
+             tree, [&](numbered_pairs&found, std::uint32_t a, std::uint32_t b) {
+                 if (overlaps(of[a], of[b])) found.emplace_back(std::min(a, b), std::max(a, b));
+                 return false;
+             }))
         result.insert(result.end(), chunk.begin(), chunk.end());
     std::sort(result.begin(), result.end());
     return result;
@@ -203,14 +203,14 @@ TEST_CASE("search_self: boxes that only touch are a pair, boxes one ulp apart ar
     const double next = std::nextafter(1.0, 2.0);
     boxes<3> of{box_at<3>({0, 0, 0}, 1.0), box_at<3>({1, 0, 0}, 1.0), box_at<3>({next, 5, 0}, 1.0),
                 box_at<3>({0, 5, 0}, 1.0)};
-    CHECK(overlapping_by_tree(tf::build(of, itself), of) == pairs{{0, 1}});
+    CHECK(overlapping_by_tree(tf::build(of, itself), of) == numbered_pairs{{0, 1}});
 }
 
 TEST_CASE("search_self: no pair comes twice") {
     const boxes<3> of = test::box_family<3>("grid", 3000, 3);
     const tf::tree<3> tree = tf::build(of, itself);
     const tf::self_search<3> search(tree);
-    pairs all;
+    numbered_pairs all;
     for (std::size_t chunk = 0; chunk < search.chunks(); ++chunk)
         search.visit(chunk, [&](const tf::candidate_block& block) {
             for (std::size_t i = 0; i < block.first.size(); ++i) {
@@ -228,8 +228,8 @@ TEST_CASE("search_self: stops at the pair that one thread would stop at") {
     const tf::tree<3> tree = tf::build(of, itself);
     const auto first_pair_on = [&](unsigned threads) {
         const tf::thread_scope scope(threads);
-        const auto states =
-            tf::search_self<pairs>(tree, [](pairs& found, std::uint32_t a, std::uint32_t b) {
+        const auto states = tf::search_self<numbered_pairs>(
+            tree, [](numbered_pairs& found, std::uint32_t a, std::uint32_t b) {
                 found.emplace_back(a, b);
                 return a % 7 == 3 && b % 11 == 5;
             });

@@ -4,6 +4,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
+#include <support/extremes.hpp>
 #include <support/random.hpp>
 #include <support/soups.hpp>
 
@@ -18,14 +19,14 @@
 
 namespace {
 
+using test::infinity;
+using test::not_a_number;
+
 using points = std::vector<tf::point3>;
 using ids = std::vector<std::uint32_t>;
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The words of the header, with a sorted container.
-tf::equal_points by_definition(const points& list) {
+tf::equal_points equal_by_definition(const points& list) {
     std::map<std::tuple<double, double, double>, std::uint32_t> number;
     tf::equal_points result;
     for (std::uint32_t i = 0; i < list.size(); ++i) {
@@ -41,7 +42,7 @@ tf::equal_points by_definition(const points& list) {
 }
 
 void check(const points& list) {
-    const tf::equal_points expected = by_definition(list);
+    const tf::equal_points expected = equal_by_definition(list);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
         const tf::equal_points found = tf::find_equal_points(list);

@@ -32,7 +32,7 @@ using test::bytes_of;
 using test::put;
 
 /// With a property that packs well, and coordinates that do not.
-tf::mesh_file cloud(std::size_t count, test::random& random) {
+tf::mesh_file shaded_cloud(std::size_t count, test::random& random) {
     tf::mesh_file file;
     file.format = "pcd-binary-compressed";
     std::vector<float> shade;
@@ -46,7 +46,7 @@ tf::mesh_file cloud(std::size_t count, test::random& random) {
 }
 
 /// The values of the points, field by field.
-std::string values_of(const tf::mesh_file& file) {
+std::string packed_values(const tf::mesh_file& file) {
     std::string all;
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const tf::point3& p : file.mesh.points) {
@@ -90,14 +90,15 @@ std::string refusal(const fs::path& path) {
     return "";
 }
 
-struct job {
+struct packing_job {
     tf::cloud_inputs inputs{};
     tf::weld_stream_options options{};
     tf::weld_stream_outputs outputs{};
 };
 
 /// One is killed after so many steps, if any. Returns whether all have come to the end.
-bool weld_as_team(const job& work, std::size_t size, std::size_t victim = 0, int steps = 0) {
+bool packed_as_team(const packing_job& work, std::size_t size, std::size_t victim = 0,
+                    int steps = 0) {
     return test::run_as_team(size, [&](const tf::process_team& team) {
         tf::weld_stream_options options = work.options;
         options.team = team;
@@ -122,11 +123,11 @@ TEST_CASE("packed_pcd: unpacked in turn by any number") {
     const fs::path pcd = folder.path / "in.pcd";
     for (const std::size_t count : std::vector<std::size_t>{0, 1, 3, 2000, 300'000}) {
         CAPTURE(count);
-        const tf::mesh_file file = cloud(count, random);
+        const tf::mesh_file file = shaded_cloud(count, random);
         put(pcd, tf::write_to_memory(file, {.format = "pcd"}));
         for (const std::size_t size : {1U, 2U, 4U, 7U}) {
             CHECK(unpack(pcd, folder.path / "out", size).empty());
-            CHECK((bytes_of(folder.path / "out") == values_of(file)));
+            CHECK((bytes_of(folder.path / "out") == packed_values(file)));
         }
     }
 }
@@ -135,7 +136,7 @@ TEST_CASE("packed_pcd: where packed bytes are damaged, all say what one says") {
     test::random random(32);
     const test::own_folder folder("packed_pcd_damaged_test");
     const fs::path pcd = folder.path / "in.pcd";
-    const tf::mesh_file file = cloud(2000, random);
+    const tf::mesh_file file = shaded_cloud(2000, random);
     const std::string whole = tf::write_to_memory(file, {.format = "pcd"});
     const std::size_t head = whole.find("binary_compressed\n") + 18;
     std::size_t refused = 0;
@@ -155,7 +156,7 @@ TEST_CASE("packed_pcd: where packed bytes are damaged, all say what one says") {
             CAPTURE(size);
             const auto said = unpack(pcd, folder.path / "out", size);
             CHECK(said == (one.empty() ? std::set<std::string>{} : std::set{one}));
-            CHECK(fs::file_size(folder.path / "out") <= values_of(file).size());
+            CHECK(fs::file_size(folder.path / "out") <= packed_values(file).size());
         }
         refused += one.empty() ? 0 : 1;
     }
@@ -170,15 +171,15 @@ TEST_CASE(
     std::size_t continued = 0;
     for (std::size_t round = 0; round < 8; ++round) {
         CAPTURE(round);
-        job work;
+        packing_job work;
         work.inputs.paths = {path / "a.pcd"};
         if (round % 2 == 1) work.inputs.paths.push_back(path / "b.pcd");
         if (round == 5) work.inputs.paths.push_back(path / "c.pcd");  // no points
         for (const fs::path& input : work.inputs.paths)
-            put(input,
-                tf::write_to_memory(
-                    cloud(input.filename() == "c.pcd" ? 0 : 1500 + random.below(500), random),
-                    {.format = "pcd"}));
+            put(input, tf::write_to_memory(
+                           shaded_cloud(input.filename() == "c.pcd" ? 0 : 1500 + random.below(500),
+                                        random),
+                           {.format = "pcd"}));
         work.options.folder = path / "work";
         work.options.tolerance = 0.05;
         work.options.points_per_tile = 300;
@@ -202,7 +203,7 @@ TEST_CASE(
         for (const fs::path& input : work.inputs.paths) files.push_back(tf::read(input));
         const std::vector<std::string> names(files.size(), "a");
         const tf::mesh_file whole = tf::join(files, names);
-        REQUIRE(weld_as_team(work, 1));
+        REQUIRE(packed_as_team(work, 1));
         const auto expected = take();
         CHECK(expected[0].find("DATA binary_compressed") != std::string::npos);
         CHECK(expected[1].find("DATA binary_compressed") != std::string::npos);
@@ -212,15 +213,15 @@ TEST_CASE(
         }
         for (const std::size_t size : {2U, 4U, 7U}) {
             CAPTURE(size);
-            REQUIRE(weld_as_team(work, size));
+            REQUIRE(packed_as_team(work, size));
             CHECK((take() == expected));
             CHECK_FALSE(fs::exists(work.options.folder));
             const int steps = 1 + static_cast<int>(random.below(5));
-            if (!weld_as_team(work, size, random.below(size), steps)) {
+            if (!packed_as_team(work, size, random.below(size), steps)) {
                 // What a run has left that was killed for good.
                 put(work.options.folder / "unpacked.0", "half of it");
                 put(work.options.folder / "values.welded", std::string(100'000, '?'));
-                REQUIRE(weld_as_team(work, 1 + random.below(5)));
+                REQUIRE(packed_as_team(work, 1 + random.below(5)));
                 ++continued;
             }
             CHECK((take() == expected));
@@ -233,10 +234,10 @@ TEST_CASE(
 TEST_CASE("packed_pcd: one damaged input is named, and nothing stays") {
     test::random random(34);
     const test::own_folder folder("packed_pcd_one_test");
-    job work;
+    packing_job work;
     work.inputs.paths = {folder.path / "a.pcd", folder.path / "b.pcd"};
-    put(work.inputs.paths[0], tf::write_to_memory(cloud(900, random), {.format = "pcd"}));
-    std::string bytes = tf::write_to_memory(cloud(900, random), {.format = "pcd"});
+    put(work.inputs.paths[0], tf::write_to_memory(shaded_cloud(900, random), {.format = "pcd"}));
+    std::string bytes = tf::write_to_memory(shaded_cloud(900, random), {.format = "pcd"});
     std::fill(bytes.end() - 3000, bytes.end(), '\xff');
     put(work.inputs.paths[1], bytes);
     const std::string one = refusal(work.inputs.paths[1]);
@@ -248,7 +249,7 @@ TEST_CASE("packed_pcd: one damaged input is named, and nothing stays") {
     for (const std::size_t size : {1U, 4U}) {
         std::string said;
         try {
-            static_cast<void>(weld_as_team(work, size));
+            static_cast<void>(packed_as_team(work, size));
         } catch (const tf::io_error& error) {
             said = error.what();
         }

@@ -38,7 +38,7 @@ using tf::detail::weld::tile_point;
 using tf::detail::weld::tile_result;
 using tf::detail::weld::tile_role;
 
-constexpr std::array rules{weld_rule::first, weld_rule::chain};
+constexpr std::array tile_rules{weld_rule::first, weld_rule::chain};
 
 std::vector<std::uint64_t> leaders(const cloud& points, weld_rule rule, double tolerance) {
     const auto groups = tf::group_points(points, {.tolerance = tolerance, .rule = rule});
@@ -51,7 +51,7 @@ std::size_t in_memory = 0;  ///< points that `tiled_leaders` has done
 
 void check_same(const cloud& points, double tolerance, test::random& random) {
     CAPTURE(tolerance);
-    for (const weld_rule rule : rules) {
+    for (const weld_rule rule : tile_rules) {
         const auto expected = leaders(points, rule, tolerance);
         for (const std::size_t count : {1U, 2U, 3U, 7U, 50U}) {
             CAPTURE(static_cast<int>(rule));
@@ -384,7 +384,7 @@ TEST_CASE("tile_weld: points that are not finite stay out of it") {
 TEST_CASE("tile_weld: the longest move is that from a point to its leader") {
     test::random random(12);
     const cloud points = uniform(500, random);
-    for (const weld_rule rule : rules)
+    for (const weld_rule rule : tile_rules)
         for (const double tolerance : {0.0, 0.05, 0.15, 0.3}) {
             CAPTURE(tolerance);
             const tiled found = weld_in_tiles(points, rule, tolerance, 6, random, {},
@@ -426,7 +426,7 @@ TEST_CASE("tile_weld: points whose values do not agree stay apart, as in the who
         std::vector<std::uint32_t> label;
         for (std::size_t i = 0; i < points.size(); ++i)
             label.push_back(static_cast<std::uint32_t>(more.at(i)[0] - zero));
-        for (const weld_rule rule : rules)
+        for (const weld_rule rule : tile_rules)
             for (const double tolerance : {0.0, 0.05, 0.15, 0.4}) {
                 tf::weld_options options{.tolerance = tolerance, .rule = rule, .label = label};
                 options.may_merge = [&](std::uint32_t i, std::uint32_t j) {

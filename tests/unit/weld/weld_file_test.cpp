@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 #include <support/columns.hpp>
+#include <support/models.hpp>
 #include <support/soups.hpp>
 
 #include <filesystem>
@@ -21,8 +22,6 @@ namespace {
 
 using test::vertex_columns;
 using ids = std::vector<std::uint32_t>;
-
-const std::filesystem::path data = std::filesystem::path(TREEFORM_SOURCE_DIR) / "data";
 
 /// A square and a triangle on one of its edges; the ends of that edge are there twice.
 tf::mesh_file square_and_triangle() {
@@ -57,7 +56,7 @@ TEST_CASE("weld: a cloud keeps its first points and their properties") {
 }
 
 TEST_CASE("weld: one line will do, for a mesh and for a prepared one") {
-    const tf::mesh soup = tf::read(data / "cube.stl").mesh;
+    const tf::mesh soup = tf::read(test::data_folder() / "cube.stl").mesh;
     const auto welded = tf::weld(soup);
     CHECK(welded.mesh.points.size() == 8);
     CHECK(tf::weld(tf::prepared_mesh::borrow(soup)).mesh == welded.mesh);
@@ -84,7 +83,7 @@ TEST_CASE("weld: the polygons of a file are polygons again") {
 }
 
 TEST_CASE("weld: the groups of a soup are those of its corners") {
-    const tf::mesh_file file = tf::read(data / "cube.stl");
+    const tf::mesh_file file = tf::read(test::data_folder() / "cube.stl");
     const auto welded = tf::weld(file);
     CHECK(welded.file.indexed);
     CHECK(welded.file.format == file.format);

@@ -6,6 +6,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
+#include <support/models.hpp>
 #include <support/random.hpp>
 #include <support/soups.hpp>
 
@@ -19,8 +20,6 @@
 namespace {
 
 using ids = std::vector<std::uint32_t>;
-
-const std::filesystem::path data = std::filesystem::path(TREEFORM_SOURCE_DIR) / "data";
 
 tf::weld_result weld(const tf::mesh& mesh, double tolerance = 0.0,
                      tf::weld_rule rule = tf::weld_rule::first) {
@@ -92,7 +91,7 @@ void check_harmless(const tf::mesh& mesh, double tolerance, tf::weld_rule rule) 
 }  // namespace
 
 TEST_CASE("keep_manifold: two cubes that share an edge come apart as two closed cubes") {
-    const tf::mesh cube = tf::weld(tf::read(data / "cube.stl").mesh, {}, {}).mesh;
+    const tf::mesh cube = tf::weld(tf::read(test::data_folder() / "cube.stl").mesh, {}, {}).mesh;
     const auto [low, high] = std::minmax_element(
         cube.points.begin(), cube.points.end(),
         [](const tf::point3& a, const tf::point3& b) { return a.x + a.y < b.x + b.y; });
@@ -111,7 +110,7 @@ TEST_CASE("keep_manifold: two cubes that share an edge come apart as two closed 
 TEST_CASE("keep_manifold: surfaces cut to pieces close as without it") {
     for (const char* name : {"sphere.ply", "cube.stl", "two_spheres.stl", "nested_cubes.obj"}) {
         CAPTURE(name);
-        const tf::mesh whole = tf::weld(tf::read(data / name).mesh, {}, {}).mesh;
+        const tf::mesh whole = tf::weld(tf::read(test::data_folder() / name).mesh, {}, {}).mesh;
         test::random source(1);
         const auto welded = weld(test::shuffled(source, soup_of(whole)).mesh);
         CHECK(welded.statistics.left_alone == 0);
@@ -119,7 +118,7 @@ TEST_CASE("keep_manifold: surfaces cut to pieces close as without it") {
         CHECK(counts(welded.mesh).closed);
     }
     // One cut only: half of the faces take a copy of each point.
-    tf::mesh sphere = tf::weld(tf::read(data / "sphere.ply").mesh, {}, {}).mesh;
+    tf::mesh sphere = tf::weld(tf::read(test::data_folder() / "sphere.ply").mesh, {}, {}).mesh;
     const auto count = static_cast<std::uint32_t>(sphere.points.size());
     const std::vector<tf::point3> points = sphere.points;
     sphere.points.insert(sphere.points.end(), points.begin(), points.end());

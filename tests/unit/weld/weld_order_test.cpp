@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 #include <support/brute_weld.hpp>
 #include <support/columns.hpp>
+#include <support/extremes.hpp>
 #include <support/random.hpp>
 #include <support/soups.hpp>
 
@@ -24,10 +25,10 @@
 
 namespace {
 
+using test::infinity;
+using test::not_a_number;
 using test::vertex_columns;
 using ids = std::vector<std::uint32_t>;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// By plain comparisons.
 ids in_order(const std::vector<double>& values, bool lowest) {
@@ -72,7 +73,7 @@ std::vector<double> values_with_ties(test::random& source, std::size_t count) {
     for (double& x : values) {
         x = static_cast<double>(source.below(6)) - 3.0;
         if (source.below(7) == 0) x = not_a_number;
-        if (source.below(11) == 0) x = source.below(2) == 0 ? infinite : -infinite;
+        if (source.below(11) == 0) x = source.below(2) == 0 ? infinity : -infinity;
         if (x == 0.0 && source.below(2) == 0) x = -0.0;
     }
     return values;
@@ -92,8 +93,8 @@ TEST_CASE("weld: an order says which point stays, ties by number and NaN last") 
     CHECK(kept({2, 4, 3, 1}, tf::weld_order::highest) == ids{1, 3});
     CHECK(kept({5, 5, 5, 5}, tf::weld_order::lowest) == ids{0, 2});
     CHECK(kept({0.0, -0.0, 1, 1}, tf::weld_order::lowest) == ids{0, 2});
-    CHECK(kept({not_a_number, infinite, not_a_number, -1}, tf::weld_order::lowest) == ids{1, 3});
-    CHECK(kept({not_a_number, -infinite, not_a_number, -1}, tf::weld_order::highest) == ids{1, 3});
+    CHECK(kept({not_a_number, infinity, not_a_number, -1}, tf::weld_order::lowest) == ids{1, 3});
+    CHECK(kept({not_a_number, -infinity, not_a_number, -1}, tf::weld_order::highest) == ids{1, 3});
     const auto by_axis = tf::weld(
         cloud.points, {.tolerance = 1.0, .order = tf::weld_order::highest, .order_by = "x"});
     CHECK(by_axis.point_of_group == ids{1, 3});

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 #include <support/columns.hpp>
+#include <support/extremes.hpp>
 #include <support/random.hpp>
 #include <support/soups.hpp>
 
@@ -22,10 +23,10 @@
 
 namespace {
 
+using test::infinity;
+using test::not_a_number;
 using test::vertex_columns;
 using ids = std::vector<std::uint32_t>;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::vector<double> values_of(const tf::attributes& a, const char* element, const char* column) {
     const tf::column* c = tf::find_column(*tf::find_element(a, element), column);
@@ -45,7 +46,7 @@ bool same_values(const std::vector<double>& a, const std::vector<double>& b) {
 TEST_CASE("weld: a property that must be equal keeps points apart, NaN being equal to NaN") {
     const tf::mesh cloud{std::vector<tf::point3>(8), {}};
     const auto properties = vertex_columns(
-        {{"nx", {0.0, -0.0, not_a_number, not_a_number, infinite, infinite, 0.0, 1.0}},
+        {{"nx", {0.0, -0.0, not_a_number, not_a_number, infinity, infinity, 0.0, 1.0}},
          {"t", {1, 1, 2, 2, 3, 3, 1, 1}},
          {"blue", {1, 1, 1, 1, 1, 1, not_a_number, 1}}});
     const auto groups = [&](std::vector<tf::weld_condition> conditions) {
@@ -78,7 +79,7 @@ TEST_CASE("weld: the tolerance of a property is inclusive to the last bit") {
     const double most = std::numeric_limits<double>::max();
     CHECK_FALSE(joined(-most, most, most));
     CHECK(joined(0, most, most));
-    CHECK_FALSE(joined(infinite, most, most));
+    CHECK_FALSE(joined(infinity, most, most));
     CHECK_FALSE(joined(not_a_number, 0, most));
 }
 
@@ -200,7 +201,7 @@ TEST_CASE("weld: a mean stays among its values, however large, small or many") {
           doctest::Approx(most / 8).epsilon(1e-15));
     CHECK(mean({5e-324, 5e-324}) == 5e-324);
     CHECK(std::isnan(mean({1.0, not_a_number})));
-    CHECK(std::isnan(mean({1.0, infinite})));
+    CHECK(std::isnan(mean({1.0, infinity})));
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         test::random source(seed);
         std::vector<double> values(3 + source.below(40));

@@ -64,13 +64,13 @@ std::string content_of(const fs::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-constexpr tf::weld_rule rules[] = {tf::weld_rule::first, tf::weld_rule::chain};
+constexpr tf::weld_rule both_rules[] = {tf::weld_rule::first, tf::weld_rule::chain};
 
 }  // namespace
 
 TEST_CASE("weld_stream: files, map and counts are what weld gives") {
     const stream_folder folder(2000);
-    for (const tf::weld_rule rule : rules) {
+    for (const tf::weld_rule rule : both_rules) {
         std::vector<std::uint32_t> map;
         tf::weld_stream_outputs outputs;
         outputs.welded = {folder.output(), {}};

@@ -7,6 +7,8 @@
 
 #include <doctest/doctest.h>
 #include <support/columns.hpp>
+#include <support/extremes.hpp>
+#include <support/models.hpp>
 #include <support/random.hpp>
 #include <support/soups.hpp>
 
@@ -18,12 +20,10 @@
 
 namespace {
 
+using test::infinity;
+using test::not_a_number;
 using test::vertex_columns;
 using ids = std::vector<std::uint32_t>;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-const std::filesystem::path data = std::filesystem::path(TREEFORM_SOURCE_DIR) / "data";
 
 bool three_corners(const tf::face& f) { return f[0] != f[1] && f[1] != f[2] && f[2] != f[0]; }
 
@@ -93,7 +93,7 @@ void check_result(const tf::mesh& mesh, const tf::weld_options& options) {
     CHECK(again.statistics.max_displacement == 0.0);
 }
 
-void check_same(const tf::weld_result& a, const tf::weld_result& b) {
+void check_same_weld(const tf::weld_result& a, const tf::weld_result& b) {
     CHECK(a.mesh == b.mesh);
     CHECK(a.attributes == b.attributes);
     CHECK(a.groups.group_of_point == b.groups.group_of_point);
@@ -122,7 +122,7 @@ TEST_CASE("weld: nothing comes of nothing, and one point of one") {
 }
 
 TEST_CASE("weld: the triangles of a cube become eight points and stay twelve faces") {
-    const tf::mesh_file cube = tf::read(data / "cube.stl");
+    const tf::mesh_file cube = tf::read(test::data_folder() / "cube.stl");
     const auto welded = tf::weld(cube.mesh, cube.attributes, {});
     CHECK(welded.mesh.points.size() == 8);
     CHECK(welded.mesh.faces.size() == 12);
@@ -184,8 +184,8 @@ TEST_CASE("weld: faces that repeat a corner are dropped, or kept when asked for"
 TEST_CASE("weld: points that are not finite stay as they are and are not computed with") {
     const tf::mesh mesh{{{not_a_number, 0, 0},
                          {not_a_number, 0, 0},
-                         {infinite, 0, 0},
-                         {infinite, 0, 0},
+                         {infinity, 0, 0},
+                         {infinity, 0, 0},
                          {0, 0, 0},
                          {1, 0, 0}},
                         {{0, 4, 5}, {2, 4, 5}}};
@@ -193,7 +193,7 @@ TEST_CASE("weld: points that are not finite stay as they are and are not compute
         const auto welded = tf::weld(mesh, {}, {.tolerance = 1.0, .keep = keep});
         CHECK(welded.groups.group_of_point == ids{0, 1, 2, 3, 4, 4});
         CHECK(std::isnan(welded.mesh.points[1].x));
-        CHECK(welded.mesh.points[2].x == infinite);
+        CHECK(welded.mesh.points[2].x == infinity);
         CHECK(welded.statistics.max_displacement == (keep == tf::weld_keep::mean ? 0.5 : 1.0));
         CHECK(welded.statistics.flipped == 0);
     }
@@ -228,7 +228,7 @@ TEST_CASE("weld: threads change nothing, nor does a scale by a power of two") {
         CHECK(once.mesh.points.size() < soup.points.size());
         for (const unsigned threads : {1U, 2U, 8U}) {
             const tf::thread_scope scope(threads);
-            check_same(tf::weld(soup, properties, options), once);
+            check_same_weld(tf::weld(soup, properties, options), once);
         }
         tf::weld_options other = options;
         other.tolerance = std::ldexp(0.01, 40);
@@ -258,7 +258,7 @@ TEST_CASE("weld: what cannot be meant is refused by name") {
     refused({}, {.same = {{"q"}}}, "treeform::weld: no vertex property 'q'");
     refused({}, {.keep = tf::weld_keep::lowest}, "treeform::weld: no vertex property ''");
     refused({}, {.same = {{"xy"}}}, "treeform::weld: no vertex property 'xy'");
-    for (const double bad : {-1.0, not_a_number, infinite})
+    for (const double bad : {-1.0, not_a_number, infinity})
         refused({}, {.same = {{"x", bad}}},
                 "treeform::weld: the tolerance of 'x' must be finite and not negative");
     const ids label(3);
