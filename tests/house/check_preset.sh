@@ -19,28 +19,38 @@ packages=(g++ cmake ninja-build pkg-config ccache clang clang-format libclang-rt
     python3-pytest python3-hypothesis python3-tqdm python3-wheel python3-build python3-venv mypy
     patchelf chromium doxygen esbuild fish groff man-db zsh)
 
-# build PRESET [CONFIGURE OPTION...]: in build/PRESET; what does not build counts as failed.
+# step NAME FOLDER COMMAND...: what it takes is noted in build/steps.jsonl.
+step() { python3 -B tests/house/steps.py run "$@"; }
+
+# build PRESET [CONFIGURE OPTION...] [-- TARGET...]: in build/PRESET, everything where no target is
+# named; what does not build counts as failed.
 build() {
-    local preset=$1
+    local preset=$1 options=()
     shift
-    if ! cmake --preset "$preset" -DTREEFORM_WERROR="${TREEFORM_WERROR:-OFF}" "$@" >/dev/null; then
+    while (($#)) && [[ $1 != -- ]]; do
+        options+=("$1")
+        shift
+    done
+    if ! cmake --preset "$preset" -DTREEFORM_WERROR="${TREEFORM_WERROR:-OFF}" "${options[@]}" \
+        >/dev/null; then
         echo "$preset cannot be configured"
         failed=$((failed + 1))
         return 1
     fi
     # A test whose program does not build fails once more, as one that is not there; the rest is tested.
-    if ! cmake --build "build/$preset" -j "$jobs" -- -k 0; then
+    if ! step "$preset: build" "build/$preset" ninja -C "build/$preset" -j "$jobs" -k 0 "${@:2}"; then
         echo "$preset does not build"
         failed=$((failed + 1))
     fi
 }
 
-# test_build FOLDER [CTEST OPTION...]
+# test_build FOLDER [CTEST OPTION...]: its step is named after the folder, or ${test_step}.
 test_build() {
     local folder=$1 results=$1/results.xml counts
     shift
     rm -f "$results"
-    ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error \
+    step "${test_step:-${folder#build/}: test}" "$folder" \
+        ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error \
         --output-junit "$PWD/$results" --test-output-size-passed 1000000 "$@"
     if counts=($(python3 -B tests/house/count_tests.py "$results")) && ((${#counts[@]} == 4)); then
         passed=$((passed + counts[0]))

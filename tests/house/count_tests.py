@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """count_tests.py RESULTS.xml: how many tests of a `ctest --output-junit` passed, failed and were
-skipped, and how many test cases were skipped within tests that passed: four numbers."""
+skipped, and how many test cases were skipped within tests that passed: four numbers.
+
+count_tests.py --skipped RESULTS.xml: the names of tests that were skipped, or of which cases were,
+a line each."""
 
 import re
 import sys
@@ -10,8 +13,10 @@ import xml.etree.ElementTree as xml
 CASES = re.compile(r"^(\d+) of \d+ test cases skipped, (\d+) in part$", re.MULTILINE)
 
 passed = failed = skipped = cases = 0
-for test in xml.parse(sys.argv[1]).getroot().iter("testcase"):
+names = []
+for test in xml.parse(sys.argv[-1]).getroot().iter("testcase"):
     reason = test.find("skipped")
+    before = skipped + cases
     if test.get("status") == "run":
         passed += 1
         for match in CASES.finditer(test.findtext("system-out") or ""):
@@ -20,4 +25,6 @@ for test in xml.parse(sys.argv[1]).getroot().iter("testcase"):
         skipped += 1
     else:  # failed, or could not be run
         failed += 1
-print(passed, failed, skipped, cases)
+    if skipped + cases > before:
+        names.append(test.get("name"))
+print("\n".join(names)) if "--skipped" in sys.argv else print(passed, failed, skipped, cases)

@@ -13,6 +13,7 @@ model that should become one does not, or where a wrap is none."""
 
 import argparse
 import csv
+import os
 import pathlib
 import re
 import subprocess
@@ -108,7 +109,8 @@ def main():
     parser.add_argument("tool")
     parser.add_argument("mend")
     parser.add_argument("judge")
-    parser.add_argument("models", type=lambda text: pathlib.Path(text or "no models"))
+    parser.add_argument("models", type=lambda text: pathlib.Path(
+        text or os.environ.get("TREEFORM_MODELS_DIR") or "no models"))
     parser.add_argument("-o", dest="out", type=pathlib.Path)
     parser.add_argument("--compare", type=pathlib.Path)
     parser.add_argument("--only", default="")
