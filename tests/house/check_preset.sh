@@ -44,23 +44,30 @@ build() {
     fi
 }
 
-# test_build FOLDER [CTEST OPTION...]: its step is named after the folder, or ${test_step}.
-test_build() {
-    local folder=$1 results=$1/results.xml counts
-    shift
-    rm -f "$results"
-    step "${test_step:-${folder#build/}: test}" "$folder" \
-        ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error \
-        --output-junit "$PWD/$results" --test-output-size-passed 1000000 "$@"
-    if counts=($(python3 -B tests/house/count_tests.py "$results")) && ((${#counts[@]} == 4)); then
+# count FOLDER: counts the last tests there.
+count() {
+    local counts
+    if counts=($(python3 -B tests/house/count_tests.py "$1/results.xml")) &&
+        ((${#counts[@]} == 4)); then
         passed=$((passed + counts[0]))
         failed=$((failed + counts[1]))
         skipped=$((skipped + counts[2]))
         skipped_cases=$((skipped_cases + counts[3]))
     else
-        echo "$folder ran no test"
+        echo "$1 ran no test"
         failed=$((failed + 1))
     fi
+}
+
+# test_build FOLDER [CTEST OPTION...]: its step is named after the folder, or ${test_step}.
+test_build() {
+    local folder=$1 results=$1/results.xml
+    shift
+    rm -f "$results"
+    step "${test_step:-${folder#build/}: test}" "$folder" \
+        ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error \
+        --output-junit "$PWD/$results" --test-output-size-passed 1000000 "$@"
+    count "$folder"
 }
 
 # count_up: says how it went, and fails where something has.

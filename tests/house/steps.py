@@ -6,6 +6,7 @@ steps.py run STEP FOLDER COMMAND...   runs the command, which builds or tests in
 steps.py slowest FOLDER               the slowest 20 objects and tests of a build folder
 steps.py report [--write]             the steps as a table, and which of them have grown by a fifth
                                       over the table in CONTRIBUTING.md, which --write replaces
+steps.py yardstick                    CPU seconds of compiling one file
 
 CPU time is that of all processes. Machines differ, so that it is compared as a multiple of what one
 file of the project takes to compile. A step whose objects came from a compiler cache is not compared,
@@ -152,4 +153,6 @@ if __name__ == "__main__":
         sys.exit(slowest(sys.argv[2]))
     if sys.argv[1:] in (["report"], ["report", "--write"]):
         sys.exit(report("--write" in sys.argv))
+    if sys.argv[1:] == ["yardstick"]:
+        sys.exit(print(f"{yardstick():.2f}"))
     sys.exit(__doc__)
