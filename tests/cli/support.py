@@ -175,8 +175,26 @@ def limit_memory(size):
 ALL_SKIPPED = 77  # SKIP_RETURN_CODE of the tests
 
 
+def slow(test):
+    """A test case that takes long: with --slow, `ctest -L slow`, these are run, and without it all others."""
+    test.is_slow = True
+    return test
+
+
+class Loader(unittest.TestLoader):
+    def __init__(self, wants_slow):
+        super().__init__()
+        self.wants_slow = wants_slow
+
+    def getTestCaseNames(self, case):
+        return [name for name in super().getTestCaseNames(case)
+                if hasattr(getattr(case, name), "is_slow") == self.wants_slow]
+
+
 def main():
-    result = unittest.main(argv=[sys.argv[0]] + sys.argv[1:], verbosity=1, exit=False).result
+    words = [word for word in sys.argv if word != "--slow"]
+    result = unittest.main(argv=words, verbosity=1, exit=False,
+                           testLoader=Loader("--slow" in sys.argv)).result
     skipped = len({getattr(test, "test_case", test).id() for test, _ in result.skipped})
     if skipped:  # tests/house/count_tests.py reads this line
         print(f"{skipped} of {result.testsRun} test cases skipped, 0 in part", flush=True)

@@ -2,7 +2,7 @@
 output is whole or absent.
 
 Damaged files of data/ and, with TREEFORM_MODELS_DIR, of its folder hostile; 60 of them, or
-$TREEFORM_STRESS_COUNT, from $TREEFORM_STRESS_SEED on.
+$TREEFORM_STRESS_COUNT, from $TREEFORM_STRESS_SEED on; with --slow, the nine times as many after those.
 """
 
 from support import *
@@ -84,11 +84,18 @@ class Mutations(ToolTest):
         self.assertIn(self.output(name), [b"older", whole], msg=f"{command}: a part of a file")
 
     def test_outputs_of_damaged_files_are_whole_or_absent(self):
+        self.check_outputs(range(SEED, SEED + COUNT))
+
+    @slow
+    def test_outputs_of_many_more_damaged_files_are_whole_or_absent(self):
+        self.check_outputs(range(SEED + COUNT, SEED + 10 * COUNT))
+
+    def check_outputs(self, seeds):
         folders = [files_of(DATA)]
         if MODELS:
             folders.append(files_of(os.path.join(MODELS, "hostile")))
         written = 0
-        for i in range(SEED, SEED + COUNT):
+        for i in seeds:
             choose = random.Random(i)
             source = choose.choice(choose.choice(folders))
             with open(source, "rb") as file:
@@ -110,7 +117,7 @@ class Mutations(ToolTest):
                     self.check_stopped(command, output, whole, choose)
             for left in self.listing():
                 os.remove(self.path(left))
-        self.assertGreater(written, COUNT // 10)
+        self.assertGreater(written, len(seeds) // 10)
 
 
 if __name__ == "__main__":

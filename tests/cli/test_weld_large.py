@@ -285,23 +285,40 @@ class Large(WeldTest):
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_a_crowd_nearer_than_the_tolerance_beyond_the_memory_limit_is_welded_all_the_same(self):
+        self.check_beyond_the_limit(self.crowd(), "0.004")
+
+    @slow
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_a_crowd_much_nearer_than_the_tolerance_beyond_the_memory_limit_is_welded_too(self):
+        self.check_beyond_the_limit(self.crowd(), "0.03")
+
+    def crowd(self):
         rng = random.Random(7)
         crowd = lambda: tuple(0.5 + 0.02 * rng.random() for _ in range(3))
-        points = [crowd() if i % 4 else (rng.random(), rng.random(), rng.random())
-                  for i in range(600000)]
-        for tolerance in ("0.004", "0.03"):
-            self.check_beyond_the_limit(points, tolerance)
+        return [crowd() if i % 4 else (rng.random(), rng.random(), rng.random())
+                for i in range(600000)]
+
+    def check_rows(self, points, tolerance):
+        self.check_beyond_the_limit(points, tolerance, rules=("first",))
+        # A second look at the same place.
+        self.check_beyond_the_limit(points[::2] + points[1::2], tolerance, rules=("first",))
+
+    def sheet(self):
+        rng = random.Random(8)
+        return [(i % 700 + rng.random(), i // 700 + rng.random(), 0.0) for i in range(490000)]
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_rows_that_hang_on_those_before_are_welded_within_the_memory_limit(self):
+        self.check_rows(self.sheet(), "1.3")
+
+    @slow
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_long_rows_that_hang_on_those_before_are_welded_within_the_memory_limit(self):
         rng = random.Random(8)
         line = [(0.3 * (i % 200000) + 0.2 * rng.random(), 20.0 * (i // 200000), 0.0)
                 for i in range(1000000)]
-        sheet = [(i % 700 + rng.random(), i // 700 + rng.random(), 0.0) for i in range(490000)]
-        for points, tolerance in ((line, "0.52"), (sheet, "1.3"), (sheet, "2")):
-            self.check_beyond_the_limit(points, tolerance, rules=("first",))
-            # A second look at the same place.
-            self.check_beyond_the_limit(points[::2] + points[1::2], tolerance, rules=("first",))
+        self.check_rows(line, "0.52")
+        self.check_rows(self.sheet(), "2")
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_what_is_welded_in_memory_says_so_where_memory_is_limited(self):
@@ -319,16 +336,15 @@ class Large(WeldTest):
         run = self.run_tool(*command, "--memory", "32M", status=5)
         self.assertIn("--memory is not enough for 41 MB of file", run.err)
 
-    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
-    def test_memory_that_is_too_little_is_said_at_once_with_what_would_be_enough(self):
+    def check_too_little(self, cases, memories):
+        """Of each (rule, tolerance, further options)."""
         rng = random.Random(8)
         self.binary("in.ply", [(rng.random(), rng.random(), rng.random()) for _ in range(500000)])
-        whole = ["--tile-points", "500000"]
-        for rule in ("first", "chain"):
-            for tolerance, size in (("0.002", []), ("0.008", []), ("0.008", whole)):
-                command = ["in.ply", "-t", tolerance, "--rule", rule, "-f"]
-                self.run_tool(*command, "-o", "memory.ply", status=0)
-                for memory in ("1M", "20M", "33M"):
+        for rule, tolerance, size in cases:
+            command = ["in.ply", "-t", tolerance, "--rule", rule, "-f"]
+            self.run_tool(*command, "-o", "memory.ply", status=0)
+            for memory in memories:
+                with self.subTest(rule=rule, tolerance=tolerance, size=size, memory=memory):
                     run = self.run_tool(*command, *size, "-o", "out.ply", "--memory", memory,
                                         status=5)
                     in_any_case = memory != "33M" and (rule == "chain" or size)  # not looked at
@@ -336,7 +352,20 @@ class Large(WeldTest):
                     self.assertEqual(self.listing(), ["in.ply", "memory.ply"])
                     self.check_enough(run, *command, *size)
 
-        # Chains of equal points, too.
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_memory_that_is_too_little_is_said_at_once_with_what_would_be_enough(self):
+        self.check_too_little([(rule, "0.002", []) for rule in ("first", "chain")], ["20M"])
+
+    @slow
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_of_any_tolerance_and_size_of_tiles_what_is_said_is_enough(self):
+        self.check_too_little([(rule, *more) for rule in ("first", "chain") for more in (
+            ("0.002", []), ("0.008", []), ("0.008", ["--tile-points", "500000"]))],
+            ["1M", "20M", "33M"])
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_of_chains_of_equal_points_too_what_is_said_is_enough(self):
+        rng = random.Random(8)
         kinds = [(0.5, 0.5, 0.5, i % 7) if i % 2 else (*(rng.random() for _ in range(3)), i % 7)
                  for i in range(400000)]
         head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(kinds)}\nproperty double x\n"
@@ -378,6 +407,7 @@ class Large(WeldTest):
             self.assertNotIn("for the tiles", run.err)  # only borders are left
             self.check_enough(run, *command, "--finish")
 
+    @slow
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_of_rows_that_hang_on_those_before_too_what_is_said_is_enough(self):
         rng = random.Random(9)

@@ -42,6 +42,23 @@ def cloud(rng, count):
     return [rng.choices(kinds, (6, 3, 2, 0.1))[0]() for _ in range(count)]
 
 
+# What ranks are asked for, and to what file: of each kind one, and the rest.
+ASKED = [(["-t", "0.02", "--removed", "gone.ply"], "out.ply"),
+         (["-t", "0.03", "--rule", "chain"], "out.csv"),
+         (["-t", "0.02", "--keep", "mean", "--removed", "gone.las"], "out.xyz"),
+         (["-t", "0.02", "--order", "y", "--map", "map.bin"], "out.laz")]
+ASKED_TOO = [(["-t", "0.02", "--rule", "chain", "--same", "shade"], "out.pcd"),
+             (["-t", "0.02", "--order", "shade", "--map", "map.csv"], "out.ply"),
+             (["-t", "0.03", "--order", "max:x", "--rule", "chain", "--label", "group"], "out.ply"),
+             (["-t", "0.02", "--precision", "float"], "out.ply"),
+             (["-t", "0.02", "--keep", "max:shade", "--removed", "gone.ply", "--map", "map.csv"],
+              "out.ply"),
+             (["-t", "0.03", "--rule", "chain", "--label", "group"], "out.ply"),
+             (["-t", "0.02", "--keep", "last"], "out.laz"), (["-t", "0.02"], "out.laz"),
+             (["-t", "0.02"], "out.las"), (["-t", "0.02", "--removed", "gone.las"], "out.las"),
+             (["-t", "0.02", "--withhold"], "out.las")]
+
+
 class Shared(WeldTest):
     def setUp(self):
         super().setUp()
@@ -214,25 +231,9 @@ class Shared(WeldTest):
         self.assertIn("other meshes are welded by one, in memory",
                       self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
 
-    @unittest.skipIf(NO_MPI, NO_MPI)
-    def test_ranks_of_mpi_give_what_one_gives(self):
+    def check_ranks(self, cases):
         sizes = [(2, 7), (1, 4)]
-        for options, out in ((["-t", "0.02", "--removed", "gone.ply"], "out.ply"),
-                             (["-t", "0.03", "--rule", "chain"], "out.csv"),
-                             (["-t", "0.02", "--rule", "chain", "--same", "shade"], "out.pcd"),
-                             (["-t", "0.02", "--order", "shade", "--map", "map.csv"], "out.ply"),
-                             (["-t", "0.03", "--order", "max:x", "--rule", "chain",
-                               "--label", "group"], "out.ply"),
-                             (["-t", "0.02", "--precision", "float"], "out.ply"),
-                             (["-t", "0.02", "--keep", "mean", "--removed", "gone.las"], "out.xyz"),
-                             (["-t", "0.02", "--keep", "max:shade", "--removed", "gone.ply",
-                               "--map", "map.csv"], "out.ply"),
-                             (["-t", "0.03", "--rule", "chain", "--label", "group"], "out.ply"),
-                             (["-t", "0.02", "--order", "y", "--map", "map.bin"], "out.laz"),
-                             (["-t", "0.02", "--keep", "last"], "out.laz"),
-                             (["-t", "0.02"], "out.laz"), (["-t", "0.02"], "out.las"),
-                             (["-t", "0.02", "--removed", "gone.las"], "out.las"),
-                             (["-t", "0.02", "--withhold"], "out.las")):
+        for options, out in cases:
             given = "in.ply"
             if out.startswith("out.la"):
                 given = "in.las"
@@ -254,22 +255,42 @@ class Shared(WeldTest):
                     self.assertEqual(self.listing(), sorted({"in.ply", given}))
 
     @unittest.skipIf(NO_MPI, NO_MPI)
-    def test_text_is_shared_out_and_gives_what_one_gives(self):
+    def test_ranks_of_mpi_give_what_one_gives(self):
+        self.check_ranks(ASKED)
+
+    @slow
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_ranks_of_mpi_give_what_one_gives_whatever_is_asked_for(self):
+        self.check_ranks(ASKED_TOO)
+
+    def share_texts(self, names, sizes):
+        """Of all kinds of text, those of such names."""
         points = [(*p, self.rng.randrange(4) / 4) for p in cloud(self.rng, 2500) if p[0] == p[0]]
         for name, text in texts(points).items():
             self.write(name, text)
+            if name not in names:
+                continue
             gives = [name, "-t", "0.02", "-o", "out.csv", "--removed", "gone.ply", "--map", "map.csv"]
-            names = ("out.csv", "gone.ply", "map.csv")
+            outputs = ("out.csv", "gone.ply", "map.csv")
             report = self.entry(*gives, status=0)
             self.assertEqual(report["sha256"], hashlib.sha256(text.encode()).hexdigest())
-            expected = self.written(names)
-            for size in (2, 4, 7):
+            expected = self.written(outputs)
+            for size in sizes:
                 with self.subTest(name=name, size=size):
                     run = self.mpi(size, *gives, "--tile-points", 300, "-r", "-")
-                    self.assertEqual(self.written(names), expected)
+                    self.assertEqual(self.written(outputs), expected)
                     entry = json.loads(run.text)["files"][0]
                     for key in ("sha256", "format", "points", "box", "precision_in", "output"):
                         self.assertEqual(entry[key], report[key])
+
+    @slow
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_any_text_is_shared_out_and_gives_what_one_gives(self):
+        self.share_texts(texts([]), (2, 4, 7))
+
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_text_is_shared_out_and_gives_what_one_gives(self):
+        self.share_texts(("in.csv", "in.pcd"), (4,))
         self.mpi(3, "in.xyz", "in.csv", "in.pts", "--join", "-o", "out.ply", "-r", "report.json")
         several = json.loads(self.read_bytes("report.json"))["files"][0]["sources"]
         self.run_tool("in.xyz", "in.csv", "in.pts", "--join", "-o", "one.ply", "-r", "one.json",
@@ -280,9 +301,17 @@ class Shared(WeldTest):
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_of_text_that_is_shared_out_the_first_fault_is_said(self):
+        self.check_faults(["in.csv"])
+
+    @slow
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_of_any_text_that_is_shared_out_the_first_fault_is_said(self):
+        self.check_faults(["in.xyz", "in.pts", "in.ply", "in.pcd"])
+
+    def check_faults(self, names):
         points = [(*p, 0.5) for p in cloud(self.rng, 1500) if p[0] == p[0]]
-        for name, text in texts(points).items():
-            lines = text.splitlines()
+        for name in names:
+            lines = texts(points)[name].splitlines()
             for faults in ((len(lines) // 2,), (len(lines) - 300, len(lines) - 40)):
                 cut = [line[:3] if n in faults else line for n, line in enumerate(lines)]
                 self.write(name, "\n".join(cut) + "\n")
@@ -295,6 +324,15 @@ class Shared(WeldTest):
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_no_rank_knows_much_more_of_a_file_than_its_share(self):
+        self.check_shares(["in.csv", "listed.ply", "mesh.ply"])
+
+    @slow
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_of_no_kind_of_file_a_rank_knows_much_more_than_its_share(self):
+        self.check_shares(["in.xyz", "in.pts", "in.pcd", "in.ply", "binary.ply", "binary_mesh.ply",
+                           "listed_mesh.ply"])
+
+    def check_shares(self, chosen):
         points = [(100.0 + 0.5 * (i % 97), 100.0 + 0.25 * (i // 97), 100.0, 0.5) for i in range(9000)]
         corners = [(3, i, i + 1, i + 97) for i in range(8800)]
         rows = [b"%.4f %.4f %.4f %.4f\n" % p for p in points]
@@ -320,6 +358,8 @@ class Shared(WeldTest):
                  [struct.pack("<B3i", *face) for face in corners]),
                 ("listed_mesh.ply", head("binary_little_endian", views + of_faces), listed,
                  [struct.pack("<B3i", *face) for face in corners])):
+            if name not in chosen:
+                continue
             whole = parts[0] + b"".join(row for part in parts[1:] for row in part)
             self.write(name, whole)
             gives = ["-t", "0.3", "-o", "out.ply", "--removed", "gone.ply"]
@@ -335,15 +375,23 @@ class Shared(WeldTest):
                 self.assertEqual(json.loads(run.text)["files"][0]["sha256"],
                                  hashlib.sha256(whole).hexdigest())
 
+    def check_killed(self, size, *more, between=1):
+        gives = ["-t", "0.02", "-o", "out.ply", "--removed", "gone.ply", *more]
+        work = ["in.ply", *gives, "--tile-points", 400, "--work", "tiles"]
+        self.check_kills(size, work, self.one(*gives), between)
+        self.assertEqual(self.listing(), ["in.ply"])
+
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
+        self.check_killed(3, "--keep", "mean", between=4)
+
+    @slow
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_a_rank_that_is_killed_at_any_step_ends_the_run_and_any_number_goes_on(self):
+        self.check_killed(2)
+        self.check_killed(4, "--order", "max:shade", "--map", "map.csv")
+        self.check_killed(3, "--keep", "mean")
         gives = ["-t", "0.02", "-o", "out.ply", "--removed", "gone.ply"]
-        for size, more in ((2, []), (4, ["--order", "max:shade", "--map", "map.csv"]),
-                           (3, ["--keep", "mean"])):
-            expected = self.one(*gives, *more)
-            work = ["in.ply", *gives, *more, "--tile-points", 400, "--work", "tiles"]
-            self.check_kills(size, work, expected)
-        self.assertEqual(self.listing(), ["in.ply"])
         points = [(*p, 0.5) for p in cloud(self.rng, 1500) if p[0] == p[0]]
         self.write("in.csv", texts(points)["in.csv"])
         work = ["in.csv", *gives, "--tile-points", 400, "--work", "tiles"]
