@@ -46,12 +46,26 @@ class signals_held {
 };
 
 const team_calls* join() {
+#if TREEFORM_STATIC_TOOLS
+    return nullptr;
+#else
     const signals_held held;
     // Stays loaded: MPI has threads of its own.
     void* const library = ::dlopen(plug_in, RTLD_NOW | RTLD_GLOBAL);
     void* const found = library == nullptr ? nullptr : ::dlsym(library, "treeform_team");
     if (found == nullptr) return nullptr;
     return reinterpret_cast<const team_calls* (*)()>(found)();
+#endif
+}
+
+/// Why `join` gave nothing.
+const char* why_not_joined() {
+#if TREEFORM_STATIC_TOOLS
+    return "this is a static build";
+#else
+    const char* const why = ::dlerror();
+    return why == nullptr ? "MPI cannot be started" : why;
+#endif
 }
 
 /// Returns what standard error was.
@@ -81,9 +95,8 @@ int run_in_team(const std::function<int(team_member&)>& tool) {
     if (!is_started_by_mpi()) return tool(me);
     const team_calls* const calls = join();
     if (calls == nullptr) {
-        const char* const why = ::dlerror();
         std::fprintf(stderr, "error: started by mpirun, but without %s: %s\n", plug_in,
-                     why == nullptr ? "MPI cannot be started" : why);
+                     why_not_joined());
         return stopped;
     }
     const bool leads = calls->rank == 0;
