@@ -58,10 +58,11 @@ std::string version_text(const std::string& tool) {
     text += "\nbuilt with g++ " __VERSION__;
 #endif
 #ifdef NDEBUG
-    return text + ", release";
+    text += ", release";
 #else
-    return text + ", assertions on";
+    text += ", assertions on";
 #endif
+    return text + (TREEFORM_STATIC_TOOLS ? "\nstatic build: plain threads, no assimp, no MPI" : "");
 }
 
 void configure(console& out, const common_options& options, const command_line& line) {

@@ -47,12 +47,26 @@ class signals_held {
 };
 
 const team_calls* join() {
+#if TREEFORM_STATIC_TOOLS
+    return nullptr;
+#else
     const signals_held held;
     // Stays loaded: MPI has threads of its own.
     void* const library = ::dlopen(plug_in, RTLD_NOW | RTLD_GLOBAL);
     void* const found = library == nullptr ? nullptr : ::dlsym(library, "treeform_team");
     if (found == nullptr) return nullptr;
     return reinterpret_cast<const team_calls* (*)()>(found)();
+#endif
+}
+
+/// Why `join` gave nothing.
+const char* why_not_joined() {
+#if TREEFORM_STATIC_TOOLS
+    return "this is a static build";
+#else
+    const char* const why = ::dlerror();
+    return why == nullptr ? "MPI cannot be started" : why;
+#endif
 }
 
 /// Says why there is no team, and what to do about it.
@@ -93,8 +107,7 @@ int run_in_team(const std::function<int(team_member&)>& tool) {
     if (!is_started_by_mpi()) return tool(me);
     const team_calls* const calls = join();
     if (calls == nullptr) {
-        const char* const why = ::dlerror();
-        say_why_alone(why == nullptr ? "MPI cannot be started" : why);
+        say_why_alone(why_not_joined());
         return stopped;
     }
     const bool leads = calls->rank == 0;
