@@ -363,10 +363,10 @@ class Large(WeldTest):
             ("0.002", []), ("0.008", []), ("0.008", ["--tile-points", "500000"]))],
             ["1M", "20M", "33M"])
 
-    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
-    def test_of_chains_of_equal_points_too_what_is_said_is_enough(self):
+    def check_equal_points(self, share):
+        """Of 400,000 points, one of `share` is equal to others."""
         rng = random.Random(8)
-        kinds = [(0.5, 0.5, 0.5, i % 7) if i % 2 else (*(rng.random() for _ in range(3)), i % 7)
+        kinds = [(*(rng.random() for _ in range(3)), i % 7) if i % share else (0.5, 0.5, 0.5, i % 7)
                  for i in range(400000)]
         head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(kinds)}\nproperty double x\n"
                 "property double y\nproperty double z\nproperty uchar kind\nend_header\n")
@@ -377,6 +377,15 @@ class Large(WeldTest):
             for memory in ("20M", "33M"):
                 run = self.run_tool(*command, "-o", "out.ply", "--memory", memory, status=5)
                 self.check_enough(run, *command)
+
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_of_chains_of_equal_points_too_what_is_said_is_enough(self):
+        self.check_equal_points(40)
+
+    @slow
+    @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
+    def test_of_long_chains_of_equal_points_too_what_is_said_is_enough(self):
+        self.check_equal_points(2)
 
     def check_enough(self, refused, *command):
         """The memory that is said is enough the first time."""

@@ -152,20 +152,30 @@ class Packed(WeldTest):
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_ranks_of_mpi_give_what_one_gives(self):
+        self.check_ranks((3,), ((["few.pcd", "in.pcd", "few.pcd", "--join"], ["-t", "0.01", "--same", "t"]),
+                                (["few.pcd"], ["-t", "2"])))
+
+    @slow
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_ranks_of_mpi_give_what_one_gives_whatever_is_asked_for(self):
+        self.check_ranks((1, 2, 4, 7), (
+            (["in.pcd"], ["-t", "0.01"]),
+            (["in.pcd"], ["-t", "0.01", "--keep", "mean"]),
+            (["in.pcd"], ["-t", "0.01", "--order", "max:t"]),
+            (["in.pcd"], ["-t", "0.01", "--rule", "chain"]),
+            (["in.pcd"], ["-t", "0.01", "--precision", "float"]),
+            (["few.pcd", "in.pcd", "few.pcd", "--join"], ["-t", "0.01", "--same", "t"]),
+            (["few.pcd"], ["-t", "2"])))
+
+    def check_ranks(self, sizes, cases):
         self.write("in.pcd", pcd(self.points(60000)))
         self.write("few.pcd", pcd(self.points(3)))
         outputs = ["-o", "out.pcd", "--removed", "gone.pcd"]
-        for given, options in ((["in.pcd"], ["-t", "0.01"]),
-                               (["in.pcd"], ["-t", "0.01", "--keep", "mean"]),
-                               (["in.pcd"], ["-t", "0.01", "--order", "max:t"]),
-                               (["in.pcd"], ["-t", "0.01", "--rule", "chain"]),
-                               (["in.pcd"], ["-t", "0.01", "--precision", "float"]),
-                               (["few.pcd", "in.pcd", "few.pcd", "--join"], ["-t", "0.01", "--same", "t"]),
-                               (["few.pcd"], ["-t", "2"])):
+        for given, options in cases:
             self.run_tool(*given, *options, *outputs, status=0)
             expected = self.written()
             self.assertTrue(all(b"DATA binary_compressed\n" in one for one in expected.values()))
-            for size in (1, 2, 4, 7):
+            for size in sizes:
                 with self.subTest(given=given, options=options, size=size):
                     self.mpi(size, *given, *options, *outputs, "--tile-points", 9000)
                     self.assertEqual(self.written(), expected)
@@ -219,13 +229,21 @@ class Packed(WeldTest):
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
+        self.check_killed(6, [])
+
+    @slow
+    @unittest.skipIf(NO_MPI, NO_MPI)
+    def test_a_rank_that_is_killed_at_any_step_ends_the_run_and_any_number_goes_on(self):
+        self.check_killed(2, [], ["--keep", "mean"], ["--order", "max:t"])
+
+    def check_killed(self, between, *asked):
         self.write("in.pcd", pcd(self.points(20000)))
         gives = ["-t", "0.01", "-o", "out.pcd", "--removed", "gone.pcd"]
-        for more in ([], ["--keep", "mean"], ["--order", "max:t"]):
+        for more in asked:
             self.run_tool("in.pcd", *gives, *more, status=0)
             expected = self.written()
             work = ["in.pcd", *gives, *more, "--tile-points", 4000, "--work", "tiles"]
-            self.check_kills(3, work, expected, between=2)
+            self.check_kills(3, work, expected, between)
         self.assertEqual(self.listing(), ["in.pcd"])
 
     def test_processes_that_share_a_folder_unpack_it_where_they_read_it(self):

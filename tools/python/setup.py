@@ -32,7 +32,7 @@ OF_SYSTEM = re.compile(r"(linux-vdso|ld-linux.*|lib(c|m|dl|rt|pthread|util|stdc\
 # What a compiler of a room of the library takes, at most.
 BYTES_A_JOB = 3 << 30
 # On one core, of a machine of 2023.
-MINUTES_OF_ALL, MINUTES_OF_EXTENSION = 8, 1
+MINUTES_OF_ALL, MINUTES_OF_EXTENSION = 6, 1
 
 
 def version():
