@@ -10,9 +10,11 @@ source tools/packages/needs.sh
 tools/install_packages.sh "${to_build[@]}" "${for_debs[@]}"
 source tools/packages/flags.sh
 
-# No path to libraries is in what is installed where Debian has them, but for the plug-in.
+# Where libraries are in the folder of the build is said relative to the programs, so that no trace of
+# that folder is left. No path to libraries is in what is installed where Debian has them, but for the plug-in.
 cmake -S . -B "$build" -G Ninja "${flags[@]}" -DBUILD_SHARED_LIBS=ON -DCMAKE_INSTALL_PREFIX=/usr \
     "-DCMAKE_INSTALL_LIBDIR=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)" -DCMAKE_INSTALL_RPATH= \
+    -DCMAKE_BUILD_RPATH_USE_ORIGIN=ON \
     -DTREEFORM_BUILD_PYTHON=ON -DTREEFORM_PYTHON=/usr/bin/python3 -DTREEFORM_BUILD_TESTS=OFF \
     -DTREEFORM_PACKAGES=ON >/dev/null
 cmake --build "$build" -j "$jobs"
