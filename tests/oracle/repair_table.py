@@ -115,6 +115,8 @@ def main():
     parser.add_argument("--compare", type=pathlib.Path)
     parser.add_argument("--only", default="")
     options = parser.parse_args()
+    if "TREEFORM_MODELS_DIR" in os.environ:  # set but empty: none
+        options.models = pathlib.Path(os.environ["TREEFORM_MODELS_DIR"] or "no models")
     if not options.models.is_dir():
         print("skipped: no real models")
         return 77
