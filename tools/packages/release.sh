@@ -38,11 +38,13 @@ source tools/packages/needs.sh
 tools/install_packages.sh "${to_build[@]}" "${for_debs[@]}" "${for_wheels[@]}"
 tools/packages/deb.sh "$out"
 tools/packages/tarball.sh "$out"
-# Compiled as the rest is, which a compiler cache then has, as the sources are unpacked somewhere in /tmp.
+# Compiled as the rest is. With both asked for by name, the wheel is made of this tree, too, not of the
+# sources that were packed, so that a compiler cache has what it needs.
 source tools/packages/flags.sh
 CMAKE_ARGS=$(printf '%q ' "${flags[@]}")
-export CMAKE_ARGS CCACHE_BASEDIR=${TMPDIR:-/tmp}
-(cd tools/python && /usr/bin/python3 -m build --no-isolation --outdir "$out" . >"$work/wheel.log" 2>&1) ||
+export CMAKE_ARGS
+(cd tools/python && /usr/bin/python3 -m build --sdist --wheel --no-isolation --outdir "$out" . \
+    >"$work/wheel.log" 2>&1) ||
     { cat "$work/wheel.log"; exit 1; }
 
 cd "$out"

@@ -29,6 +29,7 @@ LICENSES = {
     "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "glibc": "LGPL-2.1-or-later",
     "highway": "Apache-2.0",
+    "linux": "GPL-2.0-only WITH Linux-syscall-note",
     "minizip": "Zlib",
     "nlohmann-json3": "MIT",
     "numpy": "BSD-3-Clause",
