@@ -12,7 +12,8 @@ source tests/house/check_preset.sh
 tools/install_packages.sh "${packages[@]}" || exit 1
 
 # All of it, whatever tools/quickstart.sh has left out.
-build release -DTREEFORM_BUILD_TESTS=ON -DTREEFORM_BUILD_C=ON -DTREEFORM_BUILD_ORACLE_TESTS=ON &&
+build release -DTREEFORM_BUILD_TESTS=ON -DTREEFORM_BUILD_C=ON -DTREEFORM_BUILD_ORACLE_TESTS=ON \
+    -U TREEFORM_BUILD_PYTHON &&
     test_build build/release -LE slow
 python3 -B tests/house/steps.py slowest build/release
 names=$(python3 -B tests/house/count_tests.py --skipped build/release/results.xml)

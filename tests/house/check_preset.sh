@@ -5,6 +5,12 @@
 export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 export TREEFORM_MODELS_DIR=${TREEFORM_MODELS_DIR-} TREEFORM_CLOUDS_DIR=${TREEFORM_CLOUDS_DIR-}
 jobs=$(nproc)
+# Tests write many small files: in memory that takes a tenth of the time, where there is enough.
+if [[ -z ${TMPDIR-} && -w /dev/shm ]] && (($(df --output=avail -k /dev/shm | tail -n 1) > 6000000)); then
+    TMPDIR=$(mktemp -d /dev/shm/treeform-tests-XXXXXX)
+    export TMPDIR
+    trap 'rm -rf "$TMPDIR"' EXIT
+fi
 passed=0
 failed=0
 skipped=0
@@ -65,7 +71,7 @@ test_build() {
     shift
     rm -f "$results"
     step "${test_step:-${folder#build/}: test}" "$folder" \
-        ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error \
+        ctest --test-dir "$folder" -j "$((2 * jobs))" --output-on-failure --no-tests=error \
         --output-junit "$PWD/$results" --test-output-size-passed 1000000 "$@"
     count "$folder"
 }
