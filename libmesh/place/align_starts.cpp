@@ -63,7 +63,7 @@ inertia inertia_of(std::span<const Vector3d> points, std::span<const face> faces
         faces.size(),
         [&](std::size_t f) { return Vector3d((corner(f, 0) + corner(f, 1) + corner(f, 2)) / 3.0); },
         [&](std::size_t f) {
-            return cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0)).norm();
+            return cross_product(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0)).norm();
         });
 }
 

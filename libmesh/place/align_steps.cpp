@@ -114,7 +114,7 @@ similarity plane_step(const std::vector<partner>& partners, bool scale) {
     const system7 sums = sum_over(partners, system7(system7::Zero()), [&](const partner& p) {
         const Vector3d arm = p.from - center;
         vector<7> row;
-        row << cross(arm, p.normal), p.normal, scale ? arm.dot(p.normal) : 0.0;
+        row << cross_product(arm, p.normal), p.normal, scale ? arm.dot(p.normal) : 0.0;
         system7 one;
         one.leftCols<7>() = p.weight * row * row.transpose();
         one.col(7) = p.weight * row * (p.to - p.from).dot(p.normal);

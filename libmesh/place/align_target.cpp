@@ -80,7 +80,7 @@ void align_target::find_normals() {
 Vector3d align_target::normal_of_face(std::uint32_t f) const {
     const Vector3d a = vector_of(points_[faces_[f][0]]);
     const Vector3d n =
-        cross(vector_of(points_[faces_[f][1]]) - a, vector_of(points_[faces_[f][2]]) - a);
+        cross_product(vector_of(points_[faces_[f][1]]) - a, vector_of(points_[faces_[f][2]]) - a);
     const double length = n.norm();
     return length > 0.0 ? Vector3d(n / length) : Vector3d(Vector3d::Zero());
 }

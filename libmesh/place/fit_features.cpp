@@ -45,7 +45,7 @@ struct local_faces {
             for (std::size_t k = 0; k < 3; ++k)
                 face.corner[k] = (eigen(mesh.points[mesh.faces[f][k]]) - origin) / unit;
             const vector3 normal =
-                cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
+                cross_product(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
             face.area = 0.5 * normal.norm();
             if (!(face.area > 0.0)) continue;
             face.normal = normal / (2.0 * face.area);
@@ -128,7 +128,7 @@ std::optional<cylinder> first_guess(const local_faces& local) {
 void refine(const local_faces& local, cylinder& c) {
     using row5 = vector<5>;
     for (int step = 0; step < 30; ++step) {
-        const vector3 e1 = any_orthogonal(c.direction), e2 = cross(c.direction, e1);
+        const vector3 e1 = any_orthogonal(c.direction), e2 = cross_product(c.direction, e1);
         square<5> left = square<5>::Zero();
         row5 right = row5::Zero();
         for (const auto& f : local.faces)
@@ -168,7 +168,7 @@ double distance_from(const mesh_feature& feature, const point3& p) {
 }
 
 circle_arc arc_of(mesh_view mesh, const mesh_feature& axis) {
-    const vector3 d = eigen(axis.direction), e1 = any_orthogonal(d), e2 = cross(d, e1);
+    const vector3 d = eigen(axis.direction), e1 = any_orthogonal(d), e2 = cross_product(d, e1);
     std::vector<double> angles;
     for (const std::uint32_t f : axis.faces)
         for (const std::uint32_t i : mesh.faces[f]) {

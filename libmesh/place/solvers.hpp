@@ -46,7 +46,7 @@ struct singular_system {
 [[nodiscard]] Eigen::VectorXd least_squares(const Eigen::Matrix<double, 7, Eigen::Dynamic>& columns,
                                             const vector<7>& right);
 
-[[nodiscard]] inline Vector3d cross(const Vector3d& a, const Vector3d& b) {
+[[nodiscard]] inline Vector3d cross_product(const Vector3d& a, const Vector3d& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 [[nodiscard]] Vector3d any_orthogonal(const Vector3d& v);  ///< of length 1

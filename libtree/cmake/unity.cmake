@@ -2,7 +2,7 @@
 # in units of at most this many bytes. Units of their own stay those that Highway compiles once for
 # each instruction set, since they include themselves, and those that say so
 # (SKIP_UNITY_BUILD_INCLUSION).
-set(TREEFORM_UNIT_BYTES 130000)
+set(TREEFORM_UNIT_BYTES 200000)
 
 function(treeform_group_by_room target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)

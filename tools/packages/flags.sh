@@ -10,8 +10,8 @@ flags=(-DCMAKE_BUILD_TYPE=Release
     "-DCMAKE_CXX_FLAGS=$compile_flags"
     "-DCMAKE_EXE_LINKER_FLAGS=$link_flags"
     "-DCMAKE_SHARED_LINKER_FLAGS=$link_flags"
-    "-DCMAKE_MODULE_LINKER_FLAGS=$link_flags"
-    -DCMAKE_UNITY_BUILD=ON)
+    "-DCMAKE_MODULE_LINKER_FLAGS=$link_flags")
+
 jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
