@@ -3,7 +3,8 @@
 
 steps.py run STEP FOLDER COMMAND...   runs the command, which builds or tests in FOLDER, and notes
                                       what it took in build/steps.jsonl
-steps.py slowest FOLDER               the slowest 20 objects and tests of a build folder
+steps.py slowest FOLDER               what a build folder took by kind, and its slowest 20 objects and
+                                      tests
 steps.py report [--write]             the steps as a table, and which of them have grown by a fifth
                                       over the table in CONTRIBUTING.md, which --write replaces
 steps.py yardstick                    CPU seconds of compiling one file
@@ -80,8 +81,29 @@ def run(step, folder, command):
     return status
 
 
+KINDS = [("libtree/", "libtree"), ("libmesh/", "libmesh"), ("tools/python/", "Python"),
+         ("tools/c/", "C"), ("tools/", "tools"), ("tests/unit/", "unit tests"),
+         ("tests/oracle/", "oracle tests"), ("tests/stress/", "stress tests"), ("", "other tests")]
+
+
+def kind_of(output):
+    where = next(kind for prefix, kind in KINDS if output.startswith(prefix))
+    if compiled(output):
+        return f"{where}, compiled"
+    if output.endswith((".a", ".so")) or ".so." in output or "." not in output.rsplit("/", 1)[-1]:
+        return "linked"
+    return "generated"
+
+
 def slowest(folder):
     folder = pathlib.Path(folder)
+    kinds = {}
+    for seconds, output, _ in edges(folder).values():
+        count, sum_of = kinds.get(kind_of(output), (0, 0))
+        kinds[kind_of(output)] = count + 1, sum_of + seconds
+    print(f"\nwhat was made in {folder}, and the seconds that it took, of which several run at a time")
+    for kind, (count, seconds) in sorted(kinds.items(), key=lambda one: -one[1][1]):
+        print(f"{seconds:8.1f}  {count:4}  {kind}")
     for what, rows in ("objects", [made[:2] for made in edges(folder).values()
                                    if compiled(made[1])]), ("tests", tests_in(folder)):
         print(f"\nthe slowest {what} of {folder}, in seconds")
