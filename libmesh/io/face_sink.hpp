@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <string>
+#include <vector>
 
 namespace treeform::detail::io {
 
@@ -29,24 +31,33 @@ class face_sink {
         finish();
     }
 
-    /// Ends the face and returns its number of corners; with fewer than three it is no face, and
-    /// the caller must refuse it.
-    std::size_t finish() {
-        if (corners_ < 3) return corners_;
+    /// Ends the face. With fewer than three corners it has no triangle, but keeps its number.
+    void finish() {
         auto& stored = file_.stored_face;
-        if (corners_ > 3 && stored.empty()) {
+        if (corners_ != 3 && !differ_) {
             stored.resize(file_.stored_faces);
             std::iota(stored.begin(), stored.end(), std::uint32_t{0});
+            differ_ = true;
         }
-        if (corners_ > 3 || !stored.empty())
+        if (corners_ < 3)
+            ++short_faces_;
+        else if (differ_)
             stored.insert(stored.end(), corners_ - 2,
                           static_cast<std::uint32_t>(file_.stored_faces));
         ++file_.stored_faces;
-        return corners_;
+    }
+
+    void remark(std::vector<io_warning>& warnings) const {
+        if (short_faces_ > 0)
+            warnings.push_back({"short-faces", std::to_string(short_faces_) +
+                                                   (short_faces_ == 1 ? " face" : " faces") +
+                                                   " of fewer than three corners left out"});
     }
 
   private:
     mesh_file& file_;
+    bool differ_ = false;  ///< a stored face is not one triangle
+    std::size_t short_faces_ = 0;
     std::size_t corners_ = 0;
     std::uint32_t first_ = 0;
     std::uint32_t previous_ = 0;

@@ -213,6 +213,24 @@ class las_opener {
             in_.fail_byte(at(file_.first_point),
                           "the file ends in the points: " + std::to_string(file_.count) +
                               " promised, " + std::to_string(there / file_.record_size) + " there");
+        const std::uint64_t room = (end_of_points() - file_.first_point) / file_.record_size;
+        if (!file_.packing && file_.count < room)
+            warnings_.push_back({"count", "the header counts " + std::to_string(file_.count) +
+                                              " points, and there is room for " +
+                                              std::to_string(room) +
+                                              ": what is behind was not read"});
+    }
+
+    /// Where what the header names begins behind the points, else the end of the file.
+    [[nodiscard]] std::uint64_t end_of_points() const {
+        const int minor = get<std::uint8_t>(at(25));
+        std::uint64_t end = in_.size();
+        const auto ends_at = [&](std::uint64_t place) {
+            if (place >= file_.first_point) end = std::min(end, place);
+        };
+        if (minor >= 3) ends_at(get<std::uint64_t>(at(227)));  // waveforms
+        if (minor >= 4 && get<std::uint32_t>(at(243)) > 0) ends_at(get<std::uint64_t>(at(235)));
+        return end;
     }
 
     const source& in_;

@@ -80,6 +80,19 @@ void obj_corners::normal(text& t) {
     values_.normals.push_back({row[0], row[1], row[2]});
 }
 
+corner_values obj_corners::take(std::vector<io_warning>& warnings) {
+    if (lacks_textures()) {
+        values_.texture_of_corner.clear();
+        warnings.push_back({"no-texture-coordinates",
+                            "corners name texture coordinates, of which the file has none"});
+    }
+    if (lacks_normals()) {
+        values_.normal_of_corner.clear();
+        warnings.push_back({"no-normals", "corners name normals, of which the file has none"});
+    }
+    return std::move(values_);
+}
+
 void obj_corners::add_numbers(text& t, std::size_t corner, std::size_t triangles) {
     const std::uint32_t texture = number_behind_slash(t, textures_, values_.texture.size());
     const std::uint32_t normal = number_behind_slash(t, normals_, values_.normals.size());

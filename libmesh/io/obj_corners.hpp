@@ -107,14 +107,22 @@ class obj_corners {
             add_numbers(t, corner, triangles);
     }
 
+    /// What is named but of which the file has none at all counts as left out.
     [[nodiscard]] bool in_range() const {
-        return textures_.needed() <= values_.texture.size() &&
-               normals_.needed() <= values_.normals.size();
+        return (lacks_textures() || textures_.needed() <= values_.texture.size()) &&
+               (lacks_normals() || normals_.needed() <= values_.normals.size());
     }
     [[nodiscard]] const corner_values& values() const { return values_; }
-    [[nodiscard]] corner_values take() { return std::move(values_); }
+    /// Says what is named and not there.
+    [[nodiscard]] corner_values take(std::vector<io_warning>& warnings);
 
   private:
+    [[nodiscard]] bool lacks_textures() const {
+        return values_.texture.empty() && textures_.needed() > 0;
+    }
+    [[nodiscard]] bool lacks_normals() const {
+        return values_.normals.empty() && normals_.needed() > 0;
+    }
     void add_numbers(text& t, std::size_t corner, std::size_t triangles);
 
     obj_numbers textures_;

@@ -89,8 +89,9 @@ class obj_reader {
             file_.warnings.push_back(
                 {"skipped-elements",
                  std::to_string(skipped_elements_) + " point and line elements were not read"});
+        faces_.remark(file_.warnings);
         text_.remark(file_.warnings);
-        file_.attributes.corners = corners_.take();
+        file_.attributes.corners = corners_.take(file_.warnings);
         file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);
     }
@@ -152,8 +153,7 @@ class obj_reader {
         ++text_.at;
         faces_.begin();
         for (std::size_t i = 0; !statement_done(text_); ++i) corner(i);
-        const std::size_t corners = faces_.finish();
-        if (corners < 3) text_.fail("face with " + std::to_string(corners) + " corners");
+        faces_.finish();
         if (new_part_) start_part();
     }
 
@@ -243,7 +243,12 @@ mesh_file read_obj(const source& in) {
     obj_reader reader(in);
     reader.reserve(count_lines(in));
     reader.read();
-    if (!reader.in_range()) obj_reader(in, reader.counts()).read();
+    if (!reader.in_range()) {
+        obj_row_counts limits = reader.counts();
+        if (limits.textures == 0) limits.textures = obj_row_counts::any;
+        if (limits.normals == 0) limits.normals = obj_row_counts::any;
+        obj_reader(in, limits).read();
+    }
     return reader.take();
 }
 

@@ -65,6 +65,7 @@ class off_reader {
             store_list();
         if (!text_.text_done())
             file_.warnings.push_back({"trailing-bytes", "there is more after the last face"});
+        faces_.remark(file_.warnings);
         text_.remark(file_.warnings);
         if (file_.mesh.faces.size() > std::numeric_limits<std::uint32_t>::max())
             text_.file.fail("more triangles than 32-bit numbers can name");
@@ -86,6 +87,10 @@ class off_reader {
         kind_.normal = take(word, "N");
         kind_.weight = take(word, "4");
         kind_.dimension = take(word, "n");
+        if (word.size() > 3 && word.starts_with("OFF") && is_digit(word[3])) {
+            text_.at = word.data() + 3;  // no blank ahead of the counts
+            return;
+        }
         if (word != "OFF") text_.fail(quoted(start, text_.end) + " where 'OFF' should stand");
         if (text_.text_done()) text_.fail("no counts: cut off?");
         if (text_.starts_with("BINARY")) text_.fail("binary OFF is not read");
@@ -101,14 +106,14 @@ class off_reader {
     }
 
     /// The counts must be such as the bytes behind them can hold: a digit and a separator for each
-    /// number; four numbers for the smallest face.
+    /// number; one number for the smallest face, of no corners.
     void read_counts() {
         vertices_ = read_count("the number of vertices");
         face_count_ = read_count("the number of faces");
         if (!text_.line_done()) (void)text_.integer("the number of edges");
         const auto left = static_cast<std::size_t>(text_.end - text_.at);
         const std::size_t numbers = 3U + (kind_.weight ? 1U : 0U) + (kind_.normal ? 3U : 0U);
-        if (vertices_ > (left + 1) / (2 * numbers) || face_count_ > (left + 1) / 8)
+        if (vertices_ > (left + 1) / (2 * numbers) || face_count_ > (left + 1) / 2)
             text_.fail("counts larger than the file can hold");
         if (vertices_ > std::numeric_limits<std::uint32_t>::max())
             text_.fail("more vertices than 32-bit numbers can name");
@@ -151,7 +156,7 @@ class off_reader {
     void read_face() {
         if (text_.text_done()) text_.fail("the file ends in the faces");
         const std::int64_t corners = text_.integer("the number of corners");
-        if (corners < 3) text_.fail("face with " + std::to_string(corners) + " corners");
+        if (corners < 0) text_.fail("face with " + std::to_string(corners) + " corners");
         faces_.begin();
         for (std::int64_t i = 0; i < corners; ++i) {
             if (text_.text_done()) text_.fail("the file ends in a face");

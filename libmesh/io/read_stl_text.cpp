@@ -100,6 +100,14 @@ class stl_text_reader {
         }
     }
 
+    /// "endsolid", which some programs write as two words.
+    [[nodiscard]] bool accept_end() {
+        if (accept("endsolid")) return true;
+        if (!accept("end")) return false;
+        expect("solid");
+        return true;
+    }
+
     void expect(std::string_view keyword) {
         if (accept(keyword)) return;
         if (text_.done())
@@ -113,7 +121,7 @@ class stl_text_reader {
         file_.attributes.parts.push_back(
             {.object = name(), .first_face = static_cast<std::uint32_t>(file_.mesh.faces.size())});
         facets_by_pieces();
-        while (!accept("endsolid")) {
+        while (!accept_end()) {
             facet();
             text_.file.release_before(text_.at);
         }

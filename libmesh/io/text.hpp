@@ -113,8 +113,12 @@ struct text {
         const std::string subject(what);
         if (at == end) fail("the file ends where " + subject + " should stand");
         if (is_newline(*at)) fail("the line ends where " + subject + " should stand");
+        // "1,5" has a decimal mark, "1.5, 2" and "1, 2" a separator.
         if (stop != nullptr && *stop == ',')
-            fail(quoted(at, end) + " for " + subject + ": the decimal mark is the point");
+            fail(quoted(at, end) + " for " + subject +
+                 (stop + 1 < end && is_digit(stop[1])
+                      ? ": the decimal mark is the point"
+                      : ": numbers are separated by blanks, not by commas"));
         fail(quoted(at, end) + " where " + subject + " should stand");
     }
 };

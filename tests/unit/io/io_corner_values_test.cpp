@@ -105,8 +105,6 @@ TEST_CASE("obj: what corners name but is not there is an error of its line") {
           "a.obj:11: texture index '9' is out of range");
     CHECK(obj_complaint(square + rows + "f 1//1 2//2 3//3\n") ==
           "a.obj:11: normal index '3' is out of range");
-    CHECK(obj_complaint(square + "f 1/1 2/1 3/1\n") ==
-          "a.obj:5: texture index '1' is out of range");
     CHECK(obj_complaint(square + rows + "f 1/-5 2/1 3/1\n") ==
           "a.obj:11: texture index '-5' is out of range");
     CHECK(obj_complaint(square + rows + "f 1/0 2/1 3/1\n") ==
@@ -128,6 +126,21 @@ TEST_CASE("obj: what corners name but is not there is an error of its line") {
           "a.obj:5: '0,5' for a texture coordinate: the decimal mark is the point");
     CHECK(obj_complaint(square + "f 1/99999999999999999999 2 3\n") ==
           "a.obj:5: texture index '99999999999999999999' is out of range");
+}
+
+TEST_CASE(
+    "obj: texture coordinates and normals that are named, and of which there are none, are left "
+    "out") {
+    const tf::mesh_file file = read_obj(square + "f 1/1/1 2/2/1 3/3/1\n");
+    CHECK(file.mesh.faces == faces{{0, 1, 2}});
+    CHECK(file.attributes.corners.texture_of_corner.empty());
+    CHECK(file.attributes.corners.normal_of_corner.empty());
+    REQUIRE(file.warnings.size() == 2);
+    CHECK(file.warnings[0].text == "corners name texture coordinates, of which the file has none");
+    CHECK(file.warnings[1].text == "corners name normals, of which the file has none");
+    // Where there is one, the rest is missing.
+    CHECK(obj_complaint(square + "vt 0 0\nf 1/1 2/2 3/1\n") ==
+          "a.obj:6: texture index '2' is out of range");
 }
 
 TEST_CASE("obj: a normal that is no number is no reason to refuse the mesh") {

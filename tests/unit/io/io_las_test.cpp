@@ -322,6 +322,19 @@ TEST_CASE("LAS: damaged files are refused, odd ones are read with a warning") {
     CHECK(odd.las->records.size() == 1);
 }
 
+TEST_CASE(
+    "LAS: points that the header does not count are told of, records behind the points are not") {
+    const std::string points = test::las_points(test::las_family::scan, 3, 34, 4, 1);
+    std::string bytes = las_of(3).file(points);
+    CHECK(read_las(bytes).warnings.empty());
+    test::put(bytes, 107, std::uint32_t{3});
+    const tf::mesh_file file = read_las(bytes);
+    CHECK(file.mesh.points.size() == 3);
+    REQUIRE(file.warnings.size() >= 1);
+    CHECK(file.warnings[0].text ==
+          "the header counts 3 points, and there is room for 4: what is behind was not read");
+}
+
 TEST_CASE("LAZ: cut anywhere it is refused; a table that lies is found out") {
     const test::las_bytes las = las_of(3);
     const tf::mesh_file file =

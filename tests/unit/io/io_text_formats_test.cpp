@@ -84,10 +84,38 @@ TEST_CASE("obj: faces may come ahead of their vertices; what never comes is name
                        "a.obj:4: vertex index 0"));
     CHECK(says_of_text(text_complaint(with_triangle("f -4 1 2\n"), "a.obj"),
                        "a.obj:4: vertex index '-4'"));
-    CHECK(says_of_text(text_complaint(with_triangle("f 1 2\n"), "a.obj"),
-                       "a.obj:4: face with 2 corners"));
     CHECK(says_of_text(text_complaint(with_triangle("f 1 2 3.5\n"), "a.obj"), "a.obj:4: '3.5'"));
     CHECK(says_of_text(text_complaint(with_triangle("f 1 2 3-1\n"), "a.obj"), "a.obj:4: '3-1'"));
+}
+
+TEST_CASE(
+    "obj and off: faces of fewer than three corners have no triangle, and keep their numbers") {
+    tf::mesh_file file = read_text(with_triangle("f 1 2\nf 1 2 3\nf 2\nf 3 2 1\n"), "a.obj");
+    CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {2, 1, 0}});
+    CHECK(file.stored_face == std::vector<std::uint32_t>{1, 3});
+    CHECK(file.stored_faces == 4);
+    REQUIRE(file.warnings.size() == 1);
+    CHECK(file.warnings[0].text == "2 faces of fewer than three corners left out");
+    file = read_text("OFF 3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n0\n", "a.off");
+    CHECK(file.mesh.faces.size() == 1);
+    CHECK(file.stored_faces == 3);
+    CHECK(file.warnings.size() == 1);
+}
+
+TEST_CASE("off: no blank is needed between the first word and the counts") {
+    CHECK(read_text("OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off").mesh.faces.size() == 1);
+    CHECK(says_of_text(text_complaint("OFFx 1 0\n", "a.off"), "where 'OFF' should stand"));
+}
+
+TEST_CASE("stl text: the end may be two words; commas between numbers are named") {
+    const std::string facet =
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
+    CHECK(read_text("solid\n" + facet + "end solid a\n", "a.stl").mesh.faces.size() == 1);
+    CHECK(says_of_text(text_complaint("solid\n" + facet + "end\n", "a.stl"),
+                       "where 'solid' should stand"));
+    CHECK(says_of_text(
+        text_complaint("solid\nfacet normal 0 0 1\nouter loop\nvertex 0.0, 0.0, 0.0\n", "a.stl"),
+        "numbers are separated by blanks, not by commas"));
 }
 
 TEST_CASE("obj: numbers end at blanks, and a comma is no decimal mark") {
