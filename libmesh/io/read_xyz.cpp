@@ -163,7 +163,13 @@ class xyz_reader {
     void learn_columns() {
         const std::vector<std::string> names = split_heading(heading_);
         const auto axes = find_axes(names);
+        if (!axes && has_angles(names))
+            text_.file.fail_line(
+                heading_.data(),
+                "latitude and longitude are angles, not coordinates: project them to "
+                "meters first, for instance by cs2cs or pdal");
         if (axes) {
+            tell_axes(names, *axes);
             axis_of_.assign(1 + *std::max_element(axes->begin(), axes->end()), no_axis);
             for (std::size_t axis = 0; axis < 3; ++axis) axis_of_[(*axes)[axis]] = axis;
         }
@@ -174,6 +180,15 @@ class xyz_reader {
         width_ = more_.size();
         more_.clear();
         declare_columns(promised_ && !axes ? names_in_pts(*width_ + 3) : names);
+    }
+
+    /// Says what is taken for x, y and z where it is called otherwise.
+    void tell_axes(const std::vector<std::string>& names, const std::array<std::size_t, 3>& axes) {
+        const std::string &x = names[axes[0]], &y = names[axes[1]], &z = names[axes[2]];
+        if (x.size() + y.size() + z.size() == 3 && to_lower(x[0]) == 'x' && to_lower(y[0]) == 'y')
+            return;
+        warnings_.push_back(
+            {"columns", "x, y and z are the columns '" + x + "', '" + y + "' and '" + z + "'"});
     }
 
     /// Of so many columns in a PTS file; empty where these have no usual meaning.

@@ -289,6 +289,26 @@ TEST_CASE("csv: a heading names the columns, x y z are found by name, and text c
     CHECK(tf::write_to_memory(file, {.format = "txt"}) == "1 2 3 7 0.5\n4 5 6 8 -1\n");
 }
 
+TEST_CASE("csv: coordinates are found by what surveyors and other programs call them") {
+    tf::mesh_file file = read_text("Point,Northing,Easting,Elevation\n7,2,1,3\n", "a.csv");
+    CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
+    REQUIRE(file.warnings.size() == 1);
+    CHECK(file.warnings[0].text ==
+          "x, y and z are the columns 'Easting', 'Northing' and 'Elevation'");
+    for (const std::string heading :
+         {"id;E;N;H", "n;pos_X;pos_y;pos_z", "a;\"Points:0\";\"Points:1\";\"Points:2\""}) {
+        file = read_text(heading + "\n7;1;2;3\n", "a.csv");
+        CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
+        CHECK(file.warnings.at(0).code == "columns");
+    }
+    // Where there are x, y and z, they are meant.
+    file = read_text("e,n,h,x,y,z\n1,2,3,4,5,6\n", "a.csv");
+    CHECK(file.mesh.points == std::vector<tf::point3>{{4, 5, 6}});
+    CHECK(file.warnings.empty());
+    CHECK(says_of_text(text_complaint("latitude,longitude,height\n1,2,3\n", "a.csv"),
+                       "a.csv:1: latitude and longitude are angles"));
+}
+
 TEST_CASE("csv: headings of other programs, and those that are of no use") {
     for (const char* const text :
          {"//X Y Z Intensity\n1 2 3 4\n", "//X Y Z Intensity\n1\n1 2 3 4\n",
@@ -300,7 +320,7 @@ TEST_CASE("csv: headings of other programs, and those that are of no use") {
         CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
         CHECK(tf::number_at(text_column(file, "vertex", "Intensity"), 0) == 4.0);
     }
-    CHECK(read_text("easting,northing,height\n1,2,3\n", "a.csv").warnings.at(0).code == "heading");
+    CHECK(read_text("width,depth,height\n1,2,3\n", "a.csv").warnings.at(0).code == "heading");
     CHECK(read_text("# some words here more\n1 2 3 4\n", "a.xyz").attributes ==
           read_text("1 2 3 4\n", "a.xyz").attributes);
     // Fewer names than values: they are numbered.
