@@ -31,32 +31,34 @@ class face_sink {
         finish();
     }
 
-    /// Ends the face. With fewer than three corners it has no triangle, but keeps its number.
-    void finish() {
+    /// Ends the face. With fewer than three corners it is none, and gets no number: false.
+    bool finish() {
+        if (corners_ < 3) {
+            ++short_faces_;
+            return false;
+        }
         auto& stored = file_.stored_face;
-        if (corners_ != 3 && !differ_) {
+        if (corners_ > 3 && stored.empty()) {
             stored.resize(file_.stored_faces);
             std::iota(stored.begin(), stored.end(), std::uint32_t{0});
-            differ_ = true;
         }
-        if (corners_ < 3)
-            ++short_faces_;
-        else if (differ_)
+        if (corners_ > 3 || !stored.empty())
             stored.insert(stored.end(), corners_ - 2,
                           static_cast<std::uint32_t>(file_.stored_faces));
         ++file_.stored_faces;
+        return true;
     }
 
     void remark(std::vector<io_warning>& warnings) const {
         if (short_faces_ > 0)
-            warnings.push_back({"short-faces", std::to_string(short_faces_) +
-                                                   (short_faces_ == 1 ? " face" : " faces") +
-                                                   " of fewer than three corners left out"});
+            warnings.push_back(
+                {"short-faces", std::to_string(short_faces_) +
+                                    (short_faces_ == 1 ? " face" : " faces") +
+                                    " of fewer than three corners left out, and not numbered"});
     }
 
   private:
     mesh_file& file_;
-    bool differ_ = false;  ///< a stored face is not one triangle
     std::size_t short_faces_ = 0;
     std::size_t corners_ = 0;
     std::uint32_t first_ = 0;

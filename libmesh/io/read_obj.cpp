@@ -153,8 +153,7 @@ class obj_reader {
         ++text_.at;
         faces_.begin();
         for (std::size_t i = 0; !statement_done(text_); ++i) corner(i);
-        faces_.finish();
-        if (new_part_) start_part();
+        if (faces_.finish() && new_part_) start_part();
     }
 
     /// v, v/vt, v//vn or v/vt/vn; a slash too many at the end is none.

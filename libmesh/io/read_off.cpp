@@ -165,8 +165,10 @@ class off_reader {
                 text_.fail("vertex index " + std::to_string(vertex) + " is out of range");
             faces_.add(static_cast<std::uint32_t>(vertex));
         }
-        faces_.finish();
-        read_extras(faces_extra_);
+        if (faces_.finish())
+            read_extras(faces_extra_);
+        else
+            text_.skip_line();
         text_.file.release_before(text_.at);
     }
 

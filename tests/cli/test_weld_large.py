@@ -329,6 +329,10 @@ class Large(WeldTest):
         self.assertNotIn("--memory", self.run_tool(*command, status=0).err)
         report = self.report(*command, "--memory", "55M", status=0)
         self.assertIn("in-memory", [w["code"] for w in report["files"][0]["warnings"]])
+        # What is over at once may end before the limit is looked at.
+        corners = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(1.1 * i + k for k in range(9)), 0)
+                           for i in range(150000))
+        self.write("in.stl", 80 * b" " + struct.pack("<I", 150000) + corners)
         run = self.run_tool(*command, "--memory", "8M", status=5)
         self.assertIn("the output format off of a mesh needs the whole mesh in memory", run.err)
         self.write("in.stl", 80 * b" " + struct.pack("<I", 800000))

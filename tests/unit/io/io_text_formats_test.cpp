@@ -88,17 +88,17 @@ TEST_CASE("obj: faces may come ahead of their vertices; what never comes is name
     CHECK(says_of_text(text_complaint(with_triangle("f 1 2 3-1\n"), "a.obj"), "a.obj:4: '3-1'"));
 }
 
-TEST_CASE(
-    "obj and off: faces of fewer than three corners have no triangle, and keep their numbers") {
+TEST_CASE("obj and off: faces of fewer than three corners are left out") {
     tf::mesh_file file = read_text(with_triangle("f 1 2\nf 1 2 3\nf 2\nf 3 2 1\n"), "a.obj");
     CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {2, 1, 0}});
-    CHECK(file.stored_face == std::vector<std::uint32_t>{1, 3});
-    CHECK(file.stored_faces == 4);
+    CHECK(file.stored_faces == 2);
     REQUIRE(file.warnings.size() == 1);
-    CHECK(file.warnings[0].text == "2 faces of fewer than three corners left out");
-    file = read_text("OFF 3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n0\n", "a.off");
+    CHECK(file.warnings[0].text ==
+          "2 faces of fewer than three corners left out, and not numbered");
+    file = read_text("OFF 3 3 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1 9 9 9\n0\n3 0 1 2 1 2 3\n", "a.off");
     CHECK(file.mesh.faces.size() == 1);
-    CHECK(file.stored_faces == 3);
+    CHECK(file.stored_faces == 1);
+    CHECK(tf::number_at(text_column(file, "face", "red"), 0) == 1.0);
     CHECK(file.warnings.size() == 1);
 }
 
