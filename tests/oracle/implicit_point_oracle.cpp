@@ -289,7 +289,7 @@ tf::detail::exact::dyadic any_dyadic(tf::test::point_stream& stream) {
            dyadic(p[1].z) * dyadic(p[2].x) * dyadic(p[2].y);
 }
 
-long calls_per_family() { return std::max(1L, static_cast<long>(test::stress_count(20000))); }
+long calls_per_family() { return std::max(1L, static_cast<long>(test::stress_count(5000))); }
 
 TEST_CASE("constructed points are where GMP's rationals are, and so are all signs and roundings") {
     const long calls = calls_per_family();
