@@ -225,6 +225,7 @@ unmended_result split_of(std::span<const mesh_view> operands, const rounding_try
     result.statistics.covered = count_covered(arranged, joined.all.faces.size());
     rounding_try as_cut = options;
     as_cut.simplify = false;
+    as_cut.keep_cuts = true;
     finish_surface(made, arranged.cut, {std::move(arranged.cut.faces), std::move(all)}, joined,
                    false, as_cut);
     return made;
@@ -409,16 +410,20 @@ boolean_result detail::boolean::resolve_by_split(mesh_view mesh, const boolean_o
 }
 
 boolean_result detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
+    boolean_options as_cut = options;
+    as_cut.keep_cuts = true;  // what is left of each face is asked for
     return evaluate("resolve_self_intersections", std::array{mesh_operand(mesh)},
-                    boolean_expression::union_of(1), options);
+                    boolean_expression::union_of(1), as_cut);
 }
 
 detail::boolean::labeled_result detail::boolean::resolve_by_labels(mesh_view mesh,
                                                                    const boolean_options& options) {
+    boolean_options as_cut = options;
+    as_cut.keep_cuts = true;
     std::optional<label_counts> counts;
     labeled_result result;
     result.made = evaluate(
-        "resolve_self_intersections", std::span(&mesh, 1), options, true,
+        "resolve_self_intersections", std::span(&mesh, 1), as_cut, true,
         [&](auto given, const auto& how) { return labeled_of(given.front(), how, counts); });
     if (counts) result.counts = *counts;
     return result;

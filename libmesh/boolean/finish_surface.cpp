@@ -1,13 +1,12 @@
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
-#include <libmesh/boolean/merged_faces.hpp>
+#include <libmesh/boolean/merged_cuts.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,39 +15,6 @@ namespace {
 
 /// Whether two faces are one, turned or not.
 bool same_corners(const face& f, const face& g) { return f == g || f == face{g[0], g[2], g[1]}; }
-
-/// Merges coplanar faces of the surface. By point that was cut, a face of before that it lies in.
-std::vector<operand_element> simplify(exact_surface& exact, std::vector<std::uint32_t>& face_of,
-                                      const mesh_arrangement& cut, const joined_operands& joined,
-                                      const boolean_options& options) {
-    if (!options.face_groups.empty() && options.face_groups.size() != joined.first_face.back())
-        throw std::invalid_argument("treeform::boolean: not as many face groups as faces");
-    std::vector<std::uint32_t> groups(options.face_groups.begin(), options.face_groups.end());
-    if (!groups.empty() && !joined.number_of_face.empty()) {
-        for (std::size_t f = 0; f < joined.number_of_face.size(); ++f)
-            groups[f] = groups[joined.number_of_face[f]];
-        groups.resize(joined.number_of_face.size());
-    }
-    std::vector<operand_element> face_of_point(exact.constructed.size());
-    for (std::size_t f = exact.faces.size(); f-- > 0;)
-        for (const std::uint32_t p : exact.faces[f])
-            if (p >= exact.given.size())
-                face_of_point[p - exact.given.size()] =
-                    joined.face_source(cut.covers_of(face_of[f]).front().face);
-    std::vector<std::uint32_t> plane_of;
-    plane_of.reserve(face_of.size());
-    for (const std::uint32_t f : face_of) plane_of.push_back(cut.covers_of(f).front().face);
-    merged_faces merged =
-        merge_coplanar(exact, {{exact.given, joined.all.faces}, plane_of, groups});
-    std::vector<std::uint8_t> sound(merged.faces.size());
-    for (std::size_t f = 0; f < sound.size(); ++f)
-        sound[f] = merged.is_new[f] != 0 ? std::uint8_t{0} : exact.sound[merged.face_of[f]];
-    exact.sound = std::move(sound);
-    for (std::uint32_t& f : merged.face_of) f = face_of[f];
-    exact.faces = std::move(merged.faces);
-    face_of = std::move(merged.face_of);
-    return face_of_point;
-}
 
 }  // namespace
 
@@ -67,21 +33,18 @@ void finish_surface(unmended_result& made, mesh_arrangement& cut, round::solid_f
     std::vector<std::uint32_t> face_of = std::move(chosen.face_of);
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(chosen.faces), std::vector<std::uint8_t>(face_of.size())};
-    const auto source_of = [&](std::size_t f) { return cut.covers_of(face_of[f]).front().face; };
     for_chunks(face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
-            const std::uint32_t source = source_of(f);
+            const std::uint32_t source = cut.covers_of(face_of[f]).front().face;
             exact.sound[f] = cut.whole[face_of[f]] != 0 &&
                              same_corners(exact.faces[f], joined.all.faces[source]);
-            if (!options.simplify) face_of[f] = source;
+            face_of[f] = source;
         }
     });
     const std::size_t given = exact.given.size();
-    std::vector<operand_element> face_of_point;
-    if (options.simplify) {
-        face_of_point = simplify(exact, face_of, cut, joined, options);
-        for (std::size_t f = 0; f < face_of.size(); ++f) face_of[f] = source_of(f);
-    }
+    const std::vector<std::uint32_t> face_of_point =
+        merge_cuts(exact, face_of, joined.all.faces,
+                   groups_of(options, joined.number_of_face, joined.first_face.back()), options);
     result.statistics.exact_faces = face_of.size();
     cut = {};
     joined.all = {};
@@ -114,10 +77,11 @@ void finish_surface(unmended_result& made, mesh_arrangement& cut, round::solid_f
                        if (r.point_of[p] < given)
                            result.vertex_source[p] = joined.point_source(r.point_of[p]);
                });
-    if (!options.simplify) return;
+    if (!merges_faces(options)) return;
     for (const std::uint32_t p : r.point_of)
-        result.face_of_cut_vertex.push_back(
-            p < given || p == rounded_surface::none ? operand_element{} : face_of_point[p - given]);
+        result.face_of_cut_vertex.push_back(p < given || p == rounded_surface::none
+                                                ? operand_element{}
+                                                : joined.face_source(face_of_point[p - given]));
 }
 
 }  // namespace treeform::detail::boolean

@@ -207,7 +207,7 @@ std::optional<pair_result> boolean_of_manifold_pair(const prepared_pair& operand
     const partial_expression at_nowhere(expression, options.inside);
     auto chosen = choose_near(near, arranged.cut, windings, at_nowhere);
     if (!chosen) return std::nullopt;
-    near.local = {};
+    near.local.points = {};
     if (!made.goes_on(options.progress, 0.6)) return made;
     buffer<fate> fates(near.place.size());
     std::size_t first = 0;

@@ -76,6 +76,10 @@ class merger {
         return planes_.group_of.empty() ? 0 : planes_.group_of[planes_.plane_of[f]];
     }
 
+    [[nodiscard]] bool stays(std::uint32_t f) const {
+        return !planes_.stays.empty() && planes_.stays[f] != 0;
+    }
+
     [[nodiscard]] bool coplanar(std::uint32_t f, std::uint32_t g) const {
         const std::uint32_t p = planes_.plane_of[f], q = planes_.plane_of[g];
         if (p == q) return true;
@@ -89,7 +93,8 @@ class merger {
     [[nodiscard]] bool is_flat(std::size_t begin, std::size_t end) const {
         if (end - begin != 2) return false;
         const kept_edge &u = uses_[begin], &v = uses_[begin + 1];
-        return u.from != v.from && group(u.face) == group(v.face) && coplanar(u.face, v.face);
+        if (u.from == v.from || stays(u.face) || stays(v.face)) return false;
+        return group(u.face) == group(v.face) && coplanar(u.face, v.face);
     }
 
     void find_regions() {
@@ -149,7 +154,7 @@ class merger {
             for (const std::uint32_t p : surface_.faces[f]) {
                 const std::uint32_t region = regions_.root(f);
                 if (region_at[p] == none) region_at[p] = region;
-                if (creases_at[p] == 0 && region_at[p] != region) spare_[p] = 0;
+                if (stays(f) || (creases_at[p] == 0 && region_at[p] != region)) spare_[p] = 0;
             }
         for (std::uint32_t p = 0; p < point_count_; ++p) {
             if (region_at[p] == none || creases_at[p] == 1 || creases_at[p] > 2) spare_[p] = 0;

@@ -15,7 +15,9 @@ namespace treeform::detail::boolean {
 struct face_planes {
     mesh_view mesh;
     std::span<const std::uint32_t> plane_of;  ///< [F] face of `mesh` in whose plane each face lies
-    std::span<const std::uint32_t> group_of;  ///< [faces of `mesh`] or empty: all are of one group
+    std::span<const std::uint32_t>
+        group_of{};                         ///< [faces of `mesh`] or empty: all are of one group
+    std::span<const std::uint8_t> stays{};  ///< [F] 1 for faces that stay as they are; or empty
 };
 
 struct merged_faces {

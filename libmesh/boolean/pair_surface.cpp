@@ -1,3 +1,4 @@
+#include <libmesh/boolean/merged_cuts.hpp>
 #include <libmesh/boolean/pair_surface.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/topology/is_manifold.hpp>
@@ -177,14 +178,18 @@ std::optional<pair_result> surface_of_pair(const prepared_pair& pair, const near
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(chosen.faces)};
     exact.sound.resize(chosen.face_of.size());
-    for_chunks(
-        chosen.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t f = begin; f < end; ++f) {  // faces of operands from here on
-                exact.sound[f] = cut.whole[chosen.face_of[f]];
-                chosen.face_of[f] = near.face_of[cut.covers_of(chosen.face_of[f]).front().face];
-            }
-        });
+    for_chunks(chosen.face_of.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f) {  // local faces from here on
+                       exact.sound[f] = cut.whole[chosen.face_of[f]];
+                       chosen.face_of[f] = cut.covers_of(chosen.face_of[f]).front().face;
+                   }
+               });
     cut = {};
+    const ids face_of_point =
+        merge_cuts(exact, chosen.face_of, near.local.faces,
+                   groups_of(options, near.face_of, near.place.size()), options);
+    const std::size_t exact_faces = chosen.face_of.size();
     // What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
     // rounding to nearest takes no coordinate out of a box of doubles.
     rounded_surface rounded = round_surface(std::move(exact), {.steps = 0});
@@ -195,17 +200,28 @@ std::optional<pair_result> surface_of_pair(const prepared_pair& pair, const near
     }
     ids source(rounded.face_of.size());
     for_chunks(source.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) source[i] = chosen.face_of[rounded.face_of[i]];
+        for (std::size_t i = begin; i < end; ++i)
+            source[i] = near.face_of[chosen.face_of[rounded.face_of[i]]];
     });
     const std::array operands{pair[0]->view(), pair[1]->view()};
     const ids near_vertices = assembly(operands, near, fates).write(rounded, source, result);
     // Faces that were not cut are as they were in their operand, all of those at a vertex or none.
     made.is_manifold = topology::is_manifold_at(near_vertices, result.mesh);
+    if (merges_faces(options)) {
+        result.face_of_cut_vertex.resize(result.mesh.points.size());
+        const std::size_t given = near.point_of.size(), faces_of_a = operands[0].faces.size();
+        for (std::size_t p = 0; p < near_vertices.size(); ++p) {
+            if (rounded.point_of[p] < given) continue;
+            const std::uint32_t f = near.face_of[face_of_point[rounded.point_of[p] - given]];
+            result.face_of_cut_vertex[near_vertices[p]] =
+                f < faces_of_a ? operand_element{0, f}
+                               : operand_element{1, static_cast<std::uint32_t>(f - faces_of_a)};
+        }
+    }
     result.certificate = std::move(rounded.certificate);
     result.statistics.pairs = arranged.pairs;
     result.statistics.cut_faces = arranged.cut_faces;
-    result.statistics.exact_faces =
-        result.mesh.faces.size() + (chosen.face_of.size() - source.size());
+    result.statistics.exact_faces = result.mesh.faces.size() + (exact_faces - source.size());
     if (options.progress && !options.progress(1.0)) result.certificate.status = status::cancelled;
     return made;
 }

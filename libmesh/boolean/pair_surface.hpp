@@ -35,7 +35,7 @@ enum class fate : std::uint8_t { cut, dropped, kept, turned };
 /// The chosen faces of an arrangement, rounded, and between them the faces that were not cut, as
 /// they were; in the order of the operands' faces.
 ///
-/// \param near     its `face_of`, `point_of` and `first_of_b`
+/// \param near     all but the points and pairs of `local`
 /// \param arranged of `near.local`; is used up
 /// \param fates    of all faces of both operands, counted through; `cut` are those of `near`
 /// \pre   each operand has one closed fan of faces at each vertex, and no two equal points

@@ -140,7 +140,7 @@ std::optional<pair_result> boolean_of_sound_pair(const prepared_pair& pair, bool
     if (!inside) return std::nullopt;
     std::optional<operand_volumes> volumes;
     if (options.volumes) volumes = find_volumes(pair, near, cut, *inside);
-    near.local = {};  // as large as the operands, perhaps
+    near.local.points = {};  // as large as the operands, perhaps
     if (!made.goes_on(options.progress, 0.6)) return made;
 
     const choice choice(expression);

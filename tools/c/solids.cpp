@@ -22,6 +22,7 @@ tf::boolean_options options_of(const treeform_boolean_options* options) {
     how.precision = glue::precision(o.precision);
     how.rounding_steps = o.rounding_steps;
     how.max_displacement = o.max_displacement;
+    how.keep_cuts = o.keep_cuts != 0;
     how.simplify = o.simplify != 0;
     how.volumes = o.volumes != 0;
     how.face_groups = glue::array(o.face_groups, o.face_group_count, "face_groups");

@@ -61,7 +61,7 @@ void add_operations(command_line& line) {
                   " data/two_spheres.stl data/cube.stl -o pieces.ply\n"
                   "  2 inputs: split: 1,140 faces, rounding moved points by "
                   "1.11022e-16 at most\n",
-                  {"--simplify", "--inside", "--accept-open"});
+                  {"--simplify", "--keep-cuts", "--inside", "--accept-open"});
 }
 
 void add_options(command_line& line, boolean_settings& s) {
@@ -80,7 +80,10 @@ void add_options(command_line& line, boolean_settings& s) {
                               "an open input is a surface that the others cut:\n"
                               "a difference or intersection keeps a part of it"});
     line.flag(s.repair, {"--repair", "", "mend each INPUT first, as tf-repair does"});
-    line.flag(s.simplify, {"--simplify", "", "merge coplanar faces, such as the cut has made"});
+    line.flag(s.keep_cuts, {"--keep-cuts", "",
+                            "do not merge coplanar faces that were cut, or\n"
+                            "that overlap"});
+    line.flag(s.simplify, {"--simplify", "", "merge all coplanar faces, also those not cut"});
     tools::add_max_move(line, s.rails);
 }
 
@@ -107,9 +110,9 @@ const char* const epilogue =
     "made faces meet. What cannot be certified is not written; parts thinner than the\n"
     "numbers written tell apart are left out and named. Points that were not cut stay\n"
     "bit for bit, except for those next to a place that was mended. Meshes and faces\n"
-    "are numbered from 0, faces as in the files. --simplify keeps faces of different\n"
-    "meshes apart if --source is given, and faces with different properties unless\n"
-    "--no-attributes is.\n"
+    "are numbered from 0, faces as in the files. Coplanar faces of different meshes\n"
+    "are not merged if --source is given, those with different properties only with\n"
+    "--no-attributes, and where vertices have properties only with that or --simplify.\n"
     "\n"
     "With --accept-open, one input may be an open surface: the first of a difference,\n"
     "any of an intersection, or one that the formula is not true without. What lies\n"
@@ -131,9 +134,13 @@ const char* const epilogue =
 /// Merging is not to lose what is written of faces.
 std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_settings& s,
                                      const std::vector<tools::solid>& solids) {
-    if (!s.simplify) return {};
     const bool of_properties = !s.no_attributes && tools::wants_mesh(work.options);
     return tf::face_groups(tools::sources_of(solids), of_properties, s.source_given);
+}
+
+bool keeps_cuts(const boolean_settings& s, const std::vector<tools::solid>& solids) {
+    return s.keep_cuts ||
+           (!s.simplify && !s.no_attributes && tf::has_vertex_values(tools::sources_of(solids)));
 }
 
 tf::boolean_result ask(tools::job& work, const boolean_settings& s,
@@ -141,7 +148,10 @@ tf::boolean_result ask(tools::job& work, const boolean_settings& s,
                        const std::optional<std::uint32_t>& sheet, tf::precision precision) {
     const auto timing = work.time("cut");
     const std::vector<tf::mesh_view> views = tools::views_of(solids);
-    tf::boolean_options options{.inside = s.inside, .precision = precision, .simplify = s.simplify};
+    tf::boolean_options options{.inside = s.inside,
+                                .precision = precision,
+                                .keep_cuts = keeps_cuts(s, solids),
+                                .simplify = s.simplify};
     const std::vector<std::uint32_t> groups = groups_of(work, s, solids);
     options.face_groups = groups;
     options.volumes = work.options.detailed();

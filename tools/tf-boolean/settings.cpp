@@ -61,8 +61,10 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
         refuse("--output-format, --ascii and --binary need -o");
     if (s.check && o.precision != "keep") refuse("--precision: --check writes no mesh");
     if (s.splits() && s.simplify) refuse("--simplify: split keeps every piece");
-    if (s.check && (s.simplify || s.accept_open || s.repair))
-        refuse("--simplify, --accept-open and --repair: --check only looks");
+    if (s.splits() && s.keep_cuts) refuse("--keep-cuts: split keeps all of them");
+    if (s.simplify && s.keep_cuts) refuse("--keep-cuts: --simplify merges what they part");
+    if (s.check && (s.simplify || s.keep_cuts || s.accept_open || s.repair))
+        refuse("--simplify, --keep-cuts, --accept-open and --repair: --check only looks");
     if (s.accept_open && s.repair) refuse("--repair closes what --accept-open accepts");
     check_curve_path(s.curves);
     if (s.check && !s.curves.empty()) refuse("--curves: --check only looks");

@@ -27,6 +27,7 @@ struct boolean_settings {
     bool check = false;
     bool accept_open = false;
     bool repair = false;
+    bool keep_cuts = false;
     bool simplify = false;
     tools::rails rails{};
     bool max_move_given = false;

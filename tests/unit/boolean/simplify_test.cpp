@@ -36,7 +36,7 @@ tf::boolean_result result_of(const std::vector<tf::mesh>& meshes, const std::str
 /// After a look at whether it is the same solid as without being simplified.
 tf::mesh simplified(const std::vector<tf::mesh>& meshes, const std::string& text) {
     const tf::boolean_result result = result_of(meshes, text, {.simplify = true});
-    const tf::mesh full = result_of(meshes, text).mesh;
+    const tf::mesh full = result_of(meshes, text, {.keep_cuts = true}).mesh;
     CHECK(result.certificate);
     CHECK(test::is_clean_solid(result.mesh));
     CHECK(result.mesh.faces.size() <= full.faces.size());
@@ -230,6 +230,67 @@ TEST_CASE("simplify: a face of before holds each point that was cut") {
         CHECK(tf::orient3d(q[a], q[b], q[c], result.mesh.points[p]) == 0);
     }
     CHECK(cut_points > 0);
+}
+
+TEST_CASE("cuts: what overlaps in a plane is one, what nothing has cut stays") {
+    // Boxes in a row that share their tops and bottoms.
+    std::vector<tf::mesh> row;
+    for (int k = 0; k < 8; ++k) row.push_back(moved(box(2, 1, 1), {1.0 * k, 0, 0}));
+    const tf::boolean_result merged = result_of(row, "a+b+c+d+e+f+g+h");
+    CHECK(merged.certificate);
+    CHECK(merged.mesh.faces.size() == 12);
+    CHECK(merged.face_of_cut_vertex.size() == 8);
+    CHECK(result_of(row, "a+b+c+d+e+f+g+h", {.keep_cuts = true}).mesh.faces.size() > 60);
+    // A pit in one of 512 faces.
+    const tf::mesh fine = refined(box(8, 8, 8), 3);
+    const tf::mesh pit = moved(box(0.25, 0.125, 1), {0.5, 0.25, 7.5});
+    const tf::boolean_result made = result_of({fine, pit}, "a-b");
+    CHECK(made.certificate);
+    CHECK(made.mesh.points.size() == fine.points.size() + 8);
+    std::size_t of_fine = 0;
+    for (const tf::operand_element& source : made.vertex_source) of_fine += source.operand == 0;
+    CHECK(of_fine == fine.points.size());
+}
+
+TEST_CASE("cuts: of lattice boxes by any formula, the same solid with fewer faces, in their groups") {
+    test::random source(35);
+    std::size_t faces_as_cut = 0, faces = 0;
+    for (int round = 0; round < 40; ++round) {
+        CAPTURE(round);
+        std::vector<tf::mesh> boxes;
+        for (int k = 0; k < 4; ++k) boxes.push_back(test::lattice_box(source));
+        std::vector<std::uint32_t> groups;
+        for (std::uint32_t k = 0; k < 4; ++k) groups.insert(groups.end(), 12, k % 2);
+        for (const char* text : {"a+b+c+d", "(a-b)*(c+d)", "a^b^c^d"}) {
+            CAPTURE(text);
+            const tf::boolean_result as_cut = result_of(boxes, text, {.keep_cuts = true});
+            const tf::boolean_result made = result_of(boxes, text);
+            const tf::boolean_result grouped = result_of(boxes, text, {.face_groups = groups});
+            CHECK(made.certificate);
+            CHECK(test::is_clean_solid(made.mesh));
+            CHECK(test::is_clean_solid(grouped.mesh));
+            CHECK(tf::signed_volume(made.mesh) == tf::signed_volume(as_cut.mesh));
+            CHECK(tf::signed_volume(grouped.mesh) == tf::signed_volume(as_cut.mesh));
+            std::array<double, 2> area{}, area_grouped{};
+            const auto add = [](const tf::boolean_result& of, std::array<double, 2>& to) {
+                for (std::size_t f = 0; f < of.mesh.faces.size(); ++f) {
+                    const auto& [a, b, c] = of.mesh.faces[f];
+                    const auto& p = of.mesh.points;
+                    const tf::mesh one{{p[a], p[b], p[c]}, {{0, 1, 2}}};
+                    to[of.face_source[f].operand % 2] += tf::surface_area(one);
+                }
+            };
+            add(as_cut, area);
+            add(grouped, area_grouped);
+            for (std::size_t k = 0; k < 2; ++k)
+                CHECK(area_grouped[k] == doctest::Approx(area[k]));
+            CHECK(made.mesh.faces.size() <= grouped.mesh.faces.size());
+            CHECK(grouped.mesh.faces.size() <= as_cut.mesh.faces.size());
+            faces_as_cut += as_cut.mesh.faces.size();
+            faces += made.mesh.faces.size();
+        }
+    }
+    CHECK(faces * 4 < faces_as_cut * 3);
 }
 
 TEST_CASE("simplify: nothing, and one thread or many") {

@@ -72,10 +72,11 @@ py::dict as_dict(tf::boolean_result&& result, const carrying& attributes) {
 }
 
 tf::boolean_options options_of(const std::string& inside, const std::string& precision,
-                               bool simplify, double max_displacement) {
+                               bool keep_cuts, bool simplify, double max_displacement) {
     return {.inside = choice<tf::fill_rule>("inside", fill_rule_words, inside),
             .precision = precision_of(precision),
             .max_displacement = max_displacement,
+            .keep_cuts = keep_cuts,
             .simplify = simplify};
 }
 
@@ -93,16 +94,17 @@ void require_faces(const held_meshes& meshes, const std::vector<std::string>& na
 
 py::dict boolean(const held_meshes& meshes, const std::string& operation,
                  const std::string& formula, const std::vector<std::string>& names,
-                 const std::string& inside, const std::string& precision, bool simplify,
-                 bool volumes, double max_displacement) {
+                 const std::string& inside, const std::string& precision, bool keep_cuts,
+                 bool simplify, bool volumes, double max_displacement) {
     const tf::boolean_expression expression =
         expression_of(operation, formula, names, meshes.size());
-    tf::boolean_options options = options_of(inside, precision, simplify, max_displacement);
+    tf::boolean_options options =
+        options_of(inside, precision, keep_cuts, simplify, max_displacement);
     options.volumes = volumes;
     require_faces(meshes, names);
     const carrying attributes(meshes);
-    const std::vector<std::uint32_t> groups =
-        simplify ? attributes.face_groups() : std::vector<std::uint32_t>();
+    attributes.keep_apart(options);
+    const std::vector<std::uint32_t> groups = attributes.face_groups();
     options.face_groups = groups;
     const std::vector<tf::mesh_operand> operands = operands_of(meshes);
     return as_dict(run([&](const tf::progress_callback& report) {
@@ -114,13 +116,17 @@ py::dict boolean(const held_meshes& meshes, const std::string& operation,
 
 py::dict clip(const held_meshes& meshes, std::uint32_t sheet, const std::string& operation,
               const std::string& formula, const std::vector<std::string>& names,
-              const std::string& inside, const std::string& precision, double max_displacement) {
+              const std::string& inside, const std::string& precision, bool keep_cuts,
+              double max_displacement) {
     const tf::boolean_expression expression =
         expression_of(operation, formula, names, meshes.size());
-    tf::boolean_options options = options_of(inside, precision, false, max_displacement);
+    tf::boolean_options options = options_of(inside, precision, keep_cuts, false, max_displacement);
     require_faces(meshes, names);
     const std::vector<tf::mesh_view> operands = views_of(meshes);
     const carrying attributes(meshes);
+    attributes.keep_apart(options);
+    const std::vector<std::uint32_t> groups = attributes.face_groups();
+    options.face_groups = groups;
     return as_dict(run([&](const tf::progress_callback& report) {
                        options.progress = report;
                        return tf::clip(operands, sheet, expression, options);
@@ -129,7 +135,7 @@ py::dict clip(const held_meshes& meshes, std::uint32_t sheet, const std::string&
 }
 
 py::dict split(const held_meshes& meshes, const std::string& precision, double max_displacement) {
-    tf::boolean_options options = options_of("nonzero", precision, false, max_displacement);
+    tf::boolean_options options = options_of("nonzero", precision, true, false, max_displacement);
     const std::vector<tf::mesh_view> operands = views_of(meshes);
     const carrying attributes(meshes);
     return as_dict(run([&](const tf::progress_callback& report) {

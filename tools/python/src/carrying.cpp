@@ -77,6 +77,10 @@ carrying::carrying(const held_meshes& operands) {
     for (const tf::mesh_file& file : files_) sources_.push_back({&file, {}});
 }
 
+void carrying::keep_apart(tf::boolean_options& options) const {
+    if (!options.simplify && tf::has_vertex_values(sources_)) options.keep_cuts = true;
+}
+
 std::vector<std::uint32_t> carrying::face_groups() const {
     return sources_.empty() ? std::vector<std::uint32_t>() : tf::face_groups(sources_, true, false);
 }

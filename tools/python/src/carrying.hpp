@@ -3,6 +3,7 @@
 /// Gives results what their operands have besides points and faces.
 
 #include "held_mesh.hpp"
+#include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>
 
 #include <pybind11/pybind11.h>
@@ -22,6 +23,8 @@ class carrying {
     /// \throws std::invalid_argument where attributes are not those of the mesh that has them
     explicit carrying(const held_meshes& operands);
 
+    /// Keeps all cuts where vertices have values, unless `simplify` is asked for.
+    void keep_apart(tf::boolean_options& options) const;
     /// `boolean_options::face_groups` for merging coplanar faces: only those of equal values.
     [[nodiscard]] std::vector<std::uint32_t> face_groups() const;
 

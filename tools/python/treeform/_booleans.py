@@ -52,17 +52,18 @@ def _operands(meshes: tuple[Any, ...]) -> list[_core.HeldMesh]:
     return [held(mesh) for mesh in meshes]
 
 
-def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: str, simplify: bool,
-             volumes: bool, max_displacement: float, check: bool,
+def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: str, keep_cuts: bool,
+             simplify: bool, volumes: bool, max_displacement: float, check: bool,
              progress: Progress) -> BooleanResult:
     return _result(_core.boolean(_operands(meshes), operation, "", [],
-                                 inside, precision, simplify, volumes, max_displacement,
+                                 inside, precision, keep_cuts, simplify, volumes, max_displacement,
                                  progress=progress), check)
 
 
 def union(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
-          simplify: bool = False, volumes: bool = False, max_displacement: float = np.inf,
-          check: bool = True, progress: Progress = None) -> BooleanResult:
+          keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
+          max_displacement: float = np.inf, check: bool = True,
+          progress: Progress = None) -> BooleanResult:
     """What is in any of the solids: `union(a, b, ...)`, or `union([a, b, ...])` as in trimesh. Of
     one mesh, the solid that it winds around, without self-intersections. See `boolean`.
 
@@ -72,13 +73,14 @@ def union(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64"
     >>> both.mesh.volume, both.certificate
     (1.875, Certificate(ok))
     """
-    return _combine("union", meshes, inside, precision, simplify, volumes, max_displacement, check,
-                    progress)
+    return _combine("union", meshes, inside, precision, keep_cuts, simplify, volumes,
+                    max_displacement, check, progress)
 
 
 def intersection(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
-                 simplify: bool = False, volumes: bool = False, max_displacement: float = np.inf,
-                 check: bool = True, progress: Progress = None) -> BooleanResult:
+                 keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
+          max_displacement: float = np.inf, check: bool = True,
+                 progress: Progress = None) -> BooleanResult:
     """What is in all of the solids. See `boolean`.
 
     >>> import treeform
@@ -86,13 +88,14 @@ def intersection(*meshes: MeshLike, inside: str = "nonzero", precision: str = "f
     >>> treeform.intersection(a, (a.vertices + 0.5, a.faces)).mesh.volume
     0.125
     """
-    return _combine("intersection", meshes, inside, precision, simplify, volumes, max_displacement,
-                    check, progress)
+    return _combine("intersection", meshes, inside, precision, keep_cuts, simplify, volumes,
+                    max_displacement, check, progress)
 
 
 def difference(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
-               simplify: bool = False, volumes: bool = False, max_displacement: float = np.inf,
-               check: bool = True, progress: Progress = None) -> BooleanResult:
+               keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
+          max_displacement: float = np.inf, check: bool = True,
+               progress: Progress = None) -> BooleanResult:
     """The first solid without all others. See `boolean`.
 
     >>> import treeform
@@ -100,12 +103,12 @@ def difference(*meshes: MeshLike, inside: str = "nonzero", precision: str = "flo
     >>> treeform.difference(a, (a.vertices + 0.5, a.faces)).mesh.volume
     0.875
     """
-    return _combine("difference", meshes, inside, precision, simplify, volumes, max_displacement,
-                    check, progress)
+    return _combine("difference", meshes, inside, precision, keep_cuts, simplify, volumes,
+                    max_displacement, check, progress)
 
 
 def symmetric_difference(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
-                         simplify: bool = False, volumes: bool = False,
+                         keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
                          max_displacement: float = np.inf, check: bool = True,
                          progress: Progress = None) -> BooleanResult:
     """What is in an odd number of the solids. See `boolean`.
@@ -115,13 +118,14 @@ def symmetric_difference(*meshes: MeshLike, inside: str = "nonzero", precision: 
     >>> treeform.symmetric_difference(a, (a.vertices + 0.5, a.faces)).mesh.volume
     1.75
     """
-    return _combine("xor", meshes, inside, precision, simplify, volumes, max_displacement, check,
-                    progress)
+    return _combine("xor", meshes, inside, precision, keep_cuts, simplify, volumes,
+                    max_displacement, check, progress)
 
 
 def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float64",
-            simplify: bool = False, volumes: bool = False, max_displacement: float = np.inf,
-            check: bool = True, progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
+            keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
+          max_displacement: float = np.inf, check: bool = True,
+            progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
     """The solid that a formula makes of meshes, all cut along each other at once.
 
     expression: names of `meshes`, `+` or `|` union, `*` or `&` intersection, `-` difference, `^`
@@ -129,7 +133,8 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     right.
     inside: what is solid, by how often the surface winds around it: 'nonzero', 'odd', 'positive'.
     precision: of the coordinates returned; 'float32' for STL and GLB.
-    simplify: merge coplanar faces. volumes: compute those of two operands.
+    keep_cuts: leave coplanar faces apart that were cut, or overlap; they are merged otherwise.
+    simplify: merge all coplanar faces. volumes: compute those of two operands.
     max_displacement: mending after rounding moves no coordinate further at once.
     check: raise where the result is not certified; False returns it with its certificate.
 
@@ -138,8 +143,8 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     corner or an edge. Operands may overlap themselves, touch, be equal, be inside out or empty.
 
     Attributes of operands are carried over: a face has the values of the face that it lies in, a new
-    vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. With `simplify`,
-    only faces of equal values are merged.
+    vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. Only
+    faces of equal values are merged; where vertices have values, only with `simplify`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result cannot be
     certified, ValueError naming the face that is out of range or not finite, or the operand that has
@@ -154,13 +159,13 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     names = list(meshes)
     held_meshes = [held(mesh) for mesh in meshes.values()]
     return _result(_core.boolean(held_meshes, "", expression, names,
-                                 inside, precision, simplify, volumes,
+                                 inside, precision, keep_cuts, simplify, volumes,
                                  max_displacement, progress=progress), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str = "nonzero",
-         precision: str = "float64", max_displacement: float = np.inf, check: bool = True,
-         progress: Progress = None) -> BooleanResult:
+         precision: str = "float64", keep_cuts: bool = False, max_displacement: float = np.inf,
+         check: bool = True, progress: Progress = None) -> BooleanResult:
     """An open surface cut by solids: the pieces of `sheet` outside all of them, or inside all.
 
     keep: 'outside' or 'inside'. A piece on the surface of a solid is inside it, so both together
@@ -178,7 +183,7 @@ def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str 
         raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
     operation = "difference" if keep == "outside" else "intersection"
     return _result(_core.clip([held(sheet), *map(held, solids)], 0, operation, "", [], inside,
-                              precision, max_displacement, progress=progress), check)
+                              precision, keep_cuts, max_displacement, progress=progress), check)
 
 
 def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float = np.inf,

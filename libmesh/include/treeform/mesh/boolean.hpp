@@ -100,11 +100,15 @@ struct boolean_options {
     /// Mending tries nothing that moves a coordinate further at once, in the mesh's own length unit,
     /// and goes on where all of it did: see `certificate::max_displacement`. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// Merge coplanar faces of the result, exactly and before rounding: a vertex is removed where
-    /// only coplanar faces meet, or only faces along one straight edge.
+    /// Leave cuts in the plane of the result as they are. Otherwise coplanar faces that were cut, or
+    /// that overlap, are merged, exactly and before rounding: a vertex is removed where only such
+    /// faces meet, or only two flat parts of such faces along a straight edge. Faces that nothing
+    /// has cut stay. `split` keeps all cuts.
+    bool keep_cuts = false;
+    /// Merge all coplanar faces of the result, not those alone that were cut.
     bool simplify = false;
-    /// With `simplify`: merge only faces with equal numbers here. [faces of all operands, one
-    /// operand after the other], or empty.
+    /// Merge only faces with equal numbers here. [faces of all operands, one operand after the
+    /// other], or empty.
     std::span<const std::uint32_t> face_groups{};
     bool volumes = false;  ///< compute `boolean_result::volumes`, of two operands
     progress_callback progress{};
@@ -140,11 +144,11 @@ struct TREEFORM_API boolean_result {
     /// Faces are counter-clockwise from outside, in the order of their sources. Vertices of
     /// operands come first, in their order, then new ones on cuts.
     treeform::mesh mesh;
-    /// [F] the lowest operand face that each face lies in. Next to places where rounding was
-    /// mended, it may be a neighbor of that face.
+    /// [F] the lowest operand face that each face lies in, of merged ones the lowest of all. Next
+    /// to places where rounding was mended, it may be a neighbor of that face.
     std::vector<operand_element> face_source;
     std::vector<operand_element> vertex_source;  ///< [V] the lowest operand vertex each is, or none
-    /// [V] with `simplify`: for each new vertex, a face that it lies in; else none. May be empty.
+    /// [V] for each new vertex, an operand face that it lies in; else none. Empty with `keep_cuts`.
     std::vector<operand_element> face_of_cut_vertex{};
     /// Status ok says, checked on the coordinates above: any two faces have a corner, an edge or
     /// nothing in common; no face is degenerate; the signed face count of every edge is zero; and

@@ -23,9 +23,10 @@ typedef struct treeform_boolean_options {
     treeform_precision precision;  ///< of the coordinates returned; default: double
     int32_t rounding_steps;        ///< how often to mend what rounding has broken; default 5
     double max_displacement;      ///< mending moves no coordinate further at once; default infinite
-    int32_t simplify;             ///< merge coplanar faces of the result, exactly
+    int32_t keep_cuts;            ///< leave coplanar faces apart that were cut, or overlap
+    int32_t simplify;             ///< merge all coplanar faces of the result, exactly
     int32_t volumes;              ///< compute `volumes`, of two operands
-    const uint32_t* face_groups;  ///< with `simplify`: merge only faces with equal numbers; or null
+    const uint32_t* face_groups;  ///< merge only faces with equal numbers; or null
     size_t face_group_count;      ///< faces of all operands
     treeform_progress progress;
     void* progress_data;
@@ -48,7 +49,7 @@ typedef struct treeform_boolean_result {
     const treeform_element* face_source;    ///< [F] the operand face that each lies in
     const treeform_element* vertex_source;  ///< [V] the operand vertex that each is, or none
     const treeform_element*
-        face_of_cut_vertex;  ///< [V] with `simplify`, a face it lies in; or null
+        face_of_cut_vertex;  ///< [V] of new ones, an operand face it lies in; or null
     const treeform_certificate* certificate;
     uint64_t vanished_components;  ///< thinner than the coordinates can show
     const double* vanished_at;     ///< [vanished_listed][3] a point of each, at most 100
