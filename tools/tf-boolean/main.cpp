@@ -39,7 +39,7 @@ void add_operations(command_line& line) {
     line.group("OP");
     add_operation(line, "union", "what is in any; of one INPUT, its own overlaps",
                   " data/two_spheres.stl data/cube.stl -o union.ply\n"
-                  "  2 inputs: union: 626 faces, volume 7.1294, rounding moved points by "
+                  "  2 inputs: union: 622 faces, volume 7.1294, rounding moved points by "
                   "1.11022e-16 at most\n",
                   {"--accept-open"});
     add_operation(line, "intersection", "what is in all",
@@ -112,7 +112,8 @@ const char* const epilogue =
     "bit for bit, except for those next to a place that was mended. Meshes and faces\n"
     "are numbered from 0, faces as in the files. Coplanar faces of different meshes\n"
     "are not merged if --source is given, those with different properties only with\n"
-    "--no-attributes, and where vertices have properties only with that or --simplify.\n"
+    "--no-attributes, and where vertices have properties only with that or\n"
+    "--simplify.\n"
     "\n"
     "With --accept-open, one input may be an open surface: the first of a difference,\n"
     "any of an intersection, or one that the formula is not true without. What lies\n"
