@@ -170,7 +170,7 @@ exit_status check_all(job& work, const assembly_settings& settings) {
     if (settings.results.empty())
         run.look_at(poses, nullptr);
     else
-        write_file(settings.results, work.options.force, work.keeper,
+        write_file(settings.results, work.options.force,
                    [&](output_file& file) { run.look_at(poses, &file); });
     json& entry = work.entry;
     entry["parts"] = all.names.size();

@@ -89,7 +89,7 @@ void write_distances(job& work, const deviation_settings& settings, const tf::bo
     const auto timing = work.time("write");
     tf::mesh_file file = moving.files[0].content;
     tf::color_distances(file, tf::distances_in_file(moving, 0, r.distances), -scale, scale);
-    output_place place(settings.distances, work.options.force, work.keeper);
+    output_place place(settings.distances, work.options.force);
     tf::write(place.writable(), file, {.format = "ply"});
     place.commit();
 }

@@ -18,7 +18,7 @@ void write_curves(const job& work, const std::filesystem::path& path, tf::mesh_v
                   std::span<const tf::face_pair> pairs,
                   const std::vector<tf::pair_numbers>& numbers) {
     if (path.empty() || work.options.dry_run) return;
-    output_place place(path, work.options.force, work.keeper);
+    output_place place(path, work.options.force);
     try {
         tf::write_curves(place.writable(), mesh, pairs, numbers, path == "-" ? "obj" : "");
     } catch (const tf::io_error& error) {

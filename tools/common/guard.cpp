@@ -2,6 +2,7 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
+#include "tools/common/sudden_end.hpp"
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -17,10 +18,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <exception>
-#include <mutex>
-#include <new>
-#include <set>
 #include <thread>
 
 #ifndef __has_feature
@@ -113,13 +110,10 @@ sigset_t watched_signals() {
 }  // namespace
 
 struct guard::state {
-    std::string tool;
     limits bounds;
     own_memory before{};  ///< that does not count
     clock::time_point start = clock::now();
     std::atomic<reason> why{reason::none};
-    std::mutex mutex;
-    std::set<std::filesystem::path> open_files;
     sigset_t signals{};
     sigset_t signals_before{};
     int signal_fd = -1;
@@ -132,33 +126,12 @@ struct guard::state {
         return bounds.seconds > 0.0 && elapsed.count() > bounds.seconds;
     }
     [[nodiscard]] reason next_reason(bool signalled) const;
-    [[nodiscard]] clock::duration time_to_end();
+    [[nodiscard]] clock::duration time_to_end() const;
     [[nodiscard]] std::string memory_text() const;
     [[nodiscard]] std::string text() const {
         return why == reason::memory ? memory_text() : text_of(why);
     }
-    [[noreturn]] void end_process(reason cause, int status);
 };
-
-namespace {
-std::atomic<guard*> current{nullptr};
-std::atomic<void (*)(int)> end_current{nullptr};
-
-/// An allocation may fail where nothing may throw; that is the memory limit, not a bug.
-void on_terminate() {
-    int status = bug;
-    if (const auto error = std::current_exception()) {
-        try {
-            std::rethrow_exception(error);
-        } catch (const std::bad_alloc&) {
-            status = stopped;
-        } catch (...) {
-        }
-    }
-    if (auto* const end = end_current.load()) end(status);
-    std::_Exit(status);
-}
-}  // namespace
 
 reason guard::state::next_reason(bool signalled) const {
     if (signalled) {
@@ -176,9 +149,8 @@ reason guard::state::next_reason(bool signalled) const {
 
 /// When the first one of a team ends, or after a second, mpirun kills all. Who has files to remove is
 /// that first one.
-clock::duration guard::state::time_to_end() {
-    const std::lock_guard lock(mutex);
-    return bounds.beside_others && !open_files.empty() ? grace_in_team : grace;
+clock::duration guard::state::time_to_end() const {
+    return bounds.beside_others && has_unfinished() ? grace_in_team : grace;
 }
 
 void guard::state::watch() {
@@ -195,22 +167,9 @@ void guard::state::watch() {
             why = next;
             asked = clock::now();
         } else if ((signalled && next != reason::none) || clock::now() - asked > time_to_end()) {
-            end_process(why, stopped);
+            end_suddenly(stopped, text().c_str());
         }
     }
-}
-
-void guard::state::end_process(reason cause, int status) {
-    {
-        const std::lock_guard lock(mutex);
-        std::error_code ignored;
-        for (const auto& path : open_files) std::filesystem::remove_all(path, ignored);
-    }
-    const std::string text = cause != reason::none ? this->text()
-                             : status == stopped   ? memory_text()
-                                                   : "internal error";
-    std::fprintf(stderr, "%s: error: %s\n", tool.c_str(), text.c_str());
-    std::_Exit(status);
 }
 
 std::string guard::state::memory_text() const {
@@ -220,8 +179,7 @@ std::string guard::state::memory_text() const {
            " that was free when it started (--memory sets another limit)";
 }
 
-guard::guard(std::string tool, limits bounds) : state_(std::make_unique<state>()) {
-    state_->tool = std::move(tool);
+guard::guard(limits bounds) : state_(std::make_unique<state>()) {
     state_->bounds = bounds;
     if (bounds.beside_others) state_->before = memory_of_process();
     if (bounds.memory > 0) bound_data(bounds.memory + state_->before.reserved + memory_of_stacks());
@@ -231,11 +189,7 @@ guard::guard(std::string tool, limits bounds) : state_(std::make_unique<state>()
     pthread_sigmask(SIG_BLOCK, &state_->signals, &state_->signals_before);
     state_->signal_fd = signalfd(-1, &state_->signals, SFD_CLOEXEC | SFD_NONBLOCK);
     state_->done_fd = eventfd(0, EFD_CLOEXEC);
-    current = this;
-    end_current = [](int status) {
-        if (guard* const g = current.load()) g->state_->end_process(g->state_->why, status);
-    };
-    std::set_terminate(on_terminate);
+    set_words_for_memory(state_->memory_text());
     state_->watcher = std::thread([s = state_.get()] { s->watch(); });
 }
 
@@ -243,7 +197,6 @@ guard::~guard() {
     const std::uint64_t one = 1;
     if (write(state_->done_fd, &one, sizeof one) != sizeof one) std::_Exit(bug);
     state_->watcher.join();
-    current = nullptr;
     close(state_->signal_fd);
     close(state_->done_fd);
     pthread_sigmask(SIG_SETMASK, &state_->signals_before, nullptr);
@@ -260,16 +213,6 @@ void guard::check() const {
 }
 
 std::string guard::want_of_memory() const { return state_->memory_text(); }
-
-void guard::unfinished(const std::filesystem::path& path) {
-    const std::lock_guard lock(state_->mutex);
-    state_->open_files.insert(path);
-}
-
-void guard::finished(const std::filesystem::path& path) {
-    const std::lock_guard lock(state_->mutex);
-    state_->open_files.erase(path);
-}
 
 std::uint64_t peak_memory() {
     rusage usage{};

@@ -4,7 +4,6 @@
 /// half-written.
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -28,7 +27,7 @@ struct limits {
 /// Make one before any other thread; threads made later inherit the blocked signals.
 class guard {
   public:
-    guard(std::string tool, limits bounds);
+    explicit guard(limits bounds);
     ~guard();
     guard(const guard&) = delete;
     guard& operator=(const guard&) = delete;
@@ -38,11 +37,6 @@ class guard {
     [[nodiscard]] bool stop_requested() const;
     /// Why there is no memory for more.
     [[nodiscard]] std::string want_of_memory() const;
-
-    /// Files, or folders with all that is in them, to remove if the process is ended in the middle
-    /// of the work.
-    void unfinished(const std::filesystem::path& path);
-    void finished(const std::filesystem::path& path);
 
   private:
     struct state;

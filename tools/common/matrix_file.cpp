@@ -93,7 +93,7 @@ std::string matrix_text(const tf::transform<3>& matrix) {
 }
 
 void write_matrix(const job& work, const std::filesystem::path& path, const std::string& text) {
-    write_file(path, work.options.force, work.keeper, [&](output_file& file) { file.write(text); });
+    write_file(path, work.options.force, [&](output_file& file) { file.write(text); });
 }
 
 }  // namespace tools

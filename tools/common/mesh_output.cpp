@@ -39,7 +39,7 @@ void look_again(const std::filesystem::path& path, const std::string& format,
 tf::write_result write(job& work, const tf::mesh_file& file, const tf::write_options& options,
                        const std::filesystem::path& path, double moved, const auto& check) {
     const common_options& o = work.options;
-    output_place place(path, o.force || o.in_place, work.keeper);
+    output_place place(path, o.force || o.in_place);
     tf::write_result written;
     try {
         written = tf::write(place.writable(), file, options);

@@ -60,31 +60,17 @@ void check_output(const fs::path& path, bool force) {
                          std::generic_category().message(errno));
 }
 
-output_place::output_place(fs::path path, bool force, guard& keeper)
-    : path_(std::move(path)),
-      target_(followed(path_)),
-      writable_(path_),
-      force_(force),
-      keeper_(keeper) {
+output_place::output_place(fs::path path, bool force)
+    : path_(std::move(path)), target_(followed(path_)), writable_(path_), force_(force) {
     check_output(path_, force_);
     if (written_directly(path_)) return;
-    std::string folder = (folder_of(target_) / ".unfinished-XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr)
+    if (!folder_.make_folder((folder_of(target_) / ".unfinished-XXXXXX").string()))
         refuse(path_, std::string("cannot be written: ") + std::generic_category().message(errno));
-    folder_ = folder;
-    keeper_.unfinished(folder_);
-    writable_ = folder_ / target_.filename();
-}
-
-output_place::~output_place() {
-    if (folder_.empty()) return;
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-    keeper_.finished(folder_);
+    writable_ = fs::path(folder_.path()) / target_.filename();
 }
 
 void output_place::commit() {
-    if (folder_.empty()) return;
+    if (folder_.path().empty()) return;
     struct stat before {};
     if (force_ && stat(target_.c_str(), &before) == 0)
         static_cast<void>(chmod(writable_.c_str(), before.st_mode & 07777));
@@ -103,8 +89,8 @@ std::string output_place::said_of_path(std::string text) const {
     return text;
 }
 
-output_file::output_file(const fs::path& path, bool force, guard& keeper)
-    : place_(path, force, keeper),
+output_file::output_file(const fs::path& path, bool force)
+    : place_(path, force),
       file_(path == "-" ? stdout : std::fopen(place_.writable().c_str(), "wb")) {
     if (file_ == nullptr) fail();
 }

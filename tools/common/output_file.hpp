@@ -2,7 +2,7 @@
 /// \file
 /// Files a tool writes: complete under their name, or not there at all.
 
-#include "tools/common/guard.hpp"
+#include "tools/common/sudden_end.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -21,7 +21,7 @@ void check_output(const std::filesystem::path& path, bool force);
 /// Makes the file at `path`, where one is named, of what `write` puts into the `output_file`.
 /// \throws failure (bad_output)
 template <class Write>
-void write_file(const std::filesystem::path& path, bool force, guard& keeper, const Write& write);
+void write_file(const std::filesystem::path& path, bool force, const Write& write);
 
 /// A name in a new folder beside `path` to write to, and the move that makes it final. Without a
 /// `commit` nothing stays, also when the process is stopped, whatever else a writer has put into
@@ -29,8 +29,7 @@ void write_file(const std::filesystem::path& path, bool force, guard& keeper, co
 class output_place {
   public:
     /// \throws failure (bad_output) as `check_output` does
-    output_place(std::filesystem::path path, bool force, guard& keeper);
-    ~output_place();
+    output_place(std::filesystem::path path, bool force);
     output_place(const output_place&) = delete;
     output_place& operator=(const output_place&) = delete;
 
@@ -38,7 +37,7 @@ class output_place {
     [[nodiscard]] const std::filesystem::path& writable() const { return writable_; }
     /// The new folder, which is all that stays when the process is killed; empty where none is
     /// needed.
-    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+    [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }
     /// \throws failure (bad_output), also when `path` has come into being without `force`
     void commit();
 
@@ -48,22 +47,21 @@ class output_place {
   private:
     std::filesystem::path path_;
     std::filesystem::path target_;  ///< `path_` with links followed
-    std::filesystem::path folder_;  ///< made for this; empty when written to directly
+    unfinished_path folder_;        ///< made for this; none when written to directly
     std::filesystem::path writable_;
     bool force_;
-    guard& keeper_;
 };
 
 /// A file written from memory.
 class output_file {
   public:
-    output_file(const std::filesystem::path& path, bool force, guard& keeper);
+    output_file(const std::filesystem::path& path, bool force);
     ~output_file();
     output_file(const output_file&) = delete;
     output_file& operator=(const output_file&) = delete;
 
     /// As that of an `output_place`.
-    [[nodiscard]] const std::filesystem::path& folder() const { return place_.folder(); }
+    [[nodiscard]] std::filesystem::path folder() const { return place_.folder(); }
     /// \throws failure (bad_output) when the device is full or the reader has gone
     void write(std::string_view bytes);
     /// Writes and empties `text` where it is long, so that that of a million lines is never in
@@ -82,9 +80,9 @@ class output_file {
 };
 
 template <class Write>
-void write_file(const std::filesystem::path& path, bool force, guard& keeper, const Write& write) {
+void write_file(const std::filesystem::path& path, bool force, const Write& write) {
     if (path.empty()) return;
-    output_file file(path, force, keeper);
+    output_file file(path, force);
     write(file);
     file.commit();
 }

@@ -193,7 +193,7 @@ int run_parsed(command_line& line, common_options& options, const std::vector<st
                int argc, const char* const* argv, const std::function<exit_status(job&)>& body,
                console& out) {
     configure(out, options, line);
-    guard keeper(line.name(), limits_of(options));
+    guard keeper(limits_of(options));
     const tf::thread_scope threads(options.threads);
     if (!options.report.empty()) check_output(options.report, options.force);
 
@@ -205,7 +205,7 @@ int run_parsed(command_line& line, common_options& options, const std::vector<st
     report["threads"] = tf::thread_count();
     report["peak_rss"] = peak_memory();
     if (!options.report.empty()) {
-        output_file file(options.report, options.force, keeper);
+        output_file file(options.report, options.force);
         file.write(report_text(report));
         file.commit();
     }

@@ -1,5 +1,7 @@
 #include "tools/common/spooled_input.hpp"
 
+#include "tools/common/sudden_end.hpp"
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -31,12 +33,11 @@ void remove_spooled(const fs::path& beside) {
 
 }  // namespace
 
-spooled_input::spooled_input(job& work, const fs::path& beside)
-    : keeper_(work.keeper), path_(beside.string() + "-" + std::to_string(::getpid())) {
+spooled_input::spooled_input(job& work, const fs::path& beside) : keeper_(work.keeper) {
     remove_spooled(beside);
-    keeper_.unfinished(path_);
-    fs::remove(path_);
-    std::ofstream spooled(path_, std::ios::binary);
+    path_.set(beside.string() + "-" + std::to_string(::getpid()));
+    fs::remove(path());
+    std::ofstream spooled(path(), std::ios::binary);
     std::vector<char> bytes(std::size_t{1} << 20);
     while (true) {
         keeper_.check();
@@ -46,19 +47,13 @@ spooled_input::spooled_input(job& work, const fs::path& beside)
         if (!spooled.write(bytes.data(), count) || (count == 0 && !spooled.flush()))
             throw failure(
                 bad_output, "output",
-                path_.string() + ": cannot be written: " + std::generic_category().message(errno));
+                path_.path() + ": cannot be written: " + std::generic_category().message(errno));
         if (count == 0) break;
     }
-    const int file = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = ::open(path_.path().c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0 || ::dup2(file, STDIN_FILENO) < 0)
-        throw failure(bad_input, "read", path_.string() + ": cannot be read");
+        throw failure(bad_input, "read", path_.path() + ": cannot be read");
     ::close(file);
-}
-
-spooled_input::~spooled_input() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-    keeper_.finished(path_);
 }
 
 }  // namespace tools

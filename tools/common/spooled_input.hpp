@@ -3,6 +3,7 @@
 /// Standard input, where it is read more than once.
 
 #include "tools/common/run.hpp"
+#include "tools/common/sudden_end.hpp"
 
 #include <filesystem>
 
@@ -14,15 +15,14 @@ class spooled_input {
   public:
     /// The file's name begins with `beside`. \throws failure
     spooled_input(job& work, const std::filesystem::path& beside);
-    ~spooled_input();
     spooled_input(const spooled_input&) = delete;
     spooled_input& operator=(const spooled_input&) = delete;
 
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] std::filesystem::path path() const { return path_.path(); }
 
   private:
     guard& keeper_;
-    std::filesystem::path path_;
+    unfinished_path path_;
 };
 
 }  // namespace tools

@@ -105,7 +105,7 @@ void write_page(job& work, scene shown) {
     const common_options& o = work.options;
     const auto add = [&](const std::filesystem::path& path, const auto& bytes) {
         if (path.empty()) return;
-        auto file = std::make_unique<output_file>(path, o.force, work.keeper);
+        auto file = std::make_unique<output_file>(path, o.force);
         file->write(bytes());
         file->finish();
         work.last_outputs.push_back(std::move(file));

@@ -73,7 +73,7 @@ void enter_report(job& work, const findings& result, const search_settings& sett
 }
 
 void write_pairs(const job& work, const std::filesystem::path& path, const findings& result) {
-    write_file(path, work.options.force, work.keeper, [&](output_file& file) {
+    write_file(path, work.options.force, [&](output_file& file) {
         std::string text = "face,face,kind,region\n";
         for (std::size_t i = 0; i < result.found.pairs.size(); ++i) {
             const tf::face_pair& pair = result.found.pairs[i];

@@ -105,7 +105,7 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
     pending_outputs outputs(work);
     std::optional<output_file> map;
     if (!asked.map.empty()) {
-        map.emplace(asked.map, o.force, work.keeper);
+        map.emplace(asked.map, o.force);
         write_map(*map, w, map_is_csv(asked.map));
     }
     if (!asked.removed.empty() && !o.dry_run) write_removed(work, outputs, file, w, asked.removed);

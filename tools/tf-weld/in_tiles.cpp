@@ -172,7 +172,7 @@ class stream_files {
             to_.map_path = add(asked_.map, work_.options.force);
             return;
         }
-        if (leads()) map_.emplace(asked_.map, work_.options.force, work_.keeper);
+        if (leads()) map_.emplace(asked_.map, work_.options.force);
         to_.map = [this, next = std::uint64_t{0}](auto numbers) mutable {
             map_->write(to_.map_text(next, numbers));
             next += numbers.size();

@@ -72,7 +72,7 @@ void check_formats(const job& work, const weld_request& request, const tf::mesh_
 }
 
 const std::filesystem::path& pending_outputs::add(const std::filesystem::path& path, bool force) {
-    places_.push_back(std::make_unique<output_place>(path, force, work_.keeper));
+    places_.push_back(std::make_unique<output_place>(path, force));
     return places_.back()->writable();
 }
 
