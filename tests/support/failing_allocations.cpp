@@ -1,4 +1,4 @@
-// To be preloaded: allocations fail from the TREEFORM_FAIL_AT-th on, counted from 1, or that one alone
+// To be preloaded, or linked (`fail_allocations`): allocations fail from the TREEFORM_FAIL_AT-th on, counted from 1, or that one alone
 // where TREEFORM_FAIL_ONCE is set. At the end, their number goes to the file TREEFORM_COUNT_TO.
 
 #include <fcntl.h>
@@ -20,8 +20,8 @@ void* __libc_memalign(std::size_t alignment, std::size_t size);
 namespace {
 
 std::atomic<long> count{0};
-long fail_at = 0;
-bool once = false;
+std::atomic<long> fail_at{0};
+std::atomic<bool> once{false};
 
 [[gnu::constructor]] void start() {
     const char* const at = std::getenv("TREEFORM_FAIL_AT");
@@ -41,7 +41,8 @@ bool once = false;
 
 bool fails() {
     const long number = ++count;
-    if (fail_at == 0 || (once ? number != fail_at : number < fail_at)) return false;
+    const long at = fail_at;
+    if (at == 0 || (once ? number != at : number < at)) return false;
     errno = ENOMEM;
     return true;
 }
@@ -49,6 +50,13 @@ bool fails() {
 }  // namespace
 
 extern "C" {
+
+/// From now on the n-th fails, alone or with all that follow; for 0 none does.
+void fail_allocations(long n, int alone) {
+    fail_at = 0;
+    once = alone != 0;
+    fail_at = n > 0 ? count + n : 0;
+}
 
 void* malloc(std::size_t size) { return fails() ? nullptr : __libc_malloc(size); }
 void* calloc(std::size_t number, std::size_t size) {

@@ -3,28 +3,28 @@
 
 #include <tools/c/glue.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
 
 namespace {
 
-// What a thread was told last. Too little memory for the text leaves a shorter one.
-thread_local std::string last_text;
-thread_local const char* last_error = "";
-thread_local treeform::progress_callback progress_of_thread;
+// Nothing here has a destructor: glibc ends the process where there is no memory to note one.
+thread_local std::array<char, 4096> last_error{};  ///< what a thread was told last, or how it began
+thread_local treeform_progress progress_of_thread = nullptr;
+thread_local void* progress_data_of_thread = nullptr;
 
 }  // namespace
 
 namespace glue {
 
 void say(const char* what) noexcept {
-    try {
-        last_text = what;
-        last_error = last_text.c_str();
-    } catch (...) {
-        last_error = "out of memory";
-    }
+    const std::size_t size = std::min(std::strlen(what), last_error.size() - 1);
+    std::memmove(last_error.data(), what, size);
+    last_error[size] = 0;
 }
 
 treeform_code code_of_exception() noexcept {
@@ -93,7 +93,9 @@ tf::process_team team(const treeform_team* of) {
     return {of->rank, of->size, exchange};
 }
 
-const tf::progress_callback& thread_progress() { return progress_of_thread; }
+tf::progress_callback thread_progress() {
+    return progress(progress_of_thread, progress_data_of_thread);
+}
 
 treeform_certificate certificate_of(const tf::certificate& kept, const char* message) {
     treeform_certificate c{};
@@ -167,12 +169,11 @@ struct treeform_thread_limit {
     std::optional<treeform::thread_scope> scope;
 };
 
-const char* treeform_last_error(void) { return last_error; }
+const char* treeform_last_error(void) { return last_error.data(); }
 
 void treeform_set_progress(treeform_progress progress, void* data) {
-    const treeform_code done =
-        glue::guard([&] { progress_of_thread = glue::progress(progress, data); });
-    static_cast<void>(done);
+    progress_of_thread = progress;
+    progress_data_of_thread = data;
 }
 
 const char* treeform_code_name(treeform_code code) {

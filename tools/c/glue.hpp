@@ -179,7 +179,7 @@ template <class Options>
 [[nodiscard]] tf::process_team team(const treeform_team* of);
 
 /// What `treeform_set_progress` has set for this thread.
-[[nodiscard]] const tf::progress_callback& thread_progress();
+[[nodiscard]] tf::progress_callback thread_progress();
 
 /// `body(begin, end)` for pieces of `count` questions, all at once where nobody wants to know.
 ///
