@@ -1,48 +1,17 @@
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/extension.hpp>
 #include <libmesh/io/zip_archive.hpp>
 
-#include <minizip/unzip.h>
+#include <zlib.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cstring>
-#include <memory>
+#include <limits>
 #include <new>
 #include <vector>
 
 namespace treeform::detail::io {
-
-/// A place in the bytes of the archive, which the library moves.
-struct zip_archive::stream {
-    const source* bytes;
-    std::uint64_t at = 0;
-    bool cut_short = false;
-
-    static voidpf open(voidpf self, const void*, int) { return self; }
-    static uLong read(voidpf self, voidpf, void* to, uLong size) {
-        auto& s = *static_cast<stream*>(self);
-        const std::uint64_t count = std::min<std::uint64_t>(size, s.bytes->size() - s.at);
-        if (count > 0) std::memcpy(to, s.bytes->begin() + s.at, count);
-        s.at += count;
-        s.cut_short = count < size;
-        return static_cast<uLong>(count);
-    }
-    static uLong write(voidpf, voidpf, const void*, uLong) { return 0; }
-    static ZPOS64_T tell(voidpf self, voidpf) { return static_cast<stream*>(self)->at; }
-    static long seek(voidpf self, voidpf, ZPOS64_T offset, int origin) {
-        auto& s = *static_cast<stream*>(self);
-        const std::uint64_t size = s.bytes->size();
-        const std::uint64_t from = origin == ZLIB_FILEFUNC_SEEK_SET   ? 0
-                                   : origin == ZLIB_FILEFUNC_SEEK_CUR ? s.at
-                                                                      : size;
-        if (offset > size - from) return -1;
-        s.at = from + offset;
-        return 0;
-    }
-    static int close(voidpf, voidpf) { return 0; }
-    /// The library takes what is missing at the end for zeros unless this says otherwise.
-    static int error(voidpf self, voidpf) { return static_cast<stream*>(self)->cut_short ? 1 : 0; }
-};
 
 namespace {
 
@@ -52,6 +21,48 @@ constexpr std::uint64_t ratio_slack = 1024;
 
 constexpr std::uint32_t encrypted_flag = 1;
 constexpr std::uint32_t deflated = 8;
+
+/// Signatures and sizes of records, the latter without what is of any length.
+constexpr std::uint32_t member_mark = 0x04034b50;
+constexpr std::uint64_t member_size = 30;
+constexpr std::uint32_t entry_mark = 0x02014b50;
+constexpr std::uint64_t entry_size = 46;
+constexpr std::uint32_t end_mark = 0x06054b50;
+constexpr std::uint64_t end_size = 22;
+constexpr std::uint32_t large_end_mark = 0x06064b50;
+constexpr std::uint64_t large_end_size = 56;
+constexpr std::uint32_t locator_mark = 0x07064b50;
+constexpr std::uint64_t locator_size = 20;
+
+constexpr std::uint32_t large_sizes = 1;  ///< the extra field of values with 64 bits
+/// In place of values that are there.
+constexpr std::uint16_t elsewhere16 = std::numeric_limits<std::uint16_t>::max();
+constexpr std::uint32_t elsewhere32 = std::numeric_limits<std::uint32_t>::max();
+
+template <class T>
+[[nodiscard]] T field(const char* record, std::uint64_t at) {
+    return base::load<T, std::endian::little>(record + at);
+}
+[[nodiscard]] std::uint64_t field16(const char* record, std::uint64_t at) {
+    return field<std::uint16_t>(record, at);
+}
+[[nodiscard]] std::uint32_t field32(const char* record, std::uint64_t at) {
+    return field<std::uint32_t>(record, at);
+}
+[[nodiscard]] std::uint64_t field64(const char* record, std::uint64_t at) {
+    return field<std::uint64_t>(record, at);
+}
+
+/// The values with 64 bits of an entry, one after the other; empty where it has none.
+[[nodiscard]] std::string_view large_values(std::string_view extra) {
+    while (extra.size() >= 4) {
+        const std::uint64_t size = field16(extra.data(), 2);
+        if (size > extra.size() - 4) return {};
+        if (field16(extra.data(), 0) == large_sizes) return extra.substr(4, size);
+        extra.remove_prefix(4 + size);
+    }
+    return {};
+}
 
 /// In small letters and without a slash ahead.
 [[nodiscard]] std::string package_name(std::string_view name) {
@@ -85,65 +96,132 @@ constexpr std::uint32_t deflated = 8;
     return name.size() > longest ? text + "..." : text;
 }
 
+/// Unpacks what deflate has packed. It is written in C, and knows bytes by 32-bit counts.
+class inflater {
+  public:
+    inflater() {
+        if (inflateInit2(&stream_, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
+    }
+    inflater(const inflater&) = delete;
+    inflater& operator=(const inflater&) = delete;
+    ~inflater() { inflateEnd(&stream_); }
+
+    /// Appends what `packed` becomes; false where it is damaged, or becomes other than `size` bytes.
+    [[nodiscard]] bool unpack(std::string_view packed, std::uint64_t size, std::string& bytes) {
+        std::vector<char> piece(std::size_t{1} << 18);
+        int status = Z_OK;
+        while (status == Z_OK) {
+            if (stream_.avail_in == 0) {
+                constexpr std::size_t most = std::size_t{1} << 30;
+                const std::string_view next = packed.substr(0, most);
+                packed.remove_prefix(next.size());
+                // Bytes that are read, though the type does not say so.
+                stream_.next_in =
+                    reinterpret_cast<Bytef*>(const_cast<char*>(next.data()));  // NOLINT
+                stream_.avail_in = static_cast<uInt>(next.size());
+            }
+            stream_.next_out = reinterpret_cast<Bytef*>(piece.data());
+            stream_.avail_out = static_cast<uInt>(piece.size());
+            status = inflate(&stream_, Z_NO_FLUSH);
+            if (status == Z_MEM_ERROR) throw std::bad_alloc();
+            const std::size_t got = piece.size() - stream_.avail_out;
+            if (got > size - bytes.size()) return false;
+            bytes.append(piece.data(), got);
+        }
+        return status == Z_STREAM_END && stream_.avail_in == 0 && packed.empty() &&
+               bytes.size() == size;
+    }
+
+  private:
+    z_stream stream_{};
+};
+
+[[nodiscard]] std::uint32_t checksum_of(std::string_view bytes) {
+    return static_cast<std::uint32_t>(
+        crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
 }  // namespace
 
-zip_archive::zip_archive(const source& in) : in_(in) {
-    auto place = std::make_unique<stream>(stream{.bytes = &in});
-    zlib_filefunc64_def calls{};
-    calls.zopen64_file = stream::open;
-    calls.zread_file = stream::read;
-    calls.zwrite_file = stream::write;
-    calls.ztell64_file = stream::tell;
-    calls.zseek64_file = stream::seek;
-    calls.zclose_file = stream::close;
-    calls.zerror_file = stream::error;
-    calls.opaque = place.get();
-    file_ = unzOpen2_64("", &calls);
-    if (file_ == nullptr) in.fail("no ZIP archive, or one that is damaged or cut short");
-    stream_ = place.release();
-    try {
-        list();
-    } catch (...) {
-        unzClose(file_);
-        delete stream_;
-        throw;
+zip_archive::zip_archive(const source& in) : in_(in) { list(find_directory()); }
+
+/// By the last record of the file, behind which a comment may stand.
+zip_archive::directory zip_archive::find_directory() const {
+    constexpr std::uint64_t longest_comment = std::numeric_limits<std::uint16_t>::max();
+    for (std::uint64_t tail = end_size; tail <= in_.size() && tail <= end_size + longest_comment;
+         ++tail) {
+        const char* const end = in_.end() - tail;
+        if (field32(end, 0) != end_mark || field16(end, 20) > tail - end_size) continue;
+        const directory all{
+            .at = field32(end, 16), .size = field32(end, 12), .count = field16(end, 10)};
+        const std::uint64_t place = in_.size() - tail;
+        if (all.at == elsewhere32 || all.size == elsewhere32 || all.count == elsewhere16)
+            return find_large_directory(place);
+        if (field16(end, 4) != 0 || field16(end, 6) != 0 || field16(end, 8) != all.count)
+            in_.fail("an archive of several files, which is not read");
+        if (all.size > place || all.at > place - all.size)
+            in_.fail("the directory of the archive is damaged");
+        return all;
     }
+    in_.fail("no ZIP archive, or one that is damaged or cut short");
 }
 
-zip_archive::~zip_archive() {
-    unzClose(file_);
-    delete stream_;
+/// That of ZIP64, by the record before the last one.
+zip_archive::directory zip_archive::find_large_directory(std::uint64_t end) const {
+    const auto damaged = [&] { in_.fail("the directory of the archive is damaged"); };
+    if (end < locator_size || field32(in_.begin() + end - locator_size, 0) != locator_mark)
+        damaged();
+    const char* const locator = in_.begin() + end - locator_size;
+    const std::uint64_t place = field64(locator, 8);
+    if (field32(locator, 4) != 0 || field32(locator, 16) > 1)
+        in_.fail("an archive of several files, which is not read");
+    if (end - locator_size < large_end_size || place > end - locator_size - large_end_size ||
+        field32(in_.begin() + place, 0) != large_end_mark)
+        damaged();
+    const char* const record = in_.begin() + place;
+    const directory all{
+        .at = field64(record, 48), .size = field64(record, 40), .count = field64(record, 32)};
+    if (all.size > place || all.at > place - all.size) damaged();
+    return all;
 }
 
-void zip_archive::list() {
-    unz_global_info64 global{};
-    if (unzGetGlobalInfo64(file_, &global) != UNZ_OK || global.number_entry == 0)
-        in_.fail("an archive without members");
-    int status = unzGoToFirstFile(file_);
-    for (; status == UNZ_OK; status = unzGoToNextFile(file_)) add_current();
-    if (status != UNZ_END_OF_LIST_OF_FILE) in_.fail("the directory of the archive is damaged");
+void zip_archive::list(const directory& all) {
+    if (all.count == 0) in_.fail("an archive without members");
+    directory_at_ = all.at;
+    const std::uint64_t end = all.at + all.size;
+    std::uint64_t count = 0;
+    for (std::uint64_t at = all.at; at < end; ++count) at = add_member(at, end);
+    if (count != all.count) in_.fail("the directory of the archive is damaged");
 }
 
-void zip_archive::add_current() {
-    unz_file_info64 info{};
-    if (unzGetCurrentFileInfo64(file_, &info, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK)
+/// Returns where the entry behind this one is.
+std::uint64_t zip_archive::add_member(std::uint64_t at, std::uint64_t end) {
+    const char* const entry = in_.begin() + at;
+    if (end - at < entry_size || field32(entry, 0) != entry_mark)
         in_.fail("the directory of the archive is damaged");
-    std::string name(info.size_filename, '\0');
-    unz64_file_pos place{};
-    if (unzGetCurrentFileInfo64(file_, &info, name.data(), info.size_filename, nullptr, 0, nullptr,
-                                0) != UNZ_OK ||
-        unzGetFilePos64(file_, &place) != UNZ_OK)
-        in_.fail("the directory of the archive is damaged");
+    const std::uint64_t name_size = field16(entry, 28);
+    const std::uint64_t extra_size = field16(entry, 30);
+    const std::uint64_t whole = entry_size + name_size + extra_size + field16(entry, 32);
+    if (whole > end - at) in_.fail("the directory of the archive is damaged");
+    const std::string_view name(entry + entry_size, name_size);
     if (const auto fault = fault_of_name(name); !fault.empty())
         in_.fail("the archive has " + std::string(fault) + ": '" + printable(name) + "'");
-    if (name.ends_with('/')) return;  // a folder
-    const member m{.directory_place = place.pos_in_zip_directory,
-                   .number = place.num_of_file,
-                   .packed = info.compressed_size,
-                   .size = info.uncompressed_size,
-                   .flags = static_cast<std::uint32_t>(info.flag),
-                   .method = static_cast<std::uint32_t>(info.compression_method)};
+    if (name.ends_with('/')) return at + whole;  // a folder
+    member m{.at = field32(entry, 42),
+             .packed = field32(entry, 20),
+             .size = field32(entry, 24),
+             .checksum = field32(entry, 16),
+             .flags = static_cast<std::uint32_t>(field16(entry, 8)),
+             .method = static_cast<std::uint32_t>(field16(entry, 10))};
+    // Only the values that are elsewhere are there, in this order.
+    std::string_view values = large_values({name.data() + name_size, extra_size});
+    for (std::uint64_t* const value : {&m.size, &m.packed, &m.at}) {
+        if (*value != elsewhere32 || values.size() < 8) continue;
+        *value = field64(values.data(), 0);
+        values.remove_prefix(8);
+    }
     if (!members_.emplace(package_name(name), m).second) fail(name, "is twice in the archive");
+    return at + whole;
 }
 
 bool zip_archive::holds(std::string_view name) const {
@@ -163,29 +241,49 @@ void zip_archive::check(std::string_view name, const member& m) {
                        std::to_string(m.packed) + " packed ones can become");
 }
 
+/// Between its own header, which has to fit the directory, and the directory. Sizes are not in the
+/// header where they are elsewhere, or stand behind the bytes.
+std::string_view zip_archive::packed_bytes(std::string_view name, const member& m) const {
+    const auto misfit = [&] { fail(name, "its header does not fit the directory of the archive"); };
+    if (m.at > directory_at_ || directory_at_ - m.at < member_size) misfit();
+    const char* const header = in_.begin() + m.at;
+    const std::uint64_t name_size = field16(header, 26);
+    const std::uint64_t before = member_size + name_size + field16(header, 28);
+    if (field32(header, 0) != member_mark || directory_at_ - m.at < before) misfit();
+    if (directory_at_ - m.at - before < m.packed) misfit();
+    const auto differs = [&](std::uint64_t at, std::uint64_t value) {
+        const std::uint32_t here = field32(header, at);
+        return here != 0 && here != elsewhere32 && here != value;
+    };
+    if (package_name({header + member_size, name_size}) != package_name(name) ||
+        field16(header, 8) != m.method || differs(14, m.checksum) || differs(18, m.packed) ||
+        differs(22, m.size))
+        misfit();
+    return {header + before, static_cast<std::size_t>(m.packed)};
+}
+
+std::string zip_archive::unpacked(std::string_view name, const member& m) const {
+    const std::string_view packed = packed_bytes(name, m);
+    if (m.method == 0) {
+        if (m.size != m.packed) fail(name, "is stored in other than the bytes announced");
+        return std::string(packed);
+    }
+    std::string bytes;
+    // Text of numbers becomes a fifth to a tenth when packed.
+    bytes.reserve(static_cast<std::size_t>(std::min(m.size, m.packed * 10)));
+    if (!inflater().unpack(packed, m.size, bytes))
+        fail(name,
+             "cannot be unpacked to the " + std::to_string(m.size) + " bytes announced: damaged");
+    return bytes;
+}
+
 std::string zip_archive::read(std::string_view name) {
     const auto found = members_.find(package_name(name));
     if (found == members_.end()) fail(name, "is not in the archive");
     const member& m = found->second;
     check(name, m);
-    const unz64_file_pos place{.pos_in_zip_directory = m.directory_place, .num_of_file = m.number};
-    if (unzGoToFilePos64(file_, &place) != UNZ_OK || unzOpenCurrentFile(file_) != UNZ_OK)
-        fail(name, "its header does not fit the directory of the archive");
-    std::string bytes;
-    // Text of numbers becomes a fifth to a tenth when packed.
-    bytes.reserve(static_cast<std::size_t>(std::min(m.size, m.packed * 10)));
-    std::vector<char> piece(std::size_t{1} << 18);
-    int got = 0;
-    while ((got = unzReadCurrentFile(file_, piece.data(), static_cast<unsigned>(piece.size()))) >
-           0) {
-        if (static_cast<std::uint64_t>(got) > m.size - bytes.size()) break;
-        bytes.append(piece.data(), static_cast<std::size_t>(got));
-    }
-    const int closed = unzCloseCurrentFile(file_);
-    if (got < 0) fail(name, "cannot be unpacked: damaged");
-    if (bytes.size() != m.size)
-        fail(name, "unpacks to other than the " + std::to_string(m.size) + " bytes announced");
-    if (closed != UNZ_OK) fail(name, "its checksum does not fit: damaged");
+    std::string bytes = unpacked(name, m);
+    if (checksum_of(bytes) != m.checksum) fail(name, "its checksum does not fit: damaged");
     return bytes;
 }
 

@@ -12,7 +12,9 @@
 
 namespace treeform::detail::io {
 
-/// What an archive holds, as its directory says; each member is checked when it is read.
+/// What an archive holds, as its directory says; each member is checked when it is read. Sizes may
+/// have 64 bits (ZIP64) and may stand behind the bytes of a member, as where it was streamed: the
+/// directory has them all.
 ///
 /// Names are those of a package (OPC): without a leading slash, and alike in capitals and small
 /// letters.
@@ -23,9 +25,6 @@ class zip_archive {
     /// \throws io_error unless `in` is an archive whose names are relative, lead nowhere but down
     ///         and differ from each other
     explicit zip_archive(const source& in);
-    zip_archive(const zip_archive&) = delete;
-    zip_archive& operator=(const zip_archive&) = delete;
-    ~zip_archive();
 
     [[nodiscard]] bool holds(std::string_view name) const;
 
@@ -38,23 +37,30 @@ class zip_archive {
 
   private:
     struct member {
-        std::uint64_t directory_place;
-        std::uint64_t number;
-        std::uint64_t packed;
-        std::uint64_t size;
-        std::uint32_t flags;
-        std::uint32_t method;
+        std::uint64_t at = 0;  ///< of its own header
+        std::uint64_t packed = 0;
+        std::uint64_t size = 0;
+        std::uint32_t checksum = 0;
+        std::uint32_t flags = 0;
+        std::uint32_t method = 0;
     };
-    struct stream;
+    struct directory {
+        std::uint64_t at = 0;
+        std::uint64_t size = 0;
+        std::uint64_t count = 0;
+    };
 
-    void list();
-    void add_current();
+    [[nodiscard]] directory find_directory() const;
+    [[nodiscard]] directory find_large_directory(std::uint64_t end) const;
+    void list(const directory& all);
+    [[nodiscard]] std::uint64_t add_member(std::uint64_t at, std::uint64_t end);
     void check(std::string_view name, const member& m);
+    [[nodiscard]] std::string_view packed_bytes(std::string_view name, const member& m) const;
+    [[nodiscard]] std::string unpacked(std::string_view name, const member& m) const;
     [[noreturn]] void fail(std::string_view name, std::string_view reason) const;
 
     const source& in_;
-    stream* stream_ = nullptr;
-    void* file_ = nullptr;                     ///< of the library behind it
+    std::uint64_t directory_at_ = 0;
     std::map<std::string, member> members_{};  ///< by their names in small letters
     std::uint64_t packed_read_ = 0;
 };

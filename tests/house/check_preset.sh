@@ -20,7 +20,7 @@ packages=(g++ cmake ninja-build pkg-config ccache clang clang-format libclang-rt
     libtbb-dev libhwy-dev libassimp-dev libcli11-dev nlohmann-json3-dev
     libpugixml-dev libminizip-dev libssl-dev zlib1g-dev
     libopenmpi-dev openmpi-bin
-    admesh doctest-dev libfmt-dev libcgal-dev libgmp-dev libmpfr-dev libeigen3-dev python3
+    admesh lib3mf-dev openscad-testing-data doctest-dev libfmt-dev libcgal-dev libgmp-dev libmpfr-dev libeigen3-dev python3
     python3-dev python3-pybind11 pybind11-dev python3-numpy python3-scipy python3-setuptools
     python3-pytest python3-hypothesis python3-tqdm python3-wheel python3-build python3-venv mypy
     patchelf chromium doxygen esbuild fish groff man-db zsh)
