@@ -30,8 +30,9 @@ face_looks::face_looks(const mesh_file& file) {
     auto of_points = color_columns(file, "vertex");
     const bool named =
         std::any_of(parts.begin(), parts.end(), [](const part& p) { return !p.material.empty(); });
-    leaves_out_points_ = named && of_faces.empty() && !of_points.empty();
-    if (leaves_out_points_ || !of_faces.empty()) of_points.clear();
+    leaves_out_points_ = (named || !of_faces.empty()) && !of_points.empty();
+    if (leaves_out_points_) of_points.clear();
+    lacks_colors_ = named && of_faces.empty() && !file.attributes.material_files.empty();
     if (!named && of_faces.empty() && of_points.empty()) return;
     const std::string nameless;
     std::size_t next = 0;

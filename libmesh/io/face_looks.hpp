@@ -36,8 +36,10 @@ class face_looks {
     /// Names and colors, in the order in which triangles first have them.
     [[nodiscard]] const auto& materials() const { return materials_; }
     [[nodiscard]] const std::vector<std::uint32_t>& colors() const { return colors_; }
-    /// Whether points have colors, and faces none, that are not among these.
+    /// Whether points have colors that are not among these.
     [[nodiscard]] bool leaves_out_points() const { return leaves_out_points_; }
+    /// Whether the colors of materials are in files of which nothing is known here.
+    [[nodiscard]] bool lacks_colors() const { return lacks_colors_; }
 
   private:
     [[nodiscard]] std::uint32_t color_entry(std::uint32_t color);
@@ -50,6 +52,7 @@ class face_looks {
     std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> number_of_material_{};
     std::map<std::uint32_t, std::uint32_t> number_of_color_{};
     bool leaves_out_points_ = false;
+    bool lacks_colors_ = false;
 };
 
 }  // namespace treeform::detail::io

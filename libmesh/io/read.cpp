@@ -1,5 +1,6 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
+#include <libmesh/io/material_colors.hpp>
 #include <libmesh/io/readers.hpp>
 #include <treeform/mesh/read.hpp>
 
@@ -8,6 +9,12 @@
 namespace treeform {
 
 namespace {
+
+[[nodiscard]] mesh_file read_obj(const detail::io::source& in, const std::filesystem::path& path) {
+    mesh_file file = detail::io::read_obj(in);
+    detail::io::add_material_colors(file, path);
+    return file;
+}
 
 [[nodiscard]] mesh_file read(const detail::io::source& in, const std::filesystem::path& path,
                              std::string_view format, const std::string& extension) {
@@ -19,7 +26,7 @@ namespace {
         case detail::io::file_kind::stl_text:
             return detail::io::read_stl_text(in);
         case detail::io::file_kind::obj:
-            return detail::io::read_obj(in);
+            return read_obj(in, path);
         case detail::io::file_kind::ply:
             return detail::io::read_ply(in);
         case detail::io::file_kind::off:

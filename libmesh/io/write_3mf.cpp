@@ -99,7 +99,13 @@ class model_writer {
         drain();
         if (looks_.leaves_out_points())
             job_.result.warnings.push_back(
-                {"colors-dropped", "colors of points left out: their faces have materials"});
+                {"colors-dropped",
+                 "colors of points left out: their faces have colors or materials"});
+        if (looks_.lacks_colors())
+            job_.result.warnings.push_back(
+                {"materials",
+                 "materials are written in white: " + job_.file.attributes.material_files[0] +
+                     ", which has their colors, was not read"});
     }
 
   private:

@@ -27,7 +27,9 @@ namespace treeform {
 /// Coordinates are as stored: float32 widened to double, decimal text rounded once to the nearest
 /// double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
 ///
-/// - OBJ: `vt` and `vn` are in `attributes::corners`.
+/// - OBJ: `vt` and `vn` are in `attributes::corners`. The material files that it names are read where
+///   they are there and the OBJ has a path: the diffuse colors of its materials become columns red,
+///   green, blue and, where one is not opaque (`d`), alpha of faces; faces without one are white.
 /// - STL: a binary file with a wrong count of triangles is read where all of it is whole triangles,
 ///   and one with bytes behind those of the header. Text may have zero bytes between words, and
 ///   words after `endloop` and `endfacet`. `mesh_file::warnings` says so.
