@@ -18,6 +18,7 @@ enum class slot_name : std::size_t {
     closest_triangles,
     joined_corners,
     closed,
+    facing,
     examined_operand,
     leaf_blocks,
     count

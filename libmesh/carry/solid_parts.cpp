@@ -64,12 +64,12 @@ solid_part with_own_points(mesh_view whole, scene_part&& from) {
 
 }  // namespace
 
-std::vector<solid_part> solid_parts(const carry_source& input) {
+std::vector<scene_part> surface_parts(const carry_source& input) {
     const mesh_view whole = input.file->mesh;
     std::vector<std::uint32_t> stored;
     for (std::uint32_t f = 0; f < whole.faces.size(); ++f) stored.push_back(input.stored_face(f));
     std::vector<scene_part> named = scene_parts(whole, input.file->attributes.parts, stored);
-    if (named.size() < 2) return {};
+    if (named.size() < 2) return named;
 
     base::union_find sets(named.size());
     const std::vector<part_edge> open = open_edges(whole, named);
@@ -83,13 +83,16 @@ std::vector<solid_part> solid_parts(const carry_source& input) {
         named[part].faces.clear();
     }
     std::erase_if(named, [](const scene_part& part) { return part.faces.empty(); });
-    if (named.size() < 2) return {};
+    for (scene_part& part : named) std::ranges::sort(part.faces);
+    return named;
+}
 
+std::vector<solid_part> solid_parts(const carry_source& input) {
     std::vector<solid_part> parts;
-    for (scene_part& part : named) {
-        std::ranges::sort(part.faces);
-        parts.push_back(with_own_points(whole, std::move(part)));
-    }
+    std::vector<scene_part> named = surface_parts(input);
+    if (named.size() < 2) return parts;
+    for (scene_part& part : named)
+        parts.push_back(with_own_points(input.file->mesh, std::move(part)));
     return parts;
 }
 

@@ -1,5 +1,5 @@
 #include <libmesh/base/used_points.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <libmesh/carry/solid_parts.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
 
@@ -9,11 +9,8 @@ namespace treeform {
 
 std::vector<file_part> split_parts(const carry_source& source) {
     const mesh_file& whole = *source.file;
-    const mesh joined = join_equal_points(whole.mesh);
-    std::vector<std::uint32_t> stored;
-    for (std::uint32_t f = 0; f < joined.faces.size(); ++f) stored.push_back(source.stored_face(f));
     std::vector<file_part> parts;
-    for (scene_part& of : scene_parts(joined, whole.attributes.parts, stored)) {
+    for (scene_part& of : detail::carry::surface_parts(source)) {
         file_part part{.name = std::move(of.name)};
         part.file.mesh = select_faces(whole.mesh, of.faces);
         part.file.stored_faces = of.faces.size();
@@ -23,7 +20,7 @@ std::vector<file_part> split_parts(const carry_source& source) {
         std::vector<face> kept;
         for (const std::uint32_t f : of.faces) {
             kept.push_back(whole.mesh.faces[f]);
-            part.stored_face.push_back(stored[f]);
+            part.stored_face.push_back(source.stored_face(f));
         }
         carry(part.file, source, of.faces,
               detail::base::used_points(whole.mesh.points.size(), kept));

@@ -1,22 +1,29 @@
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace treeform {
 namespace {
 
-/// The cofactors of the linear part, which is how normals go.
+/// The cofactors of the linear part, which is how normals go; against them by a mirror, so that what
+/// looked outward still does.
 transform<3> of_normals(const transform<3>& m) {
+    const double sign = mirrors(m) ? -1.0 : 1.0;
     transform<3> result;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
             const auto& r = m.rows[(i + 1) % 3];
             const auto& s = m.rows[(i + 2) % 3];
-            result.rows[i][j] = r[(j + 1) % 3] * s[(j + 2) % 3] - r[(j + 2) % 3] * s[(j + 1) % 3];
+            result.rows[i][j] =
+                sign * (r[(j + 1) % 3] * s[(j + 2) % 3] - r[(j + 2) % 3] * s[(j + 1) % 3]);
         }
     return result;
 }
@@ -67,7 +74,29 @@ void turn_columns(element& e, const transform<3>& turn) {
     }
 }
 
+/// Faces, or numbers of their corners, with the second and the last corner of each polygon exchanged
+/// and those between: it is a fan around its first corner, and stays one.
+void turn_over(std::vector<face>& corners, const std::vector<std::uint32_t>& stored_face) {
+    for (face& f : corners) std::swap(f[1], f[2]);
+    for (std::size_t first = 0, end = 0; first < stored_face.size() && !corners.empty();
+         first = end) {
+        while (end < stored_face.size() && stored_face[end] == stored_face[first]) ++end;
+        std::reverse(corners.begin() + static_cast<std::ptrdiff_t>(first),
+                     corners.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+}
+
 }  // namespace
+
+void transform_file(mesh_file& file, const transform<3>& by) {
+    for (point3& p : file.mesh.points) p = by(p);
+    transform_normals(file, by);
+    if (!mirrors(by)) return;
+    corner_values& corners = file.attributes.corners;
+    for (auto* const of_faces :
+         {&file.mesh.faces, &corners.texture_of_corner, &corners.normal_of_corner})
+        turn_over(*of_faces, file.stored_face);
+}
 
 void transform_normals(mesh_file& file, const transform<3>& by) {
     if (only_shifts(by)) return;  // else last digits would change

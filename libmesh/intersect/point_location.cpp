@@ -192,18 +192,36 @@ bool detail::intersect::is_closed(const prepared_mesh& mesh) {
         mesh, slot, [&] { return !find_open_edge(weld::join_faces(mesh).of(mesh.view())); });
 }
 
-point_location detail::intersect::point_locator::locate(const point3& point) const {
-    if (!base::is_finite(point)) refuse("locate: the point is not finite");
+namespace {
+
+template <class Counts>
+point_location located(mesh_view mesh, const tree<3>& faces, const point3& point,
+                       const Counts& counts) {
+    if (!is_finite(point)) refuse("locate: the point is not finite");
     constexpr double infinite = std::numeric_limits<double>::infinity();
     tally found;
-    visit_along(*tree_, ray<double, 3>{{point.x, point.y, point.z}, {1, 0, 0}},
+    visit_along(faces, ray<double, 3>{{point.x, point.y, point.z}, {1, 0, 0}},
                 [&](std::uint32_t id) {
-                    const face& f = mesh_.faces[id];
-                    count_face({mesh_.points[f[0]], mesh_.points[f[1]], mesh_.points[f[2]]}, point,
-                               id, found);
+                    const face& f = mesh.faces[id];
+                    if (counts(id))
+                        count_face({mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]}, point,
+                                   id, found);
                     return infinite;
                 });
     return found.result();
+}
+
+}  // namespace
+
+point_location detail::intersect::point_locator::locate(const point3& point) const {
+    return located(mesh_, *tree_, point, [](std::uint32_t) { return true; });
+}
+
+std::optional<std::int32_t> detail::intersect::point_locator::winding_of(
+    const point3& point, function_ref<bool(std::uint32_t)> counts) const {
+    const point_location found = located(mesh_, *tree_, point, counts);
+    if (found.where == location::boundary) return std::nullopt;
+    return found.winding;
 }
 
 std::vector<point_location> detail::intersect::point_locator::locate(

@@ -5,8 +5,11 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/tree.hpp>
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +25,10 @@ class TREEFORM_API point_locator {
 
     /// \throws std::invalid_argument when a coordinate is not finite; likewise below
     [[nodiscard]] point_location locate(const point3& point) const;
+    /// How often the faces that `counts` names, which are closed, wind around the point; none where
+    /// one of them holds it.
+    [[nodiscard]] std::optional<std::int32_t> winding_of(
+        const point3& point, function_ref<bool(std::uint32_t)> counts) const;
     /// [P]
     [[nodiscard]] std::vector<point_location> locate(std::span<const point3> points) const;
 

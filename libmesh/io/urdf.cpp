@@ -345,8 +345,10 @@ robot_parts parts_of(const urdf_robot& robot,
         mesh& to = of_link[one.link];
         const auto first = static_cast<std::uint32_t>(to.points.size());
         for (const point3& p : from.points) to.points.push_back(one.place(p));
-        for (const auto& [a, b, c] : from.faces)
-            to.faces.push_back({first + a, first + b, first + c});
+        const bool turned = mirrors(one.place);
+        for (const face& f : from.faces)
+            to.faces.push_back(
+                {first + f[0], first + f[turned ? 2 : 1], first + f[turned ? 1 : 2]});
     }
     constexpr std::uint32_t none = 0xFFFFFFFFU;
     robot_parts made;

@@ -3,6 +3,7 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/place/facing.hpp>
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/sweep_among.hpp>
@@ -246,9 +247,10 @@ class clearing {
         point3 all{};
         for (std::size_t i = 0; i < parts_.size(); ++i)
             for (const face_pair& pair : touching_pairs(i)) {
-                const auto out_of_b = normal_of(parts_[i].mesh(), pair.b);
+                auto out_of_b = normal_of(parts_[i].mesh(), pair.b);
                 auto out_of_a = normal_of(a_, pair.a);
-                if (out_of_a) out_of_a = scaled(*out_of_a, -1.0);
+                if (out_of_b && looks_inward(parts_[i], pair.b)) out_of_b = scaled(*out_of_b, -1.0);
+                if (out_of_a && !looks_inward(shape_, pair.a)) out_of_a = scaled(*out_of_a, -1.0);
                 for (const auto& d : {out_of_b, out_of_a}) {
                     if (d) all = plus(all, *d);
                     if (found.size() < most) offer(d);

@@ -1,5 +1,6 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
+#include <libmesh/place/facing.hpp>
 #include <libmesh/place/point_sides.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -26,8 +27,7 @@ plane_points plane_of(mesh_view mesh, std::uint32_t f) {
     return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
 }
 
-/// The first face that passes through one of the other mesh, or that lies on one facing the same
-/// way.
+/// The first face that passes through one of the other mesh.
 std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
                                         const progress_callback& progress) {
     if (a.whose().is_cloud() || b.whose().is_cloud()) return std::nullopt;  // points only touch
@@ -41,15 +41,22 @@ std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
     return std::nullopt;
 }
 
-std::optional<face_pair> same_facing_faces(const shape& a, const shape& b,
+/// Faces of closed meshes that lie on each other with what is inside on the same side.
+std::optional<face_pair> faces_on_one_side(const shape& a, const shape& b,
                                            const progress_callback& progress) {
     mesh_intersection_options options;
     options.kinds = pair_kind::overlap;
     options.progress = progress;
     const auto found =
         detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
-    for (const face_pair& pair : found.pairs)
-        if (normal_dot(plane_of(a.mesh(), pair.a), plane_of(b.mesh(), pair.b)) > 0) return pair;
+    for (const face_pair& pair : found.pairs) {
+        const auto of_a = detail::place::sides_beside(a, pair.a);
+        const auto of_b = detail::place::sides_beside(b, pair.b);
+        const bool alike = normal_dot(plane_of(a.mesh(), pair.a), plane_of(b.mesh(), pair.b)) > 0;
+        const bool before = alike ? of_b.front : of_b.behind;
+        const bool beyond = alike ? of_b.behind : of_b.front;
+        if ((of_a.front && before) || (of_a.behind && beyond)) return pair;
+    }
     return std::nullopt;
 }
 
@@ -133,7 +140,7 @@ mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
         result.face_a = touch.pairs[0].a;
         result.face_b = touch.pairs[0].b;
         if (a.closed() && b.closed()) {
-            const auto pair = same_facing_faces(a, b, work.part(0.6, 0.8));
+            const auto pair = faces_on_one_side(a, b, work.part(0.6, 0.8));
             if (work.cancelled()) return cancelled;
             if (pair) return penetrating(pair->a, pair->b);
         }

@@ -21,10 +21,11 @@ class shape {
     explicit shape(const prepared_mesh& mesh,
                    vertex_identity vertices = vertex_identity::by_coordinates)
         : whose_(&mesh), points_(mesh.view().points), vertices_(vertices) {}
-    /// `mesh` with its points `there`. \pre `faces` is `build_face_tree` of that
+    /// `mesh` with its points `there`, moved or, if so, mirrored.
+    /// \pre `faces` is `build_face_tree` of that
     shape(const prepared_mesh& mesh, points_view there, const tree<3>& faces,
-          vertex_identity vertices = vertex_identity::by_coordinates)
-        : whose_(&mesh), points_(there), faces_(&faces), vertices_(vertices) {}
+          vertex_identity vertices = vertex_identity::by_coordinates, bool mirrored = false)
+        : whose_(&mesh), points_(there), faces_(&faces), vertices_(vertices), mirrored_(mirrored) {}
 
     [[nodiscard]] mesh_view mesh() const { return {points_, whose_->view().faces}; }
     [[nodiscard]] const tree<3>& faces() const {
@@ -35,6 +36,7 @@ class shape {
     /// Whether each edge has as many faces one way as the other (`find_open_edge`).
     [[nodiscard]] bool closed() const;
     [[nodiscard]] vertex_identity vertices() const { return vertices_; }
+    [[nodiscard]] bool mirrored() const { return mirrored_; }
     [[nodiscard]] const prepared_mesh& whose() const { return *whose_; }
 
   private:
@@ -42,6 +44,7 @@ class shape {
     points_view points_;
     const tree<3>* faces_ = nullptr;
     vertex_identity vertices_;
+    bool mirrored_ = false;
 };
 
 /// \throws std::invalid_argument naming the lowest face of `mesh` with a corner out of range or

@@ -37,6 +37,8 @@ static void test_change(void) {
     const float heat[4] = {1, 2, 3, 4};
     const double uv[6] = {0, 0, 0, 1, 1, 0};
     const double turned[12] = {0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0};
+    const double mirror[12] = {-1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0};
+    const double nowhere[12] = {HUGE_VAL, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     const uint32_t of_corner[6] = {0, 1, 1, 0, 1, TREEFORM_NONE};
     const uint32_t wrong[6] = {0, 1, 2, 0, 1, 1};
     treeform_file* file = NULL;
@@ -58,6 +60,9 @@ static void test_change(void) {
     OK(treeform_file_add_text(file, TREEFORM_COMMENT, "turned"));
     INVALID("what is 9", treeform_file_add_text(file, 9, "turned"));
     OK(treeform_file_turn_normals(file, turned));
+    OK(treeform_file_transform(file, mirror));
+    OK(treeform_file_transform(file, mirror));
+    INVALID("not finite", treeform_file_transform(file, nowhere));
     OK(treeform_file_round_to_float32(file, &furthest));
     CHECK(furthest == 0.0);
     OK(treeform_file_round_to_las(file, &furthest));

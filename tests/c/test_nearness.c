@@ -54,6 +54,9 @@ static void test_inside(void) {
     CHECK(where[0] == 1 && where[1] == 0 && where[2] == 1);
     OK(treeform_winding_number(solid, points, 3, winding));
     CHECK(winding[0] == 1 && winding[1] == 0);
+    OK(treeform_count_inside_out(solid, counts));
+    CHECK(counts[0] == 0);
+    INVALID("count is null", treeform_count_inside_out(solid, NULL));
     solids[0] = solid;
     OK(treeform_count_sides(points, 3, solids, 1, counts));
     CHECK(counts[0] == 1 && counts[1] == 1 && counts[2] == 1);

@@ -49,7 +49,7 @@ HOME_OF_PACKAGE = {
     r"Eigen/": "libmesh/place/",
     r"mpi\.h": "tools/mpi/mpi_team.cpp",
     r"openssl/": "tools/common/sha256.cpp",
-    r"(CGAL/|gmp|mpfr)": "tests/",
+    r"(CGAL/|gmp|mpfr|lib3mf|Model/COM)": "tests/",
 }
 READS_FILES = ("stream", "carry")  # besides tools and tests, only these rooms know of `io`
 

@@ -26,6 +26,7 @@ TAKES = {
     "check_poses": {"parts": [CUBE, FAR], "poses": np.tile(np.eye(4), (3, 2, 1, 1))},
     "check_solid": ONE, "clash": {"parts": [CUBE, FAR]}, "closest_point": AT, "closest_points": TWO,
     "clip": {"sheet": CUBE}, "contains": AT, "convex_hull": {"points": POINTS},
+    "count_inside_out": ONE,
     "count_nearly_equal": {"points": POINTS, "distance": 0.1}, "count_topology": ONE,
     "deviation": TWO, "distance": TWO, "drop": ONTO, "face_components": ONE,
     "faces_in_box": {"mesh": CUBE, "min": [0, 0, 0], "max": [1, 1, 1]}, "find_defects": ONE,

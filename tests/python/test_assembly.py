@@ -75,6 +75,26 @@ def test_parts_of_an_assembly():
         tf.clash(parts, -1.0)
 
 
+def test_what_is_inside_out_is_the_same_solid():
+    turned = tf.Mesh(CUBE.vertices + [0.5, 0, 0], CUBE.faces[:, ::-1])
+    assert (tf.count_inside_out(turned), tf.count_inside_out(CUBE)) == (1, 0)
+    assert tf.count_inside_out(tf.Mesh(CUBE.vertices, CUBE.faces[1:, ::-1])) == 0
+    one, = tf.clash([CUBE, turned]).pairs
+    assert one.how == "penetrating" and one.volume == 0.5
+    assert tf.measure(CUBE, turned).relation == "penetrating"
+    assert tf.contains(turned, [[1, 0.5, 0.5], [0.25, 0.5, 0.5]]).tolist() == [True, False]
+    poses = matrices([[0, 0, 0], [0.5, 0, 0], [0, 0, 0], [1, 0, 0]]).reshape(2, 2, 4, 4)
+    assert tf.check_poses([turned, CUBE], poses).in_collision(2).all()
+    poses[:, 1, 0] = [[-1, 0, 0, 1.5], [-1, 0, 0, 2.5]]  # a mirror, from 0.5 to 1.5, or from 1.5
+    assert tf.check_poses([turned, CUBE], poses).in_collision(2).tolist() == [True, False]
+
+
+def test_a_mirror_turns_faces_over():
+    mirror = np.diag([-1.0, 1, 1, 1])
+    found = tf.align(SPHERES, SPHERES, start=mirror, max_iterations=1)
+    assert np.linalg.det(found.matrix[:3, :3]) < 0 and found.mesh.volume > 0
+
+
 def test_poses_are_as_one_by_one():
     rng = np.random.default_rng(2)
     parts = [sphere(2), CUBE, box([0, 0, 0], [2, 0.5, 0.5])]

@@ -91,6 +91,7 @@ def test_a_bar_of_tqdm_will_do():
     lambda p: tf.closest_points(CUBE, SPHERES, progress=p),
     lambda p: tf.find_features(CUBE, progress=p), lambda p: tf.find_defects(CUBE, progress=p),
     lambda p: tf.count_topology(CUBE, progress=p), lambda p: tf.face_components(CUBE, progress=p),
+    lambda p: tf.count_inside_out(CUBE, progress=p),
     lambda p: tf.faces_in_box(CUBE, [0] * 3, [1] * 3, progress=p),
     lambda p: tf.intersection_curves(SPHERES, tf.self_intersections(SPHERES), progress=p),
     lambda p: tf.intersection_regions(SPHERES, tf.self_intersections(SPHERES), progress=p),

@@ -1,4 +1,5 @@
 #include "tools/assembly/assembly.hpp"
+#include "tools/assembly/measured.hpp"
 #include "tools/assembly/pose_file.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
@@ -158,6 +159,8 @@ exit_status check_all(job& work, const assembly_settings& settings) {
          {"results", or_null(!settings.results.empty(), settings.results.string())}});
     check_output(settings.results, work.options.force);
     const movable all = read_parts(work, settings);
+    for (std::size_t i = 0; i < all.names.size(); ++i)
+        warn_of_inside_out(work, all.shapes[i], all.names[i]);
     auto ignored = ignored_pairs(work, settings, all.names);
     ignored.insert(ignored.end(), all.adjacent.begin(), all.adjacent.end());
     tf::pose_options options;

@@ -1,4 +1,5 @@
 #include "tools/assembly/assembly.hpp"
+#include "tools/assembly/measured.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
 #include <treeform/mesh/carry.hpp>
@@ -187,6 +188,9 @@ exit_status clash_all(job& work, const assembly_settings& settings) {
     entry["skipped"].update({{"pairs_ignored", found.ignored},
                              {"pairs_culled_by_box", found.boxes_apart},
                              {"parts_not_indexed", all.names.size() - found.parts_indexed}});
+    for (std::size_t i = 0; i < all.names.size(); ++i)  // others are apart, whatever is inside
+        if (all.set.shapes[i].indexes_built() > 0)
+            warn_of_inside_out(work, all.set.shapes[i], all.names[i]);
     say(work, all, found);
     write_parts(work, all, found);
     write_page(work, all, found, totals(all, found));

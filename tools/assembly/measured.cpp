@@ -4,6 +4,7 @@
 #include "tools/common/output_file.hpp"
 #include "tools/common/parse_value.hpp"
 #include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>
@@ -108,6 +109,20 @@ std::string sentence(const tf::deviation_result& r, const deviation_settings& se
 }
 
 }  // namespace
+
+void warn_of_inside_out(job& work, const tf::prepared_mesh& body, const std::string& name) {
+    const std::uint64_t count = tf::count_inside_out(body);
+    if (count == 0) return;
+    const auto components =
+        tf::count_topology(body.view().points.size(), body.view().faces).components_by_edge;
+    work.warn(
+        "inside-out",
+        name + ": " +
+            (components == 1 ? "is inside out"
+                             : grouped(count) + " of " + grouped(components) + " components " +
+                                   (count == 1 ? "is" : "are") + " inside out") +
+            ": its faces look inward; taken for the solid that they bound");
+}
 
 void add_deviation_options(command_line& line, deviation_settings& settings) {
     line.output(settings.distances, {"--distances", "FILE",

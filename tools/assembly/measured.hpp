@@ -13,6 +13,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace tools {
 
@@ -22,6 +23,9 @@ struct deviation_settings {
 
     [[nodiscard]] bool wanted() const { return !distances.empty() || band.has_value(); }
 };
+
+/// Says where a body is inside out, in whole or in part: `name` is its name.
+void warn_of_inside_out(job& work, const tf::prepared_mesh& body, const std::string& name);
 
 void add_deviation_options(command_line& line, deviation_settings& settings);
 

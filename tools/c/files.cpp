@@ -283,6 +283,15 @@ treeform_code treeform_file_round_to_float32(treeform_file* file, double* moved)
     });
 }
 
+treeform_code treeform_file_transform(treeform_file* file, const double* matrix) {
+    return glue::guard([&] {
+        tf::mesh_file& to = glue::need(file, "file").content;
+        const tf::transform<3> by = glue::matrix(&glue::need(matrix, "matrix"));
+        if (!by.finite()) throw std::invalid_argument("the matrix is not finite");
+        tf::transform_file(to, by);
+    });
+}
+
 treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix) {
     return glue::guard([&] {
         tf::mesh_file& to = glue::need(file, "file").content;

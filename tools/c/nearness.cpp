@@ -199,6 +199,13 @@ treeform_code treeform_penetration_depth(const treeform_mesh* a, const treeform_
     });
 }
 
+treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* count) {
+    return glue::guard([&] {
+        (void)glue::need(count, "count");
+        *count = glue::asked(mesh, [](const auto& m) { return tf::count_inside_out(m); });
+    });
+}
+
 treeform_code treeform_count_sides(const double* points, size_t count,
                                    const treeform_mesh* const* solids, size_t solid_count,
                                    uint64_t counts[3]) {

@@ -68,8 +68,9 @@ void add_options(command_line& line, boolean_settings& s) {
     line.group("Options");
     line.option(s.expression, {"--expr", "EXPR",
                                "instead of OP, such as \"(a-b)*(c+d)\"; a is INPUT 1;\n"
-                               "+ | union, * & intersection, -, ^ exclusive or; or\n"
-                               "names of parts, \"body-(bolt_1+'left bolt')\""});
+                               "+ | union, * & intersection, -, ^ exclusive or; of\n"
+                               "one INPUT, a is its first object; or names of\n"
+                               "parts, \"body-(bolt_1+'left bolt')\""});
     line.repeatable_option(s.matrix_texts,
                            {"--matrix", "N:FILE", "4x4 matrix for INPUT N (repeatable)"});
     line.option(s.inside,
@@ -114,6 +115,11 @@ const char* const epilogue =
     "are not merged if --source is given, those with different properties only with\n"
     "--no-attributes, and where vertices have properties only with that or\n"
     "--simplify.\n"
+    "\n"
+    "The objects of one INPUT that stands alone are the operands, in order: build\n"
+    "items of a 3MF, objects and groups of an OBJ, nodes of a GLB, named solids of a\n"
+    "text STL. Those whose open edges coincide are pieces of one surface, and one\n"
+    "operand. The line says how many were taken, -v which.\n"
     "\n"
     "With --accept-open, one input may be an open surface: the first of a difference,\n"
     "any of an intersection, or one that the formula is not true without. What lies\n"
@@ -207,7 +213,7 @@ exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solid
     return tools::found;
 }
 
-exit_status operate(tools::job& work, const boolean_settings& s) {
+exit_status operate(tools::job& work, boolean_settings s) {
     tools::enter_blank_report(work, s);
     tools::check_outputs(work, {}, {s.curves});
     const std::vector<tools::solid> solids = tools::read_solids(work, s);

@@ -5,6 +5,7 @@
 #include "tools/common/matrix_file.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
@@ -26,8 +27,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     s.triangles = s.file.mesh.faces.size();
     if (!matrix_file.empty()) {
         const tf::transform<3> matrix = read_matrix(matrix_file);
-        for (tf::point3& p : s.file.mesh.points) p = matrix(p);
-        tf::transform_normals(s.file, matrix);
+        tf::transform_file(s.file, matrix);
         about["matrix"] = matrix_file.string();
     }
     s.triangle_of_face = tf::drop_unusable_faces(s.file.mesh);
@@ -65,6 +65,25 @@ void mend(job& work, solid& s, json& about) {
     s.face_in_file = std::move(made.face_source);
 }
 
+bool has_parts(const solid& whole, const std::vector<std::string>& names) {
+    const std::vector<tf::file_part> parts = tf::split_parts(whole.source());
+    return std::ranges::all_of(names, [&](const std::string& name) {
+        return std::ranges::find(parts, name, &tf::file_part::name) != parts.end();
+    });
+}
+
+/// `about` is that of the whole.
+solid solid_of(tf::file_part part, const solid& whole, json& about) {
+    about["part"] = part.name;
+    about["volume"] = tf::signed_volume(part.file.mesh);
+    about["faces"] = about["triangles"] = part.file.mesh.faces.size();
+    return {.path = whole.path,
+            .file = std::move(part.file),
+            .triangles = part.stored_face.size(),
+            .part = part.name,
+            .face_in_file = std::move(part.stored_face)};
+}
+
 /// The parts that the formula names, in place of the inputs that they are of.
 std::vector<solid> named_parts(job& work, const std::vector<std::string>& names,
                                const std::vector<solid>& wholes) {
@@ -77,20 +96,51 @@ std::vector<solid> named_parts(job& work, const std::vector<std::string>& names,
             all += (all.empty() ? "" : ", ") + part.name;
             if (at == names.size() || !named[at].path.empty()) continue;
             json& about = entries[at] = work.entry["inputs"][i];
-            about["part"] = part.name;
-            about["volume"] = tf::signed_volume(part.file.mesh);
-            about["faces"] = about["triangles"] = part.file.mesh.faces.size();
-            named[at] = {.path = wholes[i].path,
-                         .file = std::move(part.file),
-                         .triangles = part.stored_face.size(),
-                         .part = part.name,
-                         .face_in_file = std::move(part.stored_face)};
+            named[at] = solid_of(std::move(part), wholes[i], about);
         }
     for (std::size_t k = 0; k < names.size(); ++k)
         if (named[k].path.empty())
             refuse("--expr: no part is named " + names[k] + "; there are " + all);
     work.entry["inputs"] = std::move(entries);
     return named;
+}
+
+/// Whether the objects of one file are the operands. A union is of all that it has, and keeps their
+/// names; only what is inside out would be missing from it, where it overlaps others.
+bool takes_objects(const boolean_settings& settings, const std::vector<tf::file_part>& objects) {
+    if (objects.size() < 2) return false;
+    return settings.operation != "union" ||
+           std::ranges::any_of(objects, [](const tf::file_part& one) {
+               return tf::count_inside_out(one.file.mesh) > 0;
+           });
+}
+
+/// The objects of a file that stands alone, in order; else the file.
+std::vector<solid> objects_of(job& work, const boolean_settings& settings,
+                              std::vector<solid> solids) {
+    if (solids.size() != 1 || settings.check || settings.splits()) return solids;
+    const std::size_t names = solids[0].file.attributes.parts.size();
+    std::vector<tf::file_part> objects;
+    if (names > 1) objects = tf::split_parts(solids[0].source());
+    if (!takes_objects(settings, objects)) {
+        if (settings.operation != "union" && settings.expression.empty())
+            work.warn("one-operand",
+                      name_of(solids[0]) + ": is one operand" +
+                          (names > 1 ? ": its parts are pieces of one surface" : "") +
+                          "; its own overlaps are united");
+        return solids;
+    }
+    std::vector<solid> operands;
+    std::string all;
+    const json whole = work.entry["inputs"][0];
+    work.entry["inputs"] = json::array();
+    for (tf::file_part& one : objects) {
+        all += (all.empty() ? "" : ", ") + (one.name.empty() ? "(no name)" : one.name);
+        work.entry["inputs"].push_back(whole);
+        operands.push_back(solid_of(std::move(one), solids[0], work.entry["inputs"].back()));
+    }
+    work.out.info(name_of(solids[0]) + ": operands in order: " + all);
+    return operands;
 }
 
 void settle_textures(job& work, std::vector<solid>& solids) {
@@ -105,7 +155,7 @@ void settle_textures(job& work, std::vector<solid>& solids) {
 
 }  // namespace
 
-std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
+std::vector<solid> read_solids(job& work, boolean_settings& settings) {
     std::vector<solid> solids;
     for (std::size_t i = 0; i < work.options.inputs.size(); ++i) {
         const std::string& path = work.options.inputs[i];
@@ -122,7 +172,11 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
         solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
         tf::drop_source_columns(solids.back().file, settings.source);
     }
-    if (!settings.names.empty()) solids = named_parts(work, settings.names, solids);
+    if (solids.size() == 1 && !settings.names.empty() && has_letters_alone(settings) &&
+        !has_parts(solids[0], settings.names))
+        settings.names.clear();  // letters
+    solids = settings.names.empty() ? objects_of(work, settings, std::move(solids))
+                                    : named_parts(work, settings.names, solids);
     for (std::size_t i = 0; settings.repair && i < solids.size(); ++i)
         mend(work, solids[i], work.entry["inputs"][i]);
     if (!settings.check && !settings.no_attributes) settle_textures(work, solids);

@@ -21,7 +21,7 @@ struct solid {
     tf::mesh_file file{};
     std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
     std::uint64_t triangles = 0;                    ///< in the file
-    std::string part{};  ///< its name in the file, where the formula names parts
+    std::string part{};                             ///< its name in the file, of which it is a part
     /// Of a part and by --repair: the number in the file of each face, or `repair_result::none`.
     std::vector<std::uint32_t> face_in_file{};
 
@@ -37,9 +37,11 @@ struct solid {
     return name_of_input(s.path) + (s.part.empty() ? "" : ": " + s.part);
 }
 
-/// Reads and moves all inputs, takes the parts that the formula names, and mends what is to be
-/// mended; enters all that in the report. \throws failure
-[[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
+/// Reads and moves all inputs, takes the parts that the formula names, or the objects of an input
+/// that stands alone, and mends what is to be
+/// mended; enters all that in the report. Where letters of the formula are no names of parts, the
+/// settings lose these names. \throws failure
+[[nodiscard]] std::vector<solid> read_solids(job& work, boolean_settings& settings);
 
 [[nodiscard]] std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids);
 [[nodiscard]] std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids);

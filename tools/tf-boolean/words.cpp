@@ -11,7 +11,11 @@ namespace tools {
 std::string verdict(const job& work, const boolean_settings& settings,
                     const tf::boolean_result& result) {
     const json& volume = work.entry["output"]["volume"];
-    std::string text = settings.name() + ": " + counted(result.mesh.faces.size(), "face", "faces");
+    const std::size_t operands = work.entry["inputs"].size();
+    const bool of_objects = settings.names.empty() && operands > work.options.inputs.size();
+    std::string text = settings.name() +
+                       (of_objects ? " of its " + grouped(operands) + " objects" : "") + ": " +
+                       counted(result.mesh.faces.size(), "face", "faces");
     if (result.certificate && result.mesh.faces.empty()) return text + ", nothing is left";
     if (!volume.is_null() && !result.mesh.faces.empty() && std::isfinite(volume.get<double>()))
         text += ", volume " + brief(volume.get<double>());

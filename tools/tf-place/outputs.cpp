@@ -54,7 +54,7 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     for (const placed_body& at : placed) {
         tf::put_back(moving, at.number, at.points, at.matrix, precision);
         tf::body_file& file = moving.files[moving.bodies[at.number].file];
-        tf::transform_normals(file.content, at.all_moves);
+        tf::transform_normals(file.content, at.matrix);
         add(file);
     }
     std::for_each(fixed.files.begin(), fixed.files.end(), add);

@@ -33,8 +33,7 @@ const tf::body_file& checked(job& work, const tf::body_file& file) {
 const tf::body_file& add_moving(job& work, const std::string& path, tf::mesh_file file,
                                 const tf::transform<3>& start, tf::body_set& moving) {
     const auto timing = work.time("prepare");
-    if (start != tf::transform<3>{})
-        for (tf::point3& p : file.mesh.points) p = start(p);
+    if (start != tf::transform<3>{}) tf::transform_file(file, start);
     return checked(work, moving.add(std::move(file), name_of_input(path), stem_of(path)));
 }
 
@@ -185,6 +184,18 @@ void find_place(job& work, placing& p) {
     if (!p.at && p.reason.empty()) p.reason = p.at.message(p.fixed.labels()) + remedy_for(p.at);
 }
 
+/// Of what has been looked at: the others are apart, whatever is inside.
+void warn_of_inside_out(job& work, const placing& p) {
+    const auto look_at = [&](const tf::body_set& set) {
+        for (std::size_t i = 0; i < set.bodies.size(); ++i)
+            if (set.shapes[i].indexes_built() > 0)
+                warn_of_inside_out(work, set.shapes[i], set.label(i));
+    };
+    if (p.fixed.bodies.empty()) return;
+    look_at(p.moving);
+    look_at(p.fixed);
+}
+
 // ---- all on one plate ----
 
 tf::body_set read_all(job& work, const place_settings& settings, const tf::transform<3>& start) {
@@ -249,6 +260,7 @@ exit_status place_one(job& work, const place_settings& settings, fixed_meshes& f
     read_fixed(work, settings, settings.scene && p.precision == tf::precision::float32, fixed);
     enter_inputs(work.entry, file, fixed);
     find_place(work, p);
+    if (settings.mode != place_mode::fit) warn_of_inside_out(work, p);
     p.matrix = tf::after(p.at.matrix, start);
     enter_place(work.entry, p);
     say_place(work, p);

@@ -69,6 +69,23 @@ TEST_CASE("clash: boxes apart, touching and penetrating, with volume, depth and 
     CHECK(found.parts_indexed == 3);
 }
 
+TEST_CASE("clash: a part that is inside out penetrates with the same volume and depth") {
+    const tf::mesh a = box(1, 1, 1), b = moved(box(1, 1, 1), {0.5, 0, 0});
+    const auto expected = clash_of({a, b});
+    REQUIRE(expected.pairs.size() == 1);
+    REQUIRE(expected.pairs[0].how == standing::penetrating);
+    for (const auto& parts :
+         {std::vector{test::inside_out(a), b}, std::vector{a, test::inside_out(b)},
+          std::vector{test::inside_out(a), test::inside_out(b)}}) {
+        const auto found = clash_of(parts);
+        REQUIRE(found.pairs.size() == 1);
+        CHECK(found.pairs[0].how == standing::penetrating);
+        CHECK(found.pairs[0].volume == doctest::Approx(0.5));
+        CHECK(found.pairs[0].depth == expected.pairs[0].depth);
+        CHECK(found.clashes == 1);
+    }
+}
+
 TEST_CASE("clash: a part inside another one has no region, but a depth, a volume and a distance") {
     const auto found = clash_of({box(4, 4, 4), moved(box(1, 1, 1), {1, 1.25, 1.5})});
     REQUIRE(found.pairs.size() == 1);

@@ -11,6 +11,7 @@
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -126,6 +127,26 @@ TEST_CASE("poses: boxes on a lattice touch, overlap and lie on each other, exact
     // Not a motion: squeezed, mirrored, flat.
     for (motion& m : poses) m.rows[source.below(3)][source.below(3)] = source.in(-2, 2);
     check_by_moving(parts, poses, 0.0);
+}
+
+TEST_CASE("poses: a pose that mirrors a part makes no other solid of it") {
+    motion mirror;
+    mirror.rows[0] = {-1.0, 0.0, 0.0, 1.0};
+    const std::vector<tf::mesh> parts{
+        test::together(box(1, 1, 1), test::moved(box(1, 1, 1), {3, 0, 0})), box(1, 1, 1)};
+    const std::vector<motion> poses{
+        mirror, tf::translation<3>(tf::point3{0.5, 0, 0}),
+        mirror, tf::translation<3>(tf::point3{1, 0, 0}),
+        mirror, tf::translation<3>(tf::point3{-2.5, 0, 0}),
+        {},     tf::after(tf::translation<3>(tf::point3{0.5, 0, 0}), mirror)};
+    const auto found = tf::check_poses(test::prepared(parts), poses);
+    REQUIRE(found.poses.size() == 4);
+    const std::array expected{standing::penetrating, standing::touching, standing::penetrating,
+                              standing::penetrating};
+    for (std::size_t p = 0; p < 4; ++p) {
+        REQUIRE(found.poses[p].size() == 1);
+        CHECK(found.poses[p][0].how == expected[p]);
+    }
 }
 
 TEST_CASE("poses: ignored pairs, the first clash only, and counts") {

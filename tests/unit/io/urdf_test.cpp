@@ -193,6 +193,27 @@ TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame
     CHECK(parts.adjacent.empty());
 }
 
+TEST_CASE("urdf: a scale that mirrors turns faces over") {
+    const robot_folder folder;
+    const auto part_scaled_by = [&](const std::string& scale) {
+        const auto r = tf::read_urdf(folder.write(
+            robot("<link name=\"a\"><collision><geometry><mesh filename=\"meshes/a.stl\" scale=\"" +
+                  scale + "\"/></geometry></collision></link>")));
+        return tf::parts_of(r,
+                            [](const std::filesystem::path&) {
+                                tf::mesh tetrahedron;
+                                tetrahedron.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+                                tetrahedron.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+                                return tetrahedron;
+                            })
+            .parts.at(0);
+    };
+    for (const char* scale : {"2 2 1.5", "2 2 -1.5", "-2 -2 1.5", "-2 -2 -1.5"}) {
+        CAPTURE(scale);
+        CHECK(tf::signed_volume(part_scaled_by(scale)) == doctest::Approx(1.0));
+    }
+}
+
 TEST_CASE("urdf: boxes are exact, cylinders and spheres are closed meshes around them") {
     const robot_folder folder;
     const auto link = [](const std::string& shape) {

@@ -8,9 +8,11 @@
 #include <support/soups.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <vector>
 
 namespace {
 
@@ -60,6 +62,58 @@ TEST_CASE("relation: a body in a solid is inside it, in a cavity it is not") {
     // a second part of the one inside the other
     CHECK(between(together(small, moved(box(1, 1, 1), {50, 0, 0})), big) ==
           mesh_relation::penetrating);
+}
+
+TEST_CASE("relation: solids that are inside out are the same solids") {
+    test::random source(5);
+    std::array<std::size_t, 3> seen{};
+    for (int i = 0; i < 400; ++i) {
+        tf::mesh a = test::lattice_box(source), b = test::lattice_box(source);
+        if (i % 4 == 1)  // a hollow one
+            a = together(moved(box(5, 5, 5), {-1, -1, -1}), inside_out(a));
+        if (i % 4 == 2) a = test::unjoined(a);
+        if (i % 4 == 3) b = together(b, moved(test::lattice_box(source), {9, 0, 0}));
+        const mesh_relation how = between(a, b);
+        ++seen[static_cast<std::size_t>(how)];
+        CHECK(between(inside_out(a), b) == how);
+        CHECK(between(a, inside_out(b)) == how);
+        CHECK(between(inside_out(a), inside_out(b)) == how);
+    }
+    for (const std::size_t count : seen) CHECK(count > 10);
+}
+
+TEST_CASE("relation: of two components, each is taken the way it faces") {
+    const tf::mesh b = box(1, 1, 1);
+    const tf::mesh mixed = together(inside_out(b), moved(b, {3, 0, 0}));
+    CHECK(between(mixed, moved(b, {0.5, 0, 0})) == mesh_relation::penetrating);
+    CHECK(between(mixed, moved(b, {3.5, 0, 0})) == mesh_relation::penetrating);
+    CHECK(between(mixed, moved(b, {1, 0, 0})) == mesh_relation::touching);
+    CHECK(between(mixed, moved(b, {2, 0, 0})) == mesh_relation::touching);
+    // A shell in a shell that faces the same way: what is between them and within both is inside.
+    const tf::mesh twice = together(box(5, 5, 5), moved(box(3, 3, 3), {1, 1, 1}));
+    CHECK(between(twice, moved(b, {4, 1, 1})) == mesh_relation::penetrating);
+    CHECK(between(twice, moved(b, {1, 1, 1})) == mesh_relation::penetrating);
+    CHECK(between(twice, moved(b, {5, 1, 1})) == mesh_relation::touching);
+    CHECK(between(inside_out(twice), moved(b, {5, 1, 1})) == mesh_relation::touching);
+}
+
+TEST_CASE("count_inside_out: components that are, and are in no other one") {
+    const tf::mesh b = box(1, 1, 1), big = moved(box(5, 5, 5), {-2, -2, -2});
+    CHECK(tf::count_inside_out(tf::mesh{}) == 0);
+    CHECK(tf::count_inside_out(b) == 0);
+    CHECK(tf::count_inside_out(inside_out(b)) == 1);
+    CHECK(tf::count_inside_out(test::unjoined(inside_out(b))) == 1);
+    CHECK(tf::count_inside_out(together(big, inside_out(b))) == 0);  // a cavity
+    CHECK(tf::count_inside_out(inside_out(together(big, inside_out(b)))) == 1);
+    CHECK(tf::count_inside_out(together(b, moved(inside_out(b), {2, 0, 0}))) == 1);
+    CHECK(tf::count_inside_out(together(b, moved(inside_out(b), {1, 1, 1}))) == 1);  // by a corner
+    tf::mesh open = inside_out(b);
+    open.faces.pop_back();
+    CHECK(tf::count_inside_out(open) == 0);
+    CHECK(tf::count_inside_out(tf::prepared_mesh::cloud(std::vector(b.points))) == 0);
+    CHECK(tf::count_inside_out(moved(inside_out(b), {1e9, -1e9, 1e9})) == 1);
+    open.faces[0][0] = 99;
+    CHECK_THROWS_AS(static_cast<void>(tf::count_inside_out(open)), std::invalid_argument);
 }
 
 TEST_CASE("relation: an open sheet has no inside") {

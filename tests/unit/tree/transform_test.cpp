@@ -51,6 +51,24 @@ TEST_CASE("transform: `inverse` undoes a map, exactly where nothing is rounded")
     CHECK_THROWS_AS(static_cast<void>(tf::inverse(flat)), std::invalid_argument);
 }
 
+TEST_CASE("transform: mirrors where its determinant is negative") {
+    CHECK_FALSE(tf::mirrors(tf::transform<3>{}));
+    CHECK_FALSE(tf::mirrors(quarter_turn));
+    CHECK(tf::mirrors(tf::transform<2>{{{{0, 1, 5}, {1, 0, 5}}}}));
+    for (int bits = 0; bits < 8; ++bits) {
+        tf::transform<3> scale, turned{{{{0, 3, 0, 1}, {0, 0, 2, 1}, {1, 0, 0, 1}}}};
+        bool odd = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const bool negative = (bits >> k & 1) != 0;
+            scale.rows[k][k] = negative ? -1.0 : 1.0;
+            odd = odd != negative;
+        }
+        CHECK(tf::mirrors(scale) == odd);
+        CHECK(tf::mirrors(tf::after(turned, scale)) == odd);
+    }
+    CHECK_FALSE(tf::mirrors(tf::transform<3>{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}}}}));
+}
+
 TEST_CASE("transform: knows whether an entry is NaN or infinite") {
     tf::transform<3> map;
     CHECK(map.finite());

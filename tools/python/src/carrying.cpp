@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 #include "file_data.hpp"
+#include "held_mesh.hpp"
 #include "job.hpp"
 #include "words.hpp"
 
@@ -32,11 +33,20 @@ const file_data* data_of(const held_mesh& mesh, bool single) {
     return has_values(data.file().attributes, single) ? &data : nullptr;
 }
 
-/// A copy of what a mesh has, with normals turned as `matrix` turns the mesh.
-py::object turned(const file_data& data, const array_of<double>& matrix) {
-    file_data copy = data;
-    tf::transform_normals(copy.own(), transform_of(matrix));
-    return py::cast(std::move(copy));
+/// The faces of a body that `matrix` moves, turned over where it mirrors, and a copy of what the body
+/// has, with normals turned likewise; None where it has nothing.
+py::tuple turned(const held_mesh& body, const array_of<double>& matrix) {
+    const tf::transform<3> by = transform_of(matrix);
+    const bool bare = body.data().is_none();
+    if (bare && !tf::mirrors(by)) return py::make_tuple(body.faces(), py::none());
+    file_data copy = bare ? file_data() : body.data().cast<const file_data&>();
+    tf::mesh_file& file = copy.own();
+    const auto faces = body.view().faces;
+    file.mesh = {{}, {faces.begin(), faces.end()}};
+    tf::transform_file(file, by);
+    py::array there = as_array(std::move(file.mesh.faces));
+    file.mesh = {};
+    return py::make_tuple(std::move(there), bare ? py::none() : py::cast(std::move(copy)));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "held_mesh.hpp"
 #include "job.hpp"
 #include "words.hpp"
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 
@@ -68,6 +69,10 @@ py::array face_components(const held_mesh& mesh) {
         mesh, [](tf::mesh_view m) { return tf::face_components(m.points.size(), m.faces); }));
 }
 
+std::uint64_t count_inside_out(const held_mesh& mesh) {
+    return of_view(mesh, [](tf::mesh_view m) { return tf::count_inside_out(m); });
+}
+
 py::dict as_dict(tf::mesh_feature&& feature) {
     py::dict made;
     made["kind"] = word_of(feature_words, feature.kind);
@@ -124,6 +129,7 @@ void add_properties(py::module_& module) {
     module.def("find_defects", &find_defects);
     module.def("count_topology", &count_topology);
     module.def("face_components", &face_components);
+    module.def("count_inside_out", &count_inside_out);
     module.def("find_features", &find_features);
     module.def("find_solid_defects", &find_solid_defects);
 }

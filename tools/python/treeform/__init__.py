@@ -30,8 +30,9 @@ from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_p
 from ._placement import (Alignment, Contacts, Depth, Impact, LaidFlat, Measure, PackedPart,
                          Packing, Placement, align, drop, lay_flat, mate, mate_features, measure,
                          pack, penetration_depth, separate, slide, time_of_impact, turn)
-from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_topology,
-                          face_components, find_defects, find_features, find_solid_defects)
+from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_inside_out,
+                          count_topology, face_components, find_defects, find_features,
+                          find_solid_defects)
 from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, WrapResult, convex_hull,
                       find_rounding_defects, join_equal_points, repair,
                       resolve_self_intersections, rounded, wrap)

@@ -110,9 +110,9 @@ def _bodies(fixed: Any) -> list[_core.HeldMesh]:
 
 def _placed(points: Floats, body: _core.HeldMesh, matrix: Floats,
             certificate: Certificate | None = None) -> Mesh:
-    """`body` where it goes, with its attributes."""
-    data = body.data
-    return Mesh._of(points, body.faces, certificate, data and _core.turned(data, matrix))
+    """`body` where it goes, with its attributes; turned over where `matrix` mirrors."""
+    faces, data = _core.turned(body, matrix)
+    return Mesh._of(points, faces, certificate, data)
 
 
 def _moved(moving: _core.HeldMesh, made: dict[str, Any]) -> Placement:

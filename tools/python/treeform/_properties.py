@@ -119,6 +119,19 @@ def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
     return Topology(**_core.count_topology(held(mesh), progress=progress))
 
 
+def count_inside_out(mesh: MeshLike, *, progress: Progress = None) -> int:
+    """The components of a closed mesh that are inside out and in no other one; 0 for an open mesh.
+    `clash`, `measure`, `contains` and booleans take them for the solids that they are when turned
+    over, as `repair` does.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> treeform.count_inside_out(treeform.Mesh(cube.vertices, cube.faces[:, ::-1]))
+    1
+    """
+    return _core.count_inside_out(held(mesh), progress=progress)
+
+
 def face_components(mesh: MeshLike, *, progress: Progress = None) -> Ids:
     """(F,) the component of each face, numbered in the order of their lowest face. Faces that share
     a vertex are in one.

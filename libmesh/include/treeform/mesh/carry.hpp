@@ -87,11 +87,12 @@ struct file_part {
     std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the whole file
 };
 
-/// The parts of a file (`scene_parts`, with equal points as one), each with the points and faces
-/// that are its own, and with their attributes (`carry`).
+/// The parts of a file (`scene_parts`), each with the points and faces that are its own, and with
+/// their attributes (`carry`). Parts whose open edges coincide are patches of one surface, and one
+/// part; solids that touch are not.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
-/// \cost   O(V + F) for each part and column
+/// \cost   O(V log V + F log F), and O(V + F) for each part and column
 [[nodiscard]] TREEFORM_API std::vector<file_part> split_parts(const carry_source& whole);
 
 /// What of a file is mended at a time.
@@ -177,8 +178,13 @@ find_solid_defects(const carry_source& input, repair_scope scope = repair_scope:
 [[nodiscard]] TREEFORM_API std::vector<io_warning> unite_textures(
     std::span<mesh_file* const> files, std::span<const std::string> names);
 
+/// Moves all of the file: its points, and its normals as below. Where `by` mirrors, faces are turned
+/// over, with the values of their corners, so that they look outward as before.
+TREEFORM_API void transform_file(mesh_file& file, const transform<3>& by);
+
 /// Turns normals as `by` does, and keeps their lengths: the columns nx, ny, nz of all elements, and
-/// the normals of corners.
+/// the normals of corners. By a mirror, what looked outward does so still, as faces do that are
+/// turned over.
 TREEFORM_API void transform_normals(mesh_file& file, const transform<3>& by);
 
 /// Faces that meet, marked by the kind of pair and by region.

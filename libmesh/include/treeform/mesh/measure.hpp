@@ -29,7 +29,7 @@ struct relation_options {
 
 struct mesh_relation_result {
     mesh_relation relation = mesh_relation::separate;
-    /// Faces that show why: two that pass through each other, overlap facing the same way, or
+    /// Faces that show why: two that pass through each other, overlap on the same side of both, or
     /// touch. For a mesh inside the other, or reaching into it, the lowest face there. Both are 0
     /// when the meshes are separate.
     std::uint32_t face_a = 0;
@@ -43,9 +43,13 @@ struct mesh_relation_result {
 ///
 /// They penetrate each other in any of these cases:
 /// - two faces pass through each other;
-/// - both meshes are closed (`find_open_edge`), and coplanar faces overlap and face the same way;
+/// - both meshes are closed (`find_open_edge`), and coplanar faces overlap with what is inside on the
+///   same side of them;
 /// - one mesh is closed, and a corner of the other lies strictly inside it, as when one mesh is
 ///   entirely inside the other.
+///
+/// What is inside is where the winding number is not 0, as in `boolean`: so a mesh that is inside
+/// out (`count_inside_out`) is the same solid.
 ///
 /// Otherwise they touch when they have a common point, and are separate when they have none.
 ///
@@ -67,6 +71,18 @@ struct mesh_relation_result {
                                                          const relation_options& options = {});
 [[nodiscard]] TREEFORM_API mesh_relation_result relation(mesh_view a, mesh_view b,
                                                          const relation_options& options = {});
+
+/// The components of a closed mesh that are inside out, their volumes negative, and that are in no
+/// other one, as cavities are. Components are what edges link, with corners of equal coordinates
+/// joined. 0 for an open mesh, which has no inside, and for a cloud. `relation`, `clash` and
+/// `locate` take such a component for the same solid; `repair` turns it over.
+///
+/// \throws std::invalid_argument naming the lowest face with a corner out of range or not finite
+/// \cost   O(F log F) for the indexes, which a prepared mesh keeps, and a ray for each component
+///         where there are several
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API std::uint64_t count_inside_out(const prepared_mesh& mesh);
+[[nodiscard]] TREEFORM_API std::uint64_t count_inside_out(mesh_view mesh);
 
 /// A point of a surface.
 struct surface_point {

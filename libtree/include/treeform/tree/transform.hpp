@@ -75,6 +75,23 @@ template <std::size_t D>
     return result;
 }
 
+/// Whether the map turns what it moves over, as a mirror does: its determinant, as rounded, is
+/// negative. A surface that is moved by it looks the other way, until its faces are turned over.
+template <std::size_t D>
+requires(D == 2 || D == 3) [[nodiscard]] constexpr bool mirrors(const transform<D>& by) {
+    const auto& m = by.rows;
+    if constexpr (D == 2) {
+        return m[0][0] * m[1][1] - m[0][1] * m[1][0] < 0.0;
+    } else {
+        double determinant = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+            determinant += m[0][k] * (m[1][i] * m[2][j] - m[1][j] * m[2][i]);
+        }
+        return determinant < 0.0;
+    }
+}
+
 namespace detail {
 
 /// As `inverse`, but entries may be infinite or NaN.

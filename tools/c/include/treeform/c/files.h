@@ -160,7 +160,11 @@ TREEFORM_C_API treeform_code treeform_file_round_to_las(treeform_file* file, dou
 /// Moves the coordinates to 32-bit floats; `moved` is the furthest that one went.
 TREEFORM_C_API treeform_code treeform_file_round_to_float32(treeform_file* file, double* moved);
 
-/// Turns the normals of the file as a matrix does.
+/// Moves all of the file by a matrix; where it mirrors, faces are turned over, so that they look
+/// outward as before.
+TREEFORM_C_API treeform_code treeform_file_transform(treeform_file* file, const double* matrix);
+
+/// Turns the normals of the file as a matrix does; where it mirrors, for faces that are turned over.
 TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix);
 
 /// How to write.
@@ -271,7 +275,7 @@ typedef struct treeform_scene_parts {
 } treeform_scene_parts;
 
 /// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
-/// points in common are one.
+/// points or open edges in common are one.
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
                                                   treeform_scene_parts** parts);
 

@@ -182,6 +182,10 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         const treeform_depth_options* options,
                                                         double* depth, double move[3]);
 
+/// The components of a closed mesh that are inside out and in no other one; 0 for an open mesh.
+/// Relations and clashes take them for the solids that they are when turned over.
+TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* count);
+
 /// Counts `points` [count][3] by where they are with respect to `solids` [solid_count], exactly:
 /// counts[0] inside any, counts[1] on the surface of any, counts[2] outside of all.
 TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t count,
