@@ -213,7 +213,7 @@ exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solid
     return tools::found;
 }
 
-exit_status operate(tools::job& work, boolean_settings s) {
+exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::enter_blank_report(work, s);
     tools::check_outputs(work, {}, {s.curves});
     const std::vector<tools::solid> solids = tools::read_solids(work, s);

@@ -94,15 +94,14 @@ void settle_words(boolean_settings& settings, common_options& options) {
             settings.names = tf::boolean_expression::names_in(settings.expression);
         } catch (const std::invalid_argument&) {
         }  // which has been said in other words
-        // Letters beyond the INPUTs may be objects of the only one, which is read later.
+        // Letters may be objects of the only INPUT.
+        const bool letters =
+            options.inputs.size() > 1 &&
+            std::ranges::all_of(settings.names, [](auto& name) { return name.size() == 1; });
         if (std::ranges::none_of(options.inputs, may_have_parts) || settings.names.empty() ||
-            (options.inputs.size() > 1 && has_letters_alone(settings)))
+            letters)
             throw error;
     }
-}
-
-bool has_letters_alone(const boolean_settings& settings) {
-    return std::ranges::all_of(settings.names, [](auto& name) { return name.size() == 1; });
 }
 
 tf::boolean_expression formula_of(const boolean_settings& settings, std::size_t operands) {

@@ -52,9 +52,6 @@ struct boolean_settings {
 /// or --check makes do without, and refuses what makes no sense. \throws failure (bad_usage)
 void settle_words(boolean_settings& settings, common_options& options);
 
-/// Whether no name is longer: they may be letters of operands.
-[[nodiscard]] bool has_letters_alone(const boolean_settings& settings);
-
 /// \throws failure (bad_usage) when the formula cannot be read
 [[nodiscard]] tf::boolean_expression formula_of(const boolean_settings& settings,
                                                 std::size_t operands);

@@ -16,6 +16,12 @@
 namespace tools {
 namespace {
 
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
 solid read_solid(job& work, const std::string& path, const std::filesystem::path& matrix_file,
                  json& about) {
     solid s;
@@ -65,82 +71,63 @@ void mend(job& work, solid& s, json& about) {
     s.face_in_file = std::move(made.face_source);
 }
 
-bool has_parts(const solid& whole, const std::vector<std::string>& names) {
-    const std::vector<tf::file_part> parts = tf::split_parts(whole.source());
-    return std::ranges::all_of(names, [&](const std::string& name) {
-        return std::ranges::find(parts, name, &tf::file_part::name) != parts.end();
-    });
-}
-
-/// `about` is that of the whole.
-solid solid_of(tf::file_part part, const solid& whole, json& about) {
-    about["part"] = part.name;
-    about["volume"] = tf::signed_volume(part.file.mesh);
-    about["faces"] = about["triangles"] = part.file.mesh.faces.size();
-    return {.path = whole.path,
-            .file = std::move(part.file),
-            .triangles = part.stored_face.size(),
-            .part = part.name,
-            .face_in_file = std::move(part.stored_face)};
-}
-
-/// The parts that the formula names, in place of the inputs that they are of.
-std::vector<solid> named_parts(job& work, const std::vector<std::string>& names,
+/// The parts of these names, in place of the inputs that they are of. Of one input they may be
+/// letters, in order, where not all are names.
+std::vector<solid> named_parts(job& work, std::vector<std::string> names,
                                const std::vector<solid>& wholes) {
+    std::vector<std::string> known;
+    std::vector<std::vector<tf::file_part>> parts;
+    for (const solid& whole : wholes)
+        for (const tf::file_part& part : parts.emplace_back(tf::split_parts(whole.source())))
+            known.push_back(part.name);
+    const auto is_name = [&](auto& name) { return std::ranges::count(known, name) > 0; };
+    if (wholes.size() == 1 && !std::ranges::all_of(names, is_name))
+        for (std::string& name : names)
+            if (const auto n = std::size_t(name[0] - 'a'); name.size() == 1 && n < known.size())
+                name = known[n];
     std::vector<solid> named(names.size());
     json entries = json::array();
-    std::string all;
     for (std::size_t i = 0; i < wholes.size(); ++i)
-        for (tf::file_part& part : tf::split_parts(wholes[i].source())) {
+        for (tf::file_part& part : parts[i]) {
             const auto at = std::size_t(std::ranges::find(names, part.name) - names.begin());
-            all += (all.empty() ? "" : ", ") + part.name;
             if (at == names.size() || !named[at].path.empty()) continue;
             json& about = entries[at] = work.entry["inputs"][i];
-            named[at] = solid_of(std::move(part), wholes[i], about);
+            about["part"] = part.name;
+            about["volume"] = tf::signed_volume(part.file.mesh);
+            about["faces"] = about["triangles"] = part.file.mesh.faces.size();
+            named[at] = {.path = wholes[i].path,
+                         .file = std::move(part.file),
+                         .triangles = part.stored_face.size(),
+                         .part = part.name,
+                         .face_in_file = std::move(part.stored_face)};
         }
     for (std::size_t k = 0; k < names.size(); ++k)
         if (named[k].path.empty())
-            refuse("--expr: no part is named " + names[k] + "; there are " + all);
+            refuse("--expr: no part is named " + names[k] + "; there are " + joined(known));
     work.entry["inputs"] = std::move(entries);
+    work.out.info(work.name + ": operands in order: " + joined(names));
     return named;
 }
 
-/// Whether the objects of one file are the operands. A union is of all that it has, and keeps their
-/// names; only what is inside out would be missing from it, where it overlaps others.
-bool takes_objects(const boolean_settings& settings, const std::vector<tf::file_part>& objects) {
-    if (objects.size() < 2) return false;
-    return settings.operation != "union" ||
-           std::ranges::any_of(objects, [](const tf::file_part& one) {
-               return tf::count_inside_out(one.file.mesh) > 0;
-           });
-}
-
-/// The objects of a file that stands alone, in order; else the file.
-std::vector<solid> objects_of(job& work, const boolean_settings& settings,
-                              std::vector<solid> solids) {
-    if (solids.size() != 1 || settings.check || settings.splits()) return solids;
-    const std::size_t names = solids[0].file.attributes.parts.size();
-    std::vector<tf::file_part> objects;
-    if (names > 1) objects = tf::split_parts(solids[0].source());
-    if (!takes_objects(settings, objects)) {
-        if (settings.operation != "union" && settings.expression.empty())
-            work.warn("one-operand",
-                      name_of(solids[0]) + ": is one operand" +
-                          (names > 1 ? ": its parts are pieces of one surface" : "") +
-                          "; its own overlaps are united");
-        return solids;
-    }
-    std::vector<solid> operands;
-    std::string all;
-    const json whole = work.entry["inputs"][0];
-    work.entry["inputs"] = json::array();
-    for (tf::file_part& one : objects) {
-        all += (all.empty() ? "" : ", ") + (one.name.empty() ? "(no name)" : one.name);
-        work.entry["inputs"].push_back(whole);
-        operands.push_back(solid_of(std::move(one), solids[0], work.entry["inputs"].back()));
-    }
-    work.out.info(name_of(solids[0]) + ": operands in order: " + all);
-    return operands;
+/// The names of the objects of a file that stands alone, where these are the operands. A union is
+/// of all that the file has, and keeps their names; only what is inside out would be missing in it.
+std::vector<std::string> operand_names(job& work, const boolean_settings& settings,
+                                       const solid& s) {
+    const bool unites = settings.operation == "union",
+               has_parts = s.file.attributes.parts.size() > 1;
+    std::vector<std::string> names;
+    bool is_mixed = !unites;
+    if (has_parts)
+        for (const tf::file_part& one : tf::split_parts(s.source())) {
+            names.push_back(one.name);
+            is_mixed = is_mixed || tf::count_inside_out(one.file.mesh) > 0;
+        }
+    if (names.size() < 2 && !unites && settings.expression.empty())
+        work.warn("one-operand",
+                  std::string("one operand") +
+                      (has_parts ? ", of parts that are pieces of one surface" : "") +
+                      ": what overlaps in it is united");
+    return names.size() > 1 && is_mixed ? names : std::vector<std::string>{};
 }
 
 void settle_textures(job& work, std::vector<solid>& solids) {
@@ -155,7 +142,7 @@ void settle_textures(job& work, std::vector<solid>& solids) {
 
 }  // namespace
 
-std::vector<solid> read_solids(job& work, boolean_settings& settings) {
+std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
     std::vector<solid> solids;
     for (std::size_t i = 0; i < work.options.inputs.size(); ++i) {
         const std::string& path = work.options.inputs[i];
@@ -172,11 +159,10 @@ std::vector<solid> read_solids(job& work, boolean_settings& settings) {
         solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
         tf::drop_source_columns(solids.back().file, settings.source);
     }
-    if (solids.size() == 1 && !settings.names.empty() && has_letters_alone(settings) &&
-        !has_parts(solids[0], settings.names))
-        settings.names.clear();  // letters
-    solids = settings.names.empty() ? objects_of(work, settings, std::move(solids))
-                                    : named_parts(work, settings.names, solids);
+    std::vector<std::string> names = settings.names;
+    if (solids.size() == 1 && names.empty() && !settings.check && !settings.splits())
+        names = operand_names(work, settings, solids[0]);
+    if (!names.empty()) solids = named_parts(work, std::move(names), solids);
     for (std::size_t i = 0; settings.repair && i < solids.size(); ++i)
         mend(work, solids[i], work.entry["inputs"][i]);
     if (!settings.check && !settings.no_attributes) settle_textures(work, solids);

@@ -38,10 +38,8 @@ struct solid {
 }
 
 /// Reads and moves all inputs, takes the parts that the formula names, or the objects of an input
-/// that stands alone, and mends what is to be
-/// mended; enters all that in the report. Where letters of the formula are no names of parts, the
-/// settings lose these names. \throws failure
-[[nodiscard]] std::vector<solid> read_solids(job& work, boolean_settings& settings);
+/// that stands alone, and mends what is to be mended; enters all that in the report. \throws failure
+[[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
 
 [[nodiscard]] std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids);
 [[nodiscard]] std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids);

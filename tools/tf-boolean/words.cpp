@@ -12,9 +12,9 @@ std::string verdict(const job& work, const boolean_settings& settings,
                     const tf::boolean_result& result) {
     const json& volume = work.entry["output"]["volume"];
     const std::size_t operands = work.entry["inputs"].size();
-    const bool of_objects = settings.names.empty() && operands > work.options.inputs.size();
+    const bool of_objects = work.options.inputs.size() == 1 && operands > 1;
     std::string text = settings.name() +
-                       (of_objects ? " of its " + grouped(operands) + " objects" : "") + ": " +
+                       (of_objects ? " of its " + grouped(operands) + " objects: " : ": ") +
                        counted(result.mesh.faces.size(), "face", "faces");
     if (result.certificate && result.mesh.faces.empty()) return text + ", nothing is left";
     if (!volume.is_null() && !result.mesh.faces.empty() && std::isfinite(volume.get<double>()))
