@@ -2,6 +2,7 @@
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/contacts.hpp>
+#include <libmesh/place/facing.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
 
@@ -79,7 +80,11 @@ std::vector<placement_contact> contacts_at(const shape& there, const surrounding
         for (const face_pair& pair : found.pairs) {
             const triangle3 a = triangle_of(there.mesh(), pair.a);
             const triangle3 b = triangle_of(part.mesh(), pair.b);
-            rows.push_back({closest_points(a, b).on_b, normal_of(b), pair.a, pair.b, number});
+            const point3 n = normal_of(b);
+            const bool turned = looks_inward(part, pair.b);
+            rows.push_back({closest_points(a, b).on_b,
+                            turned ? point3{0.0 - n.x, 0.0 - n.y, 0.0 - n.z} : n, pair.a, pair.b,
+                            number});
         }
     }
     return rows;

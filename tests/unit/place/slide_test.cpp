@@ -255,6 +255,20 @@ TEST_CASE("slide: clouds move, and stand still") {
     CHECK(up_to_cloud.points == moved(box(1, 1, 1), {0, 0, 3}).points);
 }
 
+TEST_CASE(
+    "a fixed mesh that is inside out has contacts with the same normals, and is left the same "
+    "way") {
+    const prepared_mesh a(moved(box(1, 1, 1), {0.5, 0.5, 0.75}));
+    const prepared_mesh floor(box(2, 2, 1)), turned(test::inside_out(box(2, 2, 1)));
+    const auto at = tf::measure_among(a, {&floor, 1}), same = tf::measure_among(a, {&turned, 1});
+    REQUIRE(at.contacts.size() == same.contacts.size());
+    CHECK(at.at_place == tf::standing::penetrating);
+    CHECK(same.at_place == at.at_place);
+    for (std::size_t i = 0; i < at.contacts.size(); ++i)
+        CHECK(same.contacts[i].normal == at.contacts[i].normal);
+    CHECK(tf::separate(a, {&turned, 1}).travel == tf::separate(a, {&floor, 1}).travel);
+}
+
 TEST_CASE("contacts are classified as the faces lie at the place") {
     const prepared_mesh floor(box(4, 4, 1));
     const auto classes_at = [&](double z, double clearance) {
