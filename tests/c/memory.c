@@ -1,8 +1,7 @@
 /* With one allocation failing, or all from there on, calls return TREEFORM_MEMORY or do without. */
-#include <treeform.h>
-
 #include <stdio.h>
 #include <stdlib.h>
+#include <treeform.h>
 
 void fail_allocations(long n, int alone);
 

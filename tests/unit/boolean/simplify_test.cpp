@@ -252,7 +252,8 @@ TEST_CASE("cuts: what overlaps in a plane is one, what nothing has cut stays") {
     CHECK(of_fine == fine.points.size());
 }
 
-TEST_CASE("cuts: of lattice boxes by any formula, the same solid with fewer faces, in their groups") {
+TEST_CASE(
+    "cuts: of lattice boxes by any formula, the same solid with fewer faces, in their groups") {
     test::random source(35);
     std::size_t faces_as_cut = 0, faces = 0;
     for (int round = 0; round < 40; ++round) {
@@ -282,8 +283,7 @@ TEST_CASE("cuts: of lattice boxes by any formula, the same solid with fewer face
             };
             add(as_cut, area);
             add(grouped, area_grouped);
-            for (std::size_t k = 0; k < 2; ++k)
-                CHECK(area_grouped[k] == doctest::Approx(area[k]));
+            for (std::size_t k = 0; k < 2; ++k) CHECK(area_grouped[k] == doctest::Approx(area[k]));
             CHECK(made.mesh.faces.size() <= grouped.mesh.faces.size());
             CHECK(grouped.mesh.faces.size() <= as_cut.mesh.faces.size());
             faces_as_cut += as_cut.mesh.faces.size();

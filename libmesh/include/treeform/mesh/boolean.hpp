@@ -100,15 +100,12 @@ struct boolean_options {
     /// Mending tries nothing that moves a coordinate further at once, in the mesh's own length unit,
     /// and goes on where all of it did: see `certificate::max_displacement`. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// Leave cuts in the plane of the result as they are. Otherwise coplanar faces that were cut, or
-    /// that overlap, are merged, exactly and before rounding: a vertex is removed where only such
-    /// faces meet, or only two flat parts of such faces along a straight edge. Faces that nothing
-    /// has cut stay. `split` keeps all cuts.
+    /// Otherwise coplanar faces that were cut, or that overlap, are merged, exactly and before
+    /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a straight
+    /// edge. Faces that nothing has cut stay. `split` keeps all cuts.
     bool keep_cuts = false;
-    /// Merge all coplanar faces of the result, not those alone that were cut.
-    bool simplify = false;
-    /// Merge only faces with equal numbers here. [faces of all operands, one operand after the
-    /// other], or empty.
+    bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
+    /// [faces of all operands, one after the other] or empty: only those of equal numbers are merged.
     std::span<const std::uint32_t> face_groups{};
     bool volumes = false;  ///< compute `boolean_result::volumes`, of two operands
     progress_callback progress{};
