@@ -141,11 +141,11 @@ struct TREEFORM_API boolean_result {
     /// Faces are counter-clockwise from outside, in the order of their sources. Vertices of
     /// operands come first, in their order, then new ones on cuts.
     treeform::mesh mesh;
-    /// [F] the lowest operand face that each face lies in, of merged ones the lowest of all. Next
-    /// to places where rounding was mended, it may be a neighbor of that face.
+    /// [F] the lowest operand face that each face, or a part of it, lies in. Next to places where
+    /// rounding was mended, it may be a neighbor of that face.
     std::vector<operand_element> face_source;
     std::vector<operand_element> vertex_source;  ///< [V] the lowest operand vertex each is, or none
-    /// [V] for each new vertex, an operand face that it lies in; else none. Empty with `keep_cuts`.
+    /// [V] for each new vertex, an operand face that it lies in. Empty with `keep_cuts`.
     std::vector<operand_element> face_of_cut_vertex{};
     /// Status ok says, checked on the coordinates above: any two faces have a corner, an edge or
     /// nothing in common; no face is degenerate; the signed face count of every edge is zero; and
@@ -160,9 +160,7 @@ struct TREEFORM_API boolean_result {
     std::optional<operand_volumes> volumes{};
     boolean_statistics statistics{};
 
-    /// The mesh.
-    ///
-    /// \throws not_certified_error unless the certificate's status is ok
+    /// The mesh. \throws not_certified_error unless the certificate's status is ok
     [[nodiscard]] const treeform::mesh& value() const&;
     [[nodiscard]] treeform::mesh value() &&;
 };
