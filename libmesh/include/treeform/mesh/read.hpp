@@ -66,7 +66,7 @@ namespace treeform {
 
 /// Which files of a folder are meant.
 enum class file_content : std::uint8_t {
-    meshes,            ///< STL, OBJ, PLY, OFF, 3MF, and where scenes can be read GLB, glTF
+    meshes,            ///< STL, OBJ, PLY, OFF, 3MF, GLB, glTF
     meshes_and_points  ///< also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
 };
 
@@ -76,7 +76,8 @@ enum class file_content : std::uint8_t {
 [[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
                                                              file_content content);
 
-/// Whether scenes (GLB, DAE, ...) can be read: true unless treeform was built without assimp.
+/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: true unless treeform was built
+/// without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();
 
 enum class urdf_joint_kind : std::uint8_t { fixed, revolute, continuous, prismatic };
