@@ -43,10 +43,9 @@ void refuse_versions(const source& in, const json_entry& root) {
 void refuse_extensions(const source& in, const json_entry& root) {
     root.for_each("extensionsRequired", [&](const json_entry& name) {
         if (is_harmless(name.text())) return;
-        std::string remedy;
-        if (name.text() == draco) remedy = "; gltf-transform copy IN OUT unpacks it";
-        if (name.text() == meshopt) remedy = "; gltfpack -i IN -o OUT -noq unpacks it";
-        in.fail("the file requires the extension " + name.text() + ", which is not read" + remedy);
+        const bool packs = name.text() == draco || name.text() == meshopt;
+        in.fail("the file requires the extension " + name.text() + ", which is not read" +
+                (packs ? "; gltf-transform copy IN OUT unpacks it" : ""));
     });
 }
 

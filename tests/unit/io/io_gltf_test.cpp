@@ -73,7 +73,7 @@ using list = std::vector<double>;
 using words = std::vector<std::string>;
 
 /// Two triangles that are a unit square in the plane z = 0.
-gltf_file square(const std::string& primitive_members = {}) {
+gltf_file flat_square(const std::string& primitive_members = {}) {
     gltf_file file;
     file.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, test::gltf_float, "VEC3");
     file.add_mesh(R"("POSITION":0)", primitive_members);
@@ -175,15 +175,15 @@ TEST_CASE("gltf: indices of each type, and none") {
 
 TEST_CASE("gltf: strips and fans are triangles; points and lines are left out, and that is said") {
     using faces = std::vector<tf::face>;
-    CHECK(read_glb(square(R"(,"mode":5)")).mesh.faces == faces{{0, 1, 2}, {1, 3, 2}});
-    CHECK(read_glb(square(R"(,"mode":6)")).mesh.faces == faces{{1, 2, 0}, {2, 3, 0}});
-    const tf::mesh_file whole = read_glb(square());
+    CHECK(read_glb(flat_square(R"(,"mode":5)")).mesh.faces == faces{{0, 1, 2}, {1, 3, 2}});
+    CHECK(read_glb(flat_square(R"(,"mode":6)")).mesh.faces == faces{{1, 2, 0}, {2, 3, 0}});
+    const tf::mesh_file whole = read_glb(flat_square());
     CHECK(whole.mesh.faces == faces{{0, 1, 2}});
     CHECK(warnings_of(whole, "skipped-elements") ==
           words{"1 corners behind the last whole triangle were not read"});
     const std::array<const char*, 4> count{"4", "2", "4", "3"};
     for (int mode = 0; mode < 4; ++mode) {
-        gltf_file file = square(R"(,"mode":5)");
+        gltf_file file = flat_square(R"(,"mode":5)");
         file.meshes[0].insert(
             file.meshes[0].size() - 2,
             R"(,{"attributes":{"POSITION":0},"mode":)" + std::to_string(mode) + "}");
@@ -193,8 +193,8 @@ TEST_CASE("gltf: strips and fans are triangles; points and lines are left out, a
               words{std::string(count[static_cast<std::size_t>(mode)]) +
                     " points and lines were not read"});
     }
-    CHECK(glb_refusal(square(R"(,"mode":1)").glb()) == "a.glb: no triangle found");
-    CHECK(glb_refusal(square(R"(,"mode":7)").glb()).find("primitives[0].mode is 7") !=
+    CHECK(glb_refusal(flat_square(R"(,"mode":1)").glb()) == "a.glb: no triangle found");
+    CHECK(glb_refusal(flat_square(R"(,"mode":7)").glb()).find("primitives[0].mode is 7") !=
           std::string::npos);
 }
 
@@ -295,7 +295,7 @@ TEST_CASE("gltf: transforms are composed in double") {
 }
 
 TEST_CASE("gltf: without a transform, -0 and NaN are as they are stored") {
-    gltf_file file = square(R"(,"mode":5)");
+    gltf_file file = flat_square(R"(,"mode":5)");
     const std::vector<float> odd{-0.0F, std::numeric_limits<float>::quiet_NaN(),
                                  std::numeric_limits<float>::infinity()};
     file.binary.replace(0, 12, test::bytes_of_values(odd));
@@ -326,7 +326,7 @@ TEST_CASE("gltf: a negative determinant turns faces over, two do not") {
 }
 
 TEST_CASE("gltf: normals go with the inverse transpose, and have length 1") {
-    gltf_file file = square(R"(,"mode":5)");
+    gltf_file file = flat_square(R"(,"mode":5)");
     const auto h = static_cast<float>(std::sqrt(0.5));
     file.add<float>({h, h, 0, h, h, 0, h, h, 0, h, h, 0}, test::gltf_float, "VEC3");
     file.meshes.clear();
@@ -359,9 +359,9 @@ TEST_CASE("gltf: nodes are parts, with names of their own") {
     gltf_file file = gltf_cube();
     file.add_mesh(R"("POSITION":0)", R"(,"indices":1)");
     file.meshes[1].insert(1, R"("name":"gear",)");
-    file.nodes = {R"({"children":[1,2,3,4,5]})",     R"({"mesh":0,"name":"bolt"})",
-                  R"({"mesh":0,"name":"bolt"})",     R"({"mesh":1})",
-                  R"({"mesh":1,"name":"bolt (2)"})", R"({"mesh":0})"};
+    file.nodes = {R"({"children":[1,2,3,4,5]})",       R"({"mesh":0,"name":"bolt"})",
+                  R"({"mesh":0,"name":"bolt"})",       R"({"mesh":1})",
+                  R"j({"mesh":1,"name":"bolt (2)"})j", R"({"mesh":0})"};
     const tf::mesh_file read = read_glb(file);
     CHECK(parts_in(read) == words{"bolt", "bolt (2)", "gear", "bolt (2) (2)", "nodes[5]"});
     CHECK(read.attributes.parts[2].first_face == 24);
@@ -455,7 +455,7 @@ TEST_CASE("gltf: morph targets and skins are said to be not applied, other attri
 
 TEST_CASE("gltf: colors of each type, with alpha and without, are the numbers of the file") {
     const auto colored = [](auto values, int type, const char* shape) {
-        gltf_file file = square(R"(,"mode":5)");
+        gltf_file file = flat_square(R"(,"mode":5)");
         file.add(values, type, shape, type == test::gltf_float ? "" : R"(,"normalized":true)");
         file.meshes.clear();
         file.add_mesh(R"("POSITION":0,"COLOR_0":1)", R"(,"mode":5)");
@@ -481,7 +481,7 @@ TEST_CASE("gltf: colors of each type, with alpha and without, are the numbers of
 }
 
 TEST_CASE("gltf: where types of colors differ they are floats, where there are none white") {
-    gltf_file file = square(R"(,"mode":5)");
+    gltf_file file = flat_square(R"(,"mode":5)");
     file.add(std::vector<std::uint8_t>(16, 51), test::gltf_uint8, "VEC4", R"(,"normalized":true)");
     file.add(std::vector<float>(12, 0.5F), test::gltf_float, "VEC3");
     file.meshes = {R"({"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"mode":5},)"
@@ -497,7 +497,7 @@ TEST_CASE("gltf: where types of colors differ they are floats, where there are n
 }
 
 TEST_CASE("gltf: texture coordinates are those that the color of the material takes") {
-    gltf_file file = square(R"(,"mode":5)");
+    gltf_file file = flat_square(R"(,"mode":5)");
     file.add<float>({0, 0, 1, 0, 0, 1, 1, 1}, test::gltf_float, "VEC2");
     file.add<std::uint8_t>({0, 0, 255, 0, 0, 255, 255, 255}, test::gltf_uint8, "VEC2",
                            R"(,"normalized":true)");
