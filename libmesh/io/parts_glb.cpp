@@ -12,16 +12,19 @@ namespace {
 
 constexpr std::size_t most_colors = 256;
 constexpr color_glb gray{0.8, 0.8, 0.8, 1.0};
+constexpr color_glb full{1.0, 1.0, 1.0, 1.0};
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 /// [F] Number of the material of each triangle; none when there are too many.
 [[nodiscard]] std::vector<std::uint32_t> materials_of(const write_job& job, layout_glb& layout) {
     const mesh_file& file = job.file;
     const auto columns = color_columns(file, "face");
+    // Colors of points are multiplied by that of the material.
+    const color_glb other = color_columns(file, "vertex").empty() ? gray : full;
     std::vector<std::uint32_t> material(file.mesh.faces.size(), 0);
     std::map<color_glb, std::uint32_t> number;
     for (std::uint32_t f = 0; f < material.size(); ++f) {
-        color_glb rgba = gray;
+        color_glb rgba = other;
         for (std::size_t c = 0; c < columns.size(); ++c)
             rgba[c] = color_value(*columns[c], face_row(file, f));
         const auto [at, added] =
@@ -30,7 +33,7 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
         if (layout.materials.size() > most_colors) {
             job.result.warnings.push_back(
                 {"colors-dropped", "more than 256 different colors of faces; none was written"});
-            layout.materials.assign(1, gray);
+            layout.materials.assign(1, other);
             return std::vector<std::uint32_t>(material.size(), 0);
         }
         material[f] = at->second;

@@ -81,6 +81,8 @@ TEST_CASE("glb: colors of points come back in their type, with alpha and without
             CHECK(w.again.mesh == file.mesh);
             CHECK(w.again.attributes.elements == file.attributes.elements);
             CHECK(w.warnings.empty());
+            // By which colors are multiplied.
+            CHECK(w.bytes.find(R"("baseColorFactor":[1.0,1.0,1.0,1.0])") != std::string::npos);
         }
     };
     check(std::uint8_t{255});

@@ -23,7 +23,7 @@ def path_of(path: Path) -> str:
 
 
 def read(path: Path, format: str = "", *, join: bool = True, progress: Progress = None) -> Mesh:
-    """The mesh or cloud in a file: STL, OBJ, PLY, OFF, 3MF, PCD, LAS, LAZ, XYZ, CSV, PTS; GLB, glTF,
+    """The mesh or cloud in a file: STL, OBJ, PLY, OFF, 3MF, GLB, glTF, PCD, LAS, LAZ, XYZ, CSV, PTS;
     DAE and others where treeform was built with assimp.
 
     format: an extension without its dot; empty: the content decides, then the extension.
