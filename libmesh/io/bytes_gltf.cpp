@@ -79,8 +79,12 @@ parts_gltf parts_of_gltf(const source& in) {
     parts_gltf parts{.json = all};
     if (!all.starts_with("glTF")) return parts;
     if (all.size() < head_size + chunk_head) in.fail("cut short");
-    if (word_at(all, 4) == 1)
-        in.fail("glTF 1.0 is not read; gltf-pipeline -i IN -o OUT makes 2.0 of it");
+    if (word_at(all, 4) == 1) {
+        constexpr std::size_t head_1 = 20;
+        const std::size_t size = word_at(all, head_size);
+        if (size > all.size() - head_1) in.fail("cut short");
+        return {.json = all.substr(head_1, size), .is_version_1 = true};
+    }
     if (word_at(all, 4) != 2)
         in.fail("GLB of version " + std::to_string(word_at(all, 4)) + " is not read, only 2");
     const std::size_t length = word_at(all, 8);

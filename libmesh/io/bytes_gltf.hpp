@@ -20,9 +20,10 @@ struct parts_gltf {
     std::string_view json{};
     std::optional<std::string_view> binary{};  ///< of a GLB that has one
     std::uint64_t trailing = 0;                ///< bytes behind the length that a GLB says
+    bool is_version_1 = false;                 ///< a GLB of glTF 1.0, of which this has the JSON
 };
 
-/// \throws io_error for a GLB that is cut short, or of another version than 2
+/// \throws io_error for a GLB that is cut short, or of another version than 1 and 2
 [[nodiscard]] parts_gltf parts_of_gltf(const source& in);
 
 /// What the buffers hold; each is looked for when it is first needed. What the constructor gets must

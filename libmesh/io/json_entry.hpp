@@ -84,6 +84,7 @@ class json_entry {
             fail("is " + std::to_string(number) + ", of " + std::to_string(count) + " " + things);
         return static_cast<std::size_t>(number);
     }
+    [[nodiscard]] bool is_number() const { return value_->is_number(); }
     [[nodiscard]] double number() const {
         if (!value_->is_number()) fail("is no number");
         return value_->get<double>();

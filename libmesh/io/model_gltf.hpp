@@ -126,7 +126,8 @@ struct model_gltf {
     std::vector<node_gltf> nodes{};
     std::vector<std::size_t> roots{};  ///< nodes of the scene
     std::size_t scenes = 0;
-    bool has_looks = false;  ///< colors or textures of materials
+    bool has_looks = false;     ///< colors or textures of materials
+    bool is_version_1 = false;  ///< glTF 1.0, of which nothing was parsed
 };
 
 }  // namespace treeform::detail::io

@@ -21,19 +21,24 @@ constexpr const char* instancing = "EXT_mesh_gpu_instancing";
     constexpr std::array<std::string_view, 7> read{
         "KHR_mesh_quantization",   instancing,          texture_transform,      "EXT_mesh_features",
         "EXT_structural_metadata", "KHR_audio_emitter", "KHR_animation_pointer"};
-    constexpr std::array<std::string_view, 8> looks{
-        "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
-        "EXT_materials_", "KHR_lights_",  "EXT_lights_",  "KHR_xmp"};
+    constexpr std::array<std::string_view, 9> looks{
+        "KHR_materials_", "KHR_technique", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
+        "EXT_materials_", "KHR_lights_",   "EXT_lights_",  "KHR_xmp"};
     return std::find(read.begin(), read.end(), name) != read.end() ||
            std::any_of(looks.begin(), looks.end(),
                        [&](std::string_view start) { return name.starts_with(start); });
 }
 
-void refuse_versions(const source& in, const json_entry& root) {
+/// Whether it is 1.0, which has no numbers for things but names.
+[[nodiscard]] bool is_version_1(const json_entry& root) {
     const auto version = root.find("asset", "version");
     if (!version) root.fail("has no 'asset' with a 'version'");
-    if (version->text().starts_with("1."))
-        in.fail("glTF 1.0 is not read; gltf-pipeline -i IN -o OUT makes 2.0 of it");
+    if (version->is_number()) return version->number() < 2.0;  // as 1.0 had it at first
+    return version->text().starts_with("1.") || version->text() == "1";
+}
+
+void refuse_versions(const source& in, const json_entry& root) {
+    const auto version = root.find("asset", "version");
     const auto least = root.find("asset", "minVersion");
     const std::string& needed = least ? least->text() : version->text();
     if (!needed.starts_with("2.") || (least && needed != "2.0"))
@@ -277,6 +282,7 @@ model_gltf parse_gltf(const source& in, std::string_view json) {
         in.fail("the JSON has a number that is too large");
     }
     const json_entry root(in, text);
+    if (is_version_1(root)) return {.is_version_1 = true};
     refuse_versions(in, root);
     refuse_extensions(in, root);
     return parser(root).parse();

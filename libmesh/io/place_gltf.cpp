@@ -125,7 +125,7 @@ class placer_gltf {
         const std::vector<placed_node> nodes = nodes_of_scene(in_, model_);
         plan(nodes);
         for (const placed_node& n : nodes) place(n);
-        if (file_.mesh.points.empty() && !model_.meshes.empty()) in_.fail("no triangle found");
+        if (file_.mesh.points.empty() && !model_.meshes.empty()) in_.fail("no mesh is shown");
         file_.stored_faces = file_.mesh.faces.size();
         // A number is no name, and one part needs none to be told from others.
         auto& parts = file_.attributes.parts;
@@ -252,7 +252,7 @@ class placer_gltf {
         const auto counted = [&](std::uint64_t count, const char* what) {
             if (count > 0) warn("skipped-elements", std::to_string(count) + what);
         };
-        counted(survey_.points_and_lines, " points and lines were not read");
+        counted(survey_.lines, " lines were not read, only their points");
         counted(survey_.corners_left_over, " corners behind the last whole triangle were not read");
         counted(survey_.without_positions, " primitives without positions were not read");
         remark_unseen(nodes);

@@ -48,7 +48,7 @@ namespace {
         case detail::io::file_kind::scene:
             break;
     }
-    return detail::io::read_scene(in, found.extension);
+    return detail::io::read_scene(in, path, found.extension);
 }
 
 }  // namespace

@@ -158,12 +158,16 @@ constexpr int unwanted = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGEN
 
 /// The scene, which belongs to the importer.
 [[nodiscard]] const aiScene& load_scene(Assimp::Importer& importer, const source& in,
+                                        const std::filesystem::path& path,
                                         const std::string& hint) {
     constexpr unsigned steps = aiProcess_RemoveComponent;
     std::string reason;
     try {
+        // glTF 1.0 in text keeps its numbers in other files, which only a path can find.
         const aiScene* const scene =
-            importer.ReadFileFromMemory(in.begin(), in.size(), steps, hint.c_str());
+            path.empty() || hint != "gltf"
+                ? importer.ReadFileFromMemory(in.begin(), in.size(), steps, hint.c_str())
+                : importer.ReadFile(path.string(), steps);
         if (scene != nullptr) return *scene;
         reason = importer.GetErrorString();
     } catch (const std::bad_alloc&) {
@@ -203,14 +207,15 @@ bool scene_format(std::string_view extension) {
     return scene_importer(std::string(extension)).GetImporterCount() > 0;
 }
 
-mesh_file read_scene(const source& in, std::string_view extension) {
+mesh_file read_scene(const source& in, const std::filesystem::path& path,
+                     std::string_view extension) {
     const std::string hint(extension);
-    if (!scene_format(extension)) in.fail("format '" + hint + "' is not read");
     scene_importer importer(hint);
+    if (importer.GetImporterCount() == 0) in.fail("format '" + hint + "' is not read");
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     refuse_deep_scene(in);
-    const aiScene& scene = load_scene(importer, in, hint);
+    const aiScene& scene = load_scene(importer, in, path, hint);
     mesh_file file = scene_reader(in, scene).read();
     file.format = hint;
     return file;

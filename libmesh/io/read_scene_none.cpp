@@ -7,7 +7,7 @@ namespace treeform::detail::io {
 
 bool scene_format(std::string_view) { return false; }
 
-mesh_file read_scene(const source& in, std::string_view extension) {
+mesh_file read_scene(const source& in, const std::filesystem::path&, std::string_view extension) {
     in.fail("format '" + std::string(extension) + "' needs a build with assimp");
 }
 

@@ -94,9 +94,13 @@ void survey_points(buffers_gltf& buffers, const model_gltf& model, const primiti
             survey.unread.insert(name);
 }
 
-/// Points and lines that `corners` corners of a primitive are, which has no triangles.
-[[nodiscard]] std::uint64_t flat_elements(unsigned mode, std::uint64_t corners) {
-    return mode == 1 ? corners / 2 : mode == 3 ? corners - 1 : corners;
+/// Lines that `corners` corners of a primitive without triangles are: none of points.
+[[nodiscard]] std::uint64_t line_count(unsigned mode, std::uint64_t corners) {
+    return mode == 0 ? 0 : mode == 1 ? corners / 2 : mode == 3 ? corners - 1 : corners;
+}
+
+[[nodiscard]] std::uint64_t triangle_count(unsigned mode, std::uint64_t corners) {
+    return mode < triangles ? 0 : mode == triangles ? corners / 3 : std::max(corners, 2UL) - 2;
 }
 
 class decoder {
@@ -253,20 +257,14 @@ outline_gltf outline_of(buffers_gltf& buffers, const model_gltf& model, std::siz
         if (p.indices) check_indices(buffers, model, *p.indices, survey);
         const std::uint64_t points = model.accessors[*a.position].count;
         const std::uint64_t corners = p.indices ? model.accessors[*p.indices].count : points;
-        if (!p.indices) check_bytes(buffers, model, *a.position, survey);
-        if (p.mode < triangles) {
-            survey.points_and_lines += flat_elements(p.mode, corners);
-            continue;
-        }
         survey.morphs = survey.morphs || p.morphs;
         const auto [at, is_new] = first_point.emplace(a, outline.points);
         if (is_new) {
             survey_points(buffers, model, p, a, survey);
             outline.points += points;
         }
-        const std::uint64_t faces = p.mode == triangles ? corners / 3
-                                    : corners > 2       ? corners - 2
-                                                        : 0;
+        const std::uint64_t faces = triangle_count(p.mode, corners);
+        if (p.mode < triangles) survey.lines += line_count(p.mode, corners);
         if (p.mode == triangles) survey.corners_left_over += corners % 3;
         outline.faces += faces;
         outline.shapes.push_back({&p, at->second, is_new, points, faces});

@@ -16,7 +16,7 @@
 
 namespace treeform::detail::io {
 
-/// Triangles of a mesh. Primitives whose attributes are the same accessors share their points.
+/// Triangles of a mesh, or points without any. Primitives whose attributes are the same accessors share their points.
 struct shape_gltf {
     const primitive_gltf* primitive = nullptr;
     std::size_t first_point = 0;
@@ -40,7 +40,7 @@ struct survey_gltf {
     std::uint64_t with_colors = 0;
     std::optional<scalar_type> color_type{};  ///< float32 where types differ
     bool has_alpha = false;
-    std::uint64_t points_and_lines = 0;
+    std::uint64_t lines = 0;
     std::uint64_t corners_left_over = 0;  ///< after whole triangles
     std::uint64_t without_positions = 0;  ///< primitives
     bool morphs = false;

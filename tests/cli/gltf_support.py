@@ -61,6 +61,6 @@ def volume_of_stl(data):
     """Of a binary STL."""
     six = 0.0
     for i in range(struct.unpack_from("<I", data, 80)[0]):
-        (a, b, c), (d, e, f), (g, h, k) = struct.iter_unpack("<3f", data[96 + 50 * i:132 + 50 * i])
+        a, b, c, d, e, f, g, h, k = struct.unpack_from("<9f", data, 96 + 50 * i)
         six += a * (e * k - f * h) + b * (f * g - d * k) + c * (d * h - e * g)
     return six / 6
