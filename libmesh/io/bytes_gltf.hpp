@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -39,6 +41,14 @@ class buffers_gltf {
 
     /// \throws io_error for what is not there, or not as long as it should be
     [[nodiscard]] std::string_view bytes_of_view(std::size_t view);
+    /// Values of an accessor that stand elsewhere, element after element; none of others.
+    void give_values(std::size_t accessor, std::string bytes) {
+        given_[accessor] = std::move(bytes);
+    }
+    [[nodiscard]] const std::string* given_values(std::size_t accessor) const {
+        const auto at = given_.find(accessor);
+        return at == given_.end() ? nullptr : &at->second;
+    }
     /// Bytes of the glTF itself.
     [[nodiscard]] std::size_t file_size() const { return in_.size(); }
 
@@ -57,6 +67,7 @@ class buffers_gltf {
     std::vector<std::optional<std::string_view>> loaded_;
     std::deque<source> files_{};
     std::deque<std::string> decoded_{};
+    std::map<std::size_t, std::string> given_{};
 };
 
 }  // namespace treeform::detail::io

@@ -62,13 +62,19 @@ struct material_gltf {
     std::optional<texture_transform_gltf> transform{};
 };
 
+/// A view of packed values, and the numbers that attributes have there.
+struct draco_gltf {
+    std::size_t view = 0;
+    std::map<std::string, std::uint32_t> attributes{};
+};
+
 struct primitive_gltf {
     std::map<std::string, std::size_t> attributes{};  ///< accessors
     std::optional<std::size_t> indices{};
     std::optional<std::size_t> material{};
     unsigned mode = 4;
     bool morphs = false;
-    std::string compression{};  ///< the extension that its attributes need, if any
+    std::optional<draco_gltf> draco{};  ///< where KHR_draco_mesh_compression has its values
 };
 
 struct mesh_gltf {

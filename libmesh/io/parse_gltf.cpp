@@ -1,3 +1,4 @@
+#include <libmesh/io/draco_gltf.hpp>
 #include <libmesh/io/json_entry.hpp>
 #include <libmesh/io/parse_gltf.hpp>
 
@@ -11,7 +12,7 @@ namespace treeform::detail::io {
 
 namespace {
 
-constexpr const char* draco = "KHR_draco_mesh_compression";
+constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 constexpr const char* meshopt = "EXT_meshopt_compression";
 constexpr const char* texture_transform = "KHR_texture_transform";
 constexpr const char* instancing = "EXT_mesh_gpu_instancing";
@@ -47,8 +48,8 @@ void refuse_versions(const source& in, const json_entry& root) {
 
 void refuse_extensions(const source& in, const json_entry& root) {
     root.for_each("extensionsRequired", [&](const json_entry& name) {
-        if (is_harmless(name.text())) return;
-        const bool packs = name.text() == draco || name.text() == meshopt;
+        if (is_harmless(name.text()) || (name.text() == draco_extension && reads_draco())) return;
+        const bool packs = name.text() == draco_extension || name.text() == meshopt;
         in.fail("the file requires the extension " + name.text() + ", which is not read" +
                 (packs ? "; gltf-transform copy IN OUT unpacks it" : ""));
     });
@@ -187,7 +188,13 @@ class parser {
         primitive.mode = static_cast<unsigned>(whole_or(e, "mode", 4));
         if (const auto mode = e.find("mode")) (void)mode->number_of(7, "modes");
         primitive.morphs = e.count("targets") > 0;
-        if (e.find("extensions", draco)) primitive.compression = draco;
+        if (const auto packed = e.find("extensions", draco_extension)) {
+            primitive.draco = draco_gltf{.view = view_of(*packed)};
+            packed->get("attributes").for_each_member([&](const auto& name, const auto& id) {
+                primitive.draco->attributes[name] =
+                    static_cast<std::uint32_t>(id.number_of(1U << 31, "attributes"));
+            });
+        }
         return primitive;
     }
 

@@ -1,3 +1,4 @@
+#include <libmesh/io/draco_gltf.hpp>
 #include <libmesh/io/shapes_gltf.hpp>
 #include <libmesh/io/values_gltf.hpp>
 
@@ -246,14 +247,13 @@ outline_gltf outline_of(buffers_gltf& buffers, const model_gltf& model, std::siz
     std::map<attributes_gltf, std::size_t> first_point;
     for (const primitive_gltf& p : model.meshes[mesh].primitives) {
         const attributes_gltf a = attributes_of(model, p);
-        if (a.position && !p.compression.empty() && !model.accessors[*a.position].view)
-            buffers.fail("meshes", mesh,
-                         "needs the extension " + p.compression +
-                             ", which is not read; gltf-transform copy IN OUT unpacks it");
         if (!a.position) {
             ++survey.without_positions;
             continue;
         }
+        if (p.draco && !model.accessors[*a.position].view &&
+            buffers.given_values(*a.position) == nullptr)
+            unpack_draco(buffers, model, mesh, p);
         if (p.indices) check_indices(buffers, model, *p.indices, survey);
         const std::uint64_t points = model.accessors[*a.position].count;
         const std::uint64_t corners = p.indices ? model.accessors[*p.indices].count : points;

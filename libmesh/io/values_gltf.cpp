@@ -66,6 +66,12 @@ values_gltf::values_gltf(buffers_gltf& buffers, const model_gltf& model, std::si
     normalized_ = accessor.normalized;
     if (components_ == 0) buffers.fail("accessors", number, "holds matrices, for which it is not");
     const std::size_t element = components_ * size_of(type_);
+    if (const std::string* const given = buffers.given_values(number)) {
+        first_ = given->data();
+        stride_ = element;
+        size_ = given->size() / element;
+        return;
+    }
     row_gltf row;
     if (accessor.view) {
         const auto found =

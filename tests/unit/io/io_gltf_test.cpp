@@ -411,9 +411,9 @@ TEST_CASE("gltf: an extension that is required and not read is refused by name")
     };
     CHECK(said("VENDOR_shape") ==
           "a.glb: the file requires the extension VENDOR_shape, which is not read");
-    for (const char* const packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"})
-        CHECK(said(packed) == "a.glb: the file requires the extension " + std::string(packed) +
-                                  ", which is not read; gltf-transform copy IN OUT unpacks it");
+    CHECK(said("EXT_meshopt_compression") ==
+          "a.glb: the file requires the extension EXT_meshopt_compression, which is not read; "
+          "gltf-transform copy IN OUT unpacks it");
     for (const char* const looks : {"KHR_materials_unlit", "KHR_texture_basisu", "EXT_texture_webp",
                                     "KHR_lights_punctual", "KHR_texture_transform"})
         CHECK(said(looks).empty());
@@ -421,11 +421,6 @@ TEST_CASE("gltf: an extension that is required and not read is refused by name")
     gltf_file file = gltf_cube();
     file.accessors[0] = R"({"componentType":5126,"count":8,"type":"VEC3"})";
     CHECK(glb_refusal(file.glb()).find("accessors[0] has no buffer view") != std::string::npos);
-    file.meshes.clear();
-    file.add_mesh(R"("POSITION":0)",
-                  R"(,"indices":1,"extensions":{"KHR_draco_mesh_compression":{}})");
-    CHECK(glb_refusal(file.glb()).find("needs the extension KHR_draco_mesh_compression") !=
-          std::string::npos);
     file = gltf_cube();
     file.views[0].insert(1, R"("extensions":{"EXT_meshopt_compression":{}},)");
     CHECK(glb_refusal(file.glb()).find("needs the extension EXT_meshopt_compression") !=

@@ -55,7 +55,7 @@ namespace treeform {
 ///   corners have colors of their own. Texture coordinates are in `attributes::corners`; images are
 ///   not read. Coordinates are in the unit of the file, which is a line of `attributes::obj_info`:
 ///   "unit millimeter". Extensions that a file requires and that would change its shape are refused.
-/// - glTF 2.0 and GLB: the default scene. Each mesh that a node shows, also as an instance of
+/// - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene. Each mesh that a node shows, also as an instance of
 ///   EXT_mesh_gpu_instancing, is a part with a name of its own, that of the node or of the mesh, where
 ///   the transforms, composed in double, put it; mirrored ones have their faces turned. Strips and
 ///   fans are triangles. COLOR_0 becomes columns red, green, blue and alpha of points, in the type and
