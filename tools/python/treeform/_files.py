@@ -27,8 +27,8 @@ def read(path: Path, format: str = "", *, join: bool = True, progress: Progress 
     DAE and others where treeform was built with assimp.
 
     format: an extension without its dot; empty: the content decides, then the extension.
-    join: in a format that does not number its vertices (STL), corners with equal coordinates
-    become one vertex. Faces keep the order and the numbers that they have in the file, and
+    join: in a format that does not number its vertices (STL) or repeats them (GLB), corners with
+    equal coordinates become one vertex, with the attributes of the first of them. Faces keep the order and the numbers that they have in the file, and
     vertices, too, in other formats.
 
     Coordinates are float64: those of the file, decimal text rounded once. NaN and infinities are
