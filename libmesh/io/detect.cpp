@@ -76,7 +76,7 @@ void refuse_unless_text(const source& in) {
     if (t.starts_with("# .PCD") || is_pcd_header(t)) return detected{file_kind::pcd};
     if (t.starts_with("LASF")) return detected{file_kind::las};
     if (t.starts_with("ASTM-E57")) refuse_e57(in);
-    if (t.starts_with("glTF")) return detected{file_kind::scene, "glb"};
+    if (t.starts_with("glTF")) return detected{file_kind::gltf};
     if (is_binary_stl(in)) return detected{file_kind::stl_binary};
     if (t.starts_with("PK\x03\x04"))
         return extension == "zae" ? detected{file_kind::scene, "zae"}
@@ -139,6 +139,7 @@ detected detect(const source& in, std::string_view format, std::string_view exte
     if (wanted == "ply") return {file_kind::ply};
     if (wanted == "pcd") return {file_kind::pcd};
     if (wanted == "3mf") return {file_kind::package_3mf};
+    if (wanted == "glb" || wanted == "gltf" || wanted == "vrm") return {file_kind::gltf};
     if (wanted == "las" || wanted == "laz") {
         if (!text(in).starts_with("LASF")) in.fail_byte(in.begin(), "no LAS or LAZ file");
         return {file_kind::las};

@@ -22,6 +22,7 @@ enum class file_kind : std::uint8_t {
     pts,  ///< as xyz, with the number of points first
     csv,
     package_3mf,
+    gltf,  ///< or GLB
     scene
 };
 

@@ -19,12 +19,12 @@ template <std::size_t N>
 }
 
 [[nodiscard]] bool is_of(const fs::path& path, file_content content) {
-    constexpr std::array<std::string_view, 5> meshes{"stl", "obj", "ply", "off", "3mf"};
-    constexpr std::array<std::string_view, 2> scenes{"glb", "gltf"};
+    constexpr std::array<std::string_view, 7> meshes{"stl", "obj", "ply", "off",
+                                                     "3mf", "glb", "gltf"};
     constexpr std::array<std::string_view, 7> points{"pcd", "las", "laz", "xyz",
                                                      "csv", "pts", "asc"};
     const std::string extension = detail::io::extension_of(path);
-    return is_among(meshes, extension) || (is_among(scenes, extension) && reads_scenes()) ||
+    return is_among(meshes, extension) ||
            (content == file_content::meshes_and_points && is_among(points, extension));
 }
 

@@ -1,16 +1,17 @@
 #pragma once
 /// \file
-/// A look at JSON before a recursive parser gets it.
+/// A look at JSON before a parser gets it.
 
 #include <libmesh/io/source.hpp>
 
+#include <string_view>
+
 namespace treeform::detail::io {
 
-/// Refuses glTF, in text or binary, whose JSON, or whose nodes, nest so deeply that loading would
-/// exhaust the stack, or whose binary JSON is cut short. JSON that is wrong otherwise is left to
-/// the parser.
+/// Refuses JSON, a part of `in`, that nests so deeply that no honest file does. JSON that is wrong
+/// otherwise is left to the parser.
 ///
-/// \throws io_error naming the byte, or the node
-void refuse_deep_json(const source& gltf);
+/// \throws io_error naming the byte
+void refuse_deep_json(const source& in, std::string_view json);
 
 }  // namespace treeform::detail::io

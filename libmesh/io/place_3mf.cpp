@@ -1,4 +1,5 @@
 #include <libmesh/io/colors_3mf.hpp>
+#include <libmesh/io/name_giver.hpp>
 #include <libmesh/io/place_3mf.hpp>
 
 #include <algorithm>
@@ -7,8 +8,6 @@
 #include <limits>
 #include <map>
 #include <string>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 namespace treeform::detail::io {
@@ -79,22 +78,6 @@ class counter {
     const source& in_;
     const model_3mf& model_;
     std::map<object_key, amount> known_{};
-};
-
-/// Makes names differ: parts with one name would be one part.
-class name_giver {
-  public:
-    [[nodiscard]] std::string name(const std::string& wanted) {
-        if (taken_.insert(wanted).second) return wanted;
-        for (;;) {
-            std::string other = wanted + " (" + std::to_string(++times_[wanted] + 1) + ")";
-            if (taken_.insert(other).second) return other;
-        }
-    }
-
-  private:
-    std::unordered_set<std::string> taken_{};
-    std::unordered_map<std::string, std::size_t> times_{};
 };
 
 class placer {

@@ -43,6 +43,8 @@ namespace {
             return detail::io::read_xyz(in, "csv");
         case detail::io::file_kind::package_3mf:
             return detail::io::read_3mf(in);
+        case detail::io::file_kind::gltf:
+            return detail::io::read_gltf(in, path);
         case detail::io::file_kind::scene:
             break;
     }

@@ -1,5 +1,4 @@
 #include <libmesh/io/face_sink.hpp>
-#include <libmesh/io/json_depth.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/scene_depth.hpp>
 #include <treeform/mesh/read.hpp>
@@ -68,18 +67,13 @@ constexpr transform identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 /// Collects the meshes of all nodes; a mesh that several nodes show comes once for each.
 class scene_reader {
   public:
-    /// With `may_be_empty`, a scene without meshes is one; else a file that was not understood.
-    scene_reader(const source& in, const aiScene& scene, bool may_be_empty)
-        : in_(in),
-          scene_(scene),
-          may_be_empty_(may_be_empty && scene.mNumMeshes == 0),
-          faces_(file_) {}
+    scene_reader(const source& in, const aiScene& scene) : in_(in), scene_(scene), faces_(file_) {}
 
     mesh_file read() {
         file_.indexed = false;
         file_.stored_as = precision::float32;
         if (scene_.mRootNode != nullptr) add_nodes();
-        if (file_.mesh.points.empty() && !may_be_empty_) in_.fail("no triangle found");
+        if (file_.mesh.points.empty()) in_.fail("no triangle found");
         if (dropped_ > 0)
             file_.warnings.push_back(
                 {"skipped-elements", std::to_string(dropped_) + " points and lines were not read"});
@@ -141,7 +135,6 @@ class scene_reader {
 
     const source& in_;
     const aiScene& scene_;
-    bool may_be_empty_;
     mesh_file file_{};
     face_sink faces_;
     std::size_t dropped_ = 0;
@@ -170,7 +163,7 @@ constexpr int unwanted = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGEN
     constexpr unsigned steps = aiProcess_RemoveComponent;
     std::string reason;
     try {
-        // glTF in text keeps its numbers in other files, which only a path can find.
+        // glTF 1.0 in text keeps its numbers in other files, which only a path can find.
         const aiScene* const scene =
             path.empty() || hint != "gltf"
                 ? importer.ReadFileFromMemory(in.begin(), in.size(), steps, hint.c_str())
@@ -208,7 +201,8 @@ class scene_importer : public Assimp::Importer {
 
 bool scene_format(std::string_view extension) {
     // The formats that are read natively are never left to a reader that rounds them.
-    constexpr std::array<std::string_view, 5> native{"stl", "obj", "ply", "off", "3mf"};
+    constexpr std::array<std::string_view, 7> native{"stl", "obj",  "ply", "off",
+                                                     "3mf", "gltf", "glb"};
     if (std::find(native.begin(), native.end(), extension) != native.end()) return false;
     return scene_importer(std::string(extension)).GetImporterCount() > 0;
 }
@@ -216,14 +210,13 @@ bool scene_format(std::string_view extension) {
 mesh_file read_scene(const source& in, const std::filesystem::path& path,
                      std::string_view extension) {
     const std::string hint(extension);
-    if (!scene_format(extension)) in.fail("format '" + hint + "' is not read");
     scene_importer importer(hint);
+    if (importer.GetImporterCount() == 0) in.fail("format '" + hint + "' is not read");
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-    if (hint == "glb" || hint == "gltf" || hint == "vrm") refuse_deep_json(in);
     refuse_deep_scene(in);
     const aiScene& scene = load_scene(importer, in, path, hint);
-    mesh_file file = scene_reader(in, scene, hint == "glb" || hint == "gltf").read();
+    mesh_file file = scene_reader(in, scene).read();
     file.format = hint;
     return file;
 }

@@ -19,13 +19,16 @@ namespace treeform::detail::io {
 /// LAS and LAZ.
 [[nodiscard]] mesh_file read_las(const source& in);
 [[nodiscard]] mesh_file read_3mf(const source& in);
+/// glTF 2.0 and GLB. `path` is empty for bytes that have none; then files that it names cannot be
+/// found.
+[[nodiscard]] mesh_file read_gltf(const source& in, const std::filesystem::path& path);
 /// `format` is "xyz" or "csv", which are read alike, or "pts", where a count may come first.
 [[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format);
 
 /// True when the library behind `read_scene` knows files of this extension (no dot).
 [[nodiscard]] bool scene_format(std::string_view extension);
-/// A scene through assimp. `path` is empty for bytes that have none; then files that a scene refers
-/// to cannot be found.
+/// A scene through assimp, glTF 1.0 too. `path` is empty for bytes that have none; then files that a
+/// scene refers to cannot be found.
 [[nodiscard]] mesh_file read_scene(const source& in, const std::filesystem::path& path,
                                    std::string_view extension);
 

@@ -182,17 +182,19 @@ class writing {
   private:
     void warn_of_corner_values() {
         const corner_values& corners = file_.attributes.corners;
+        const bool is_glb = format_.extension == "glb";
         if (format_.extension == "obj") return;
         std::string lost;
         if (!corners.texture_of_corner.empty()) {
             const bool has_w = std::any_of(corners.texture.begin(), corners.texture.end(),
                                            [](const auto& row) { return row[2] != 0.0; });
-            if (format_.extension != "ply")
+            if (format_.extension != "ply" && !is_glb)
                 lost = "texture coordinates";
             else if (has_w)
                 lost = "w of texture coordinates";
         }
-        if (!corners.normal_of_corner.empty()) lost += lost.empty() ? "normals" : " and normals";
+        if (!corners.normal_of_corner.empty() && !is_glb)
+            lost += lost.empty() ? "normals" : " and normals";
         if (!lost.empty()) warn_of_loss("corner-values", lost + " of corners");
     }
 

@@ -7,6 +7,7 @@
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
+#include <support/gltf.hpp>
 #include <support/las_bytes.hpp>
 #include <support/packages.hpp>
 #include <support/stress_families.hpp>
@@ -228,6 +229,30 @@ void write_model_parts(const std::filesystem::path& to) {
     write(to / "model-path", model(leaf, "<item objectid=\"1\" p:path=\"/3D/3dmodel.model\"/>"));
 }
 
+/// GLB with what treeform does not write itself.
+void write_gltf_files(const std::filesystem::path& to) {
+    test::gltf_file file = test::gltf_cube(
+        R"(,"name":"a","scale":[1,-2,3],"children":[1],"extensions":{"EXT_mesh_gpu_instancing":)"
+        R"({"attributes":{"TRANSLATION":4,"ROTATION":5}}})");
+    file.add(std::vector<std::uint8_t>(32, 7), test::gltf_uint8, "VEC4", R"(,"normalized":true)");
+    file.add(std::vector<float>(16, 0.5F), test::gltf_float, "VEC2");
+    file.add<float>({0, 0, 0, 5, 0, 0}, test::gltf_float, "VEC3");
+    file.add<float>({0, 0, 0, 1, 0, 1, 0, 1}, test::gltf_float, "VEC4");
+    file.add_view(test::bytes_of_values<std::uint8_t>({6, 7}));
+    file.add_view(test::bytes_of_values<float>({1, 1, 3, 0, 1, 3}));
+    file.add_accessor(0, test::gltf_float, 8, "VEC3",
+                      R"(,"sparse":{"count":2,"indices":{"bufferView":6,"componentType":5121},)"
+                      R"("values":{"bufferView":7}})");
+    file.meshes.clear();
+    file.add_mesh(R"("POSITION":6,"COLOR_0":2,"TEXCOORD_0":3,"NORMAL":0)",
+                  R"(,"indices":1,"material":0,"mode":5)");
+    file.nodes.push_back(R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,9,9,9,1]})");
+    file.more = R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,)"
+                R"("extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":0.5}}}}}],)";
+    write(to / "gltf", file.glb());
+    write(to / "gltf-text", file.embedded());
+}
+
 /// Points of every format, plain and packed, with extra bytes and records.
 void write_las_files(const std::filesystem::path& to) {
     for (unsigned format = 0; format <= 10; ++format) {
@@ -264,9 +289,11 @@ void write_seeds(const std::filesystem::path& folder) {
         }
         if (format == std::string_view("3mf")) write_model_parts(to);
         if (format == std::string_view("las")) write_las_files(to);
+        if (format == std::string_view("glb")) write_gltf_files(to);
         const tf::mesh_file textured =
             with_corner_values(stress_mesh(static_cast<stress_family>(0), 12, 1));
-        if (format == std::string_view("obj") || format == std::string_view("ply"))
+        if (format == std::string_view("obj") || format == std::string_view("ply") ||
+            format == std::string_view("glb"))
             for (const bool ascii : {false, true})
                 write(to / (ascii ? "textured-ascii" : "textured"),
                       write_to_memory(textured, {.format = format, .ascii = ascii}));

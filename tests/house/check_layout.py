@@ -44,6 +44,7 @@ ROOM_OF_HEADER = {"as_mesh": "weld", "process_team": "base", "properties": "topo
 HOME_OF_PACKAGE = {
     r"(tbb|oneapi)/": "libtree/base/parallel.cpp",
     r"assimp/": "libmesh/io/",
+    r"draco/": "libmesh/io/draco_gltf.cpp",
     r"(pugixml|pugiconfig|minizip/)": "libmesh/io/",
     r"(zlib|zconf)\.h": ("libmesh/io/", "tools/picture/png.cpp"),
     r"Eigen/": "libmesh/place/",

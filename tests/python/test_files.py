@@ -53,6 +53,20 @@ def test_attributes_travel(tmp_path):
         extra.set_face("label", [1, 2, 3])
 
 
+def test_corners_of_a_glb_that_are_joined_keep_the_attributes_of_the_first(tmp_path):
+    vertices = CUBE.vertices[CUBE.faces].reshape(-1, 3)
+    extra = tf.Attributes()
+    for name, value in zip(("nx", "ny", "nz"), (0, 0, 1)):
+        extra.set_vertex(name, np.full(36, value, dtype=np.float32))
+    extra.set_vertex("s", np.arange(36, dtype=np.float32))
+    extra.set_vertex("t", np.zeros(36, dtype=np.float32))
+    tf.write(tmp_path / "m.glb", tf.Mesh(vertices, np.arange(36).reshape(-1, 3), extra))
+    joined, soup = tf.read(tmp_path / "m.glb"), tf.read(tmp_path / "m.glb", join=False)
+    assert len(joined.vertices) == 8 and tf.check_solid(joined)
+    assert joined.attributes.vertex["s"][0] == 0 and len(joined.attributes.vertex["nz"]) == 8
+    assert len(soup.vertices) == 36 and soup.attributes.vertex["s"][35] == 35
+
+
 def test_names_of_parts_and_polygons_travel(tmp_path):
     (tmp_path / "m.obj").write_text("o first\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
     mesh = tf.read(tmp_path / "m.obj")

@@ -136,11 +136,10 @@ void add_run_options(command_line& line, common_options& o) {
 
 /// For completion; any of them may be read also when others are meant.
 std::vector<std::string> extensions_of(tf::file_content content) {
-    std::vector<std::string> all{"stl", "obj", "ply", "off", "3mf"};
+    std::vector<std::string> all{"stl", "obj", "ply", "off", "3mf", "glb", "gltf"};
     const auto add = [&all](std::initializer_list<const char*> more) {
         all.insert(all.end(), more.begin(), more.end());
     };
-    if (tf::reads_scenes()) add({"glb", "gltf"});
     if (content == tf::file_content::meshes_and_points)
         add({"pcd", "las", "laz", "xyz", "csv", "pts", "asc"});
     return all;

@@ -18,15 +18,12 @@
 namespace tools {
 namespace {
 
-/// What was certified is what is on the disk now. GLB is read by others, which renumber points, and
-/// has faces by color; 3MF has them by part. Builds without a reader for GLB have nothing to look
-/// with.
+/// What was certified is what is on the disk now. GLB has faces by part and color, 3MF by part.
 void look_again(const std::filesystem::path& path, const std::string& format,
                 const tf::mesh& surface) {
     std::error_code error;
     const bool scene = format == "glb" || format == "3mf";
     if (path == "-" || !std::filesystem::is_regular_file(path, error)) return;
-    if (format == "glb" && !tf::reads_scenes()) return;
     const tf::mesh_file written = tf::read(path, format);
     const bool numbered = !scene && written.indexed;
     if (!tf::same_triangles(written.mesh, surface,

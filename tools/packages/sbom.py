@@ -25,6 +25,7 @@ import zipfile
 LICENSES = {
     "assimp": "BSD-3-Clause",
     "cli11": "BSD-3-Clause",
+    "draco": "Apache-2.0",
     "eigen3": "MPL-2.0",
     "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "glibc": "LGPL-2.1-or-later",

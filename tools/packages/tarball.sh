@@ -83,7 +83,7 @@ Nothing has to be installed. Put bin/ on the PATH, or copy this folder's bin/ an
     tf-selfintersect MODEL.stl --png picture.png
 
 --help of each tool is its manual; so is share/man/man1. The tools are linked statically, with plain
-threads, without assimp (no glTF, DAE and FBX are read) and without MPI.
+threads, without assimp (no DAE and FBX are read) and without MPI.
 
 LICENSE is that of treeform; licenses/ has those of what is linked in. The sources of treeform make
 these files by tools/packages/tarball.sh, with any version of those libraries.

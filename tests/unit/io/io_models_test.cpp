@@ -125,17 +125,10 @@ TEST_CASE("models: scenes come with a part for each node that shows triangles") 
     const auto folder = test::models_folder() / "scene";
     if (!std::filesystem::exists(folder / "nested.glb")) SKIP_CASE("the models have no scenes");
     CHECK(tf::read(folder / "cube_gears.3mf").attributes.parts.size() == 17);
-    try {
-        const tf::mesh_file menger = tf::read(folder / "mengerSponge3.glb");
-        CHECK(menger.mesh.faces.size() == 21598);
-        CHECK(menger.attributes.parts.size() == 1);
-        const tf::mesh_file nested = tf::read(folder / "nested.glb");
-        CHECK(nested.mesh.faces.size() == 12 * nested.attributes.parts.size());
-        CHECK(nested.stored_as == tf::precision::float32);
-        CHECK(nested.warnings.back().code == "precision");
-    } catch (const tf::io_error& e) {
-        // A build without assimp says so.
-        CHECK(std::string(e.what()).find("needs a build with assimp") != std::string::npos);
-        test::skip_part("built without assimp");
-    }
+    const tf::mesh_file menger = tf::read(folder / "mengerSponge3.glb");
+    CHECK(menger.mesh.faces.size() == 21598);
+    CHECK(menger.attributes.parts.size() == 1);
+    const tf::mesh_file nested = tf::read(folder / "nested.glb");
+    CHECK(nested.mesh.faces.size() == 12 * nested.attributes.parts.size());
+    CHECK(nested.stored_as == tf::precision::float32);
 }

@@ -78,6 +78,9 @@ py::tuple read(const std::filesystem::path& path, const std::string& format, boo
     tf::mesh_file file = run([&](const tf::progress_callback&) {
         tf::mesh_file read = tf::read(path, format);
         if (join && !read.indexed) {
+            for (tf::element& e : read.attributes.elements)
+                if (e.name == "vertex")
+                    e = gather(e, tf::find_equal_points(read.mesh.points).first_of_new);
             read.mesh = tf::join_equal_points(read.mesh);
             read.indexed = true;
         }

@@ -23,12 +23,12 @@ def path_of(path: Path) -> str:
 
 
 def read(path: Path, format: str = "", *, join: bool = True, progress: Progress = None) -> Mesh:
-    """The mesh or cloud in a file: STL, OBJ, PLY, OFF, 3MF, PCD, LAS, LAZ, XYZ, CSV, PTS; GLB, glTF,
+    """The mesh or cloud in a file: STL, OBJ, PLY, OFF, 3MF, GLB, glTF, PCD, LAS, LAZ, XYZ, CSV, PTS;
     DAE and others where treeform was built with assimp.
 
     format: an extension without its dot; empty: the content decides, then the extension.
-    join: in a format that does not number its vertices (STL), corners with equal coordinates
-    become one vertex. Faces keep the order and the numbers that they have in the file, and
+    join: in a format that does not number its vertices (STL) or repeats them (GLB), corners with
+    equal coordinates become one vertex, with the attributes of the first of them. Faces keep the order and the numbers that they have in the file, and
     vertices, too, in other formats.
 
     Coordinates are float64: those of the file, decimal text rounded once. NaN and infinities are

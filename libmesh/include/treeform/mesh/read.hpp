@@ -55,6 +55,16 @@ namespace treeform {
 ///   corners have colors of their own. Texture coordinates are in `attributes::corners`; images are
 ///   not read. Coordinates are in the unit of the file, which is a line of `attributes::obj_info`:
 ///   "unit millimeter". Extensions that a file requires and that would change its shape are refused.
+/// - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene. Each mesh that a node shows, also as an instance of
+///   EXT_mesh_gpu_instancing, is a part with a name of its own, that of the node or of the mesh, where
+///   the transforms, composed in double, put it; mirrored ones have their faces turned. Strips and
+///   fans are triangles. COLOR_0 becomes columns red, green, blue and alpha of points, in the type and
+///   with the numbers of the file; NORMAL nx, ny and nz, turned with the node; the texture coordinates
+///   that the color of the material takes, with KHR_texture_transform, s and t = 1 - v, since t counts
+///   from the lower edge elsewhere. Materials, other attributes and lines are not read, morph
+///   targets and skins not applied. Files that a glTF names are read from its folder and those in it.
+///   Extensions that a file requires are refused by name, except for KHR_mesh_quantization and those
+///   that only change how a surface looks. glTF 1.0 is left to assimp.
 ///
 /// \throws io_error naming path, line or byte, and reason
 [[nodiscard]] TREEFORM_API mesh_file read(const std::filesystem::path& path,
@@ -66,7 +76,7 @@ namespace treeform {
 
 /// Which files of a folder are meant.
 enum class file_content : std::uint8_t {
-    meshes,            ///< STL, OBJ, PLY, OFF, 3MF, and where scenes can be read GLB, glTF
+    meshes,            ///< STL, OBJ, PLY, OFF, 3MF, GLB, glTF
     meshes_and_points  ///< also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
 };
 
@@ -76,7 +86,8 @@ enum class file_content : std::uint8_t {
 [[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
                                                              file_content content);
 
-/// Whether scenes (GLB, DAE, ...) can be read: true unless treeform was built without assimp.
+/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: true unless treeform was built
+/// without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();
 
 enum class urdf_joint_kind : std::uint8_t { fixed, revolute, continuous, prismatic };

@@ -66,9 +66,13 @@ struct write_result {
 ///   rounded (`max_displacement`). A file that was not LAS gets the smallest format that holds its
 ///   columns, and for each axis the coarsest scale of 1, 0.1, 0.01, ... that gives all coordinates
 ///   back within two units in their last place, else the finest that 32 bits allow.
-/// - GLB: one primitive for each color of faces (columns red, green, blue and alpha, if any, of the
-///   element "face"). Other columns of faces with whole numbers from 0 on become accessors that the
-///   primitive's `extras.face_properties` names.
+/// - GLB: a node and a mesh with the points that they use for faces of one object and group in a row,
+///   with their name; in these, one primitive for each color of faces (columns red, green, blue and
+///   alpha, if any, of the element "face"). Other columns of faces with whole numbers from 0 on become
+///   accessors that the primitive's `extras.face_properties` names. Columns of points: red, green,
+///   blue and alpha become COLOR_0, of 8 and 16 bits as they are, others as floats from 0 to 1; nx,
+///   ny and nz NORMAL, with length 1; s and t, u and v or texture_u and texture_v TEXCOORD_0, with
+///   v = 1 - t. Those of corners go ahead of these, and a point gets a copy for each that it has.
 /// - 3MF: an object and an item of the build for each of `scene_parts`, with its name; materials of
 ///   parts with the colors of their faces; else colors of faces, else of points; the line "unit ..."
 ///   of `obj_info`, else millimeters. Polygons are written as triangles. A number in text is that of

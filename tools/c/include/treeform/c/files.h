@@ -287,7 +287,8 @@ TREEFORM_C_API treeform_code treeform_files_of(const char* const* paths, size_t 
                                                treeform_file_content content,
                                                treeform_strings** files);
 
-/// Whether scenes (GLB, DAE, ...) can be read: 0 when treeform was built without assimp.
+/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 when treeform was built
+/// without assimp.
 TREEFORM_C_API int32_t treeform_reads_scenes(void);
 
 /// A robot.

@@ -1,0 +1,89 @@
+#pragma once
+/// \file
+/// A mesh cut up as GLB has it: nodes by name, primitives by color, vertices that have one value of
+/// each attribute.
+
+#include <libmesh/io/writers.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace treeform::detail::io {
+
+using color_glb = std::array<double, 4>;
+
+/// Triangles of one color, in the order of the mesh.
+struct primitive_glb {
+    std::size_t material = 0;
+    std::vector<std::uint32_t> triangles{};
+};
+
+/// A point and rows of `corner_values`; `corner_values::none` where there is none.
+struct vertex_glb {
+    std::uint32_t point = 0;
+    std::uint32_t texture = corner_values::none;
+    std::uint32_t normal = corner_values::none;
+
+    friend auto operator<=>(const vertex_glb&, const vertex_glb&) = default;
+};
+
+/// Consecutive faces of one object and group.
+struct part_glb {
+    std::string name{};
+    std::vector<primitive_glb> primitives{};
+    std::vector<vertex_glb> vertices{};  ///< by points, ascending
+    std::vector<face> faces{};           ///< numbers in `vertices`; primitive after primitive
+};
+
+struct layout_glb {
+    std::vector<color_glb> materials{};  ///< by first appearance
+    std::vector<part_glb> parts{};
+};
+
+/// One part with all points where faces have no names; else parts with the points that they use.
+/// Says so when colors or points are left out.
+[[nodiscard]] layout_glb lay_out(const write_job& job);
+
+/// Values that vertices have besides positions.
+class attributes_glb {
+  public:
+    explicit attributes_glb(const mesh_file& file);
+
+    /// Whether vertices of the part have these.
+    [[nodiscard]] bool has_normals(const part_glb& part) const;
+    [[nodiscard]] bool has_texture(const part_glb& part) const;
+    [[nodiscard]] bool has_colors() const { return !colors_.empty(); }
+
+    /// Whether some vertex has a normal, but none of a length.
+    [[nodiscard]] bool lacks_normals(const part_glb& part) const;
+    [[nodiscard]] bool lacks_texture(const part_glb& part) const;
+
+    /// Of length 1.
+    [[nodiscard]] std::array<float, 3> normal(const vertex_glb& v) const;
+    /// v counts from the upper edge. 0 0 where there is none.
+    [[nodiscard]] std::array<float, 2> texture(const vertex_glb& v) const;
+
+    [[nodiscard]] const std::vector<const column*>& colors() const { return colors_; }
+    /// uint8 and uint16 where all columns are that, else float32.
+    [[nodiscard]] scalar_type color_type() const { return color_type_; }
+    /// From 0 to 1.
+    [[nodiscard]] static double color_share(const column& c, std::size_t row);
+
+    /// Names of columns of points that GLB has no place for.
+    [[nodiscard]] std::vector<std::string> left_out() const;
+
+  private:
+    [[nodiscard]] point3 stored_normal(const vertex_glb& v) const;
+    [[nodiscard]] std::array<double, 2> stored_texture(const vertex_glb& v) const;
+
+    const mesh_file& file_;
+    std::vector<const column*> normals_{};
+    std::vector<const column*> texture_{};
+    std::vector<const column*> colors_{};
+    scalar_type color_type_ = scalar_type::float32;
+};
+
+}  // namespace treeform::detail::io
