@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace treeform {
 
@@ -29,6 +32,54 @@ void split_polygons(mesh_file& file) {
     }
     file.stored_face = {};
     file.stored_faces = file.mesh.faces.size();
+}
+
+std::size_t drop_non_finite(mesh_file& file) {
+    constexpr std::uint32_t none = corner_values::none;
+    mesh& m = file.mesh;
+    std::vector<std::uint32_t> kept, new_of_old(m.points.size(), none);
+    for (std::uint32_t p = 0; p < m.points.size(); ++p) {
+        const point3& at = m.points[p];
+        if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z)) continue;
+        new_of_old[p] = static_cast<std::uint32_t>(kept.size());
+        kept.push_back(p);
+    }
+    const std::size_t dropped = m.points.size() - kept.size();
+    if (dropped == 0) return 0;
+    const auto stored_of = [&](std::uint32_t f) {
+        return file.stored_face.empty() ? f : file.stored_face[f];
+    };
+    std::vector<bool> is_bad(file.stored_face.empty() ? m.faces.size() : file.stored_faces, false);
+    for (std::uint32_t f = 0; f < m.faces.size(); ++f)
+        for (const std::uint32_t corner : m.faces[f])
+            if (new_of_old[corner] == none) is_bad[stored_of(f)] = true;
+    std::vector<std::uint32_t> rows, new_row(is_bad.size() + 1, 0), triangles;
+    for (std::uint32_t s = 0; s < is_bad.size(); ++s) {
+        if (!is_bad[s]) rows.push_back(s);
+        new_row[s + 1] = static_cast<std::uint32_t>(rows.size());
+    }
+    for (std::uint32_t f = 0; f < m.faces.size(); ++f)
+        if (!is_bad[stored_of(f)]) triangles.push_back(f);
+    for (element& e : file.attributes.elements) {
+        if (e.name == "vertex") e = gather(e, kept);
+        if (e.name == "face") e = gather(e, rows);
+    }
+    file.attributes.corners = gather(file.attributes.corners, triangles);
+    for (part& p : file.attributes.parts) p.first_face = new_row[p.first_face];
+    std::vector<std::uint32_t> stored;
+    std::vector<face> faces;
+    for (const std::uint32_t f : triangles) {
+        face corners = m.faces[f];
+        for (std::uint32_t& corner : corners) corner = new_of_old[corner];
+        faces.push_back(corners);
+        if (!file.stored_face.empty()) stored.push_back(new_row[file.stored_face[f]]);
+    }
+    std::vector<point3> points;
+    for (const std::uint32_t p : kept) points.push_back(m.points[p]);
+    m = {std::move(points), std::move(faces)};
+    file.stored_face = std::move(stored);
+    file.stored_faces = file.stored_face.empty() ? m.faces.size() : rows.size();
+    return dropped;
 }
 
 }  // namespace treeform

@@ -1,3 +1,5 @@
+#include <libmesh/attributes/known_columns.hpp>
+#include <libmesh/carry/join_las.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 
@@ -80,11 +82,13 @@ void append_lists(column& to, const column& from) {
 
 class joiner {
   public:
-    joiner(std::vector<mesh_file> files, std::span<const std::string> names)
-        : files_(std::move(files)), names_(names) {}
+    joiner(std::vector<mesh_file> files, std::span<const std::string> names,
+           const join_options& options)
+        : files_(std::move(files)), names_(names), options_(options) {}
 
     mesh_file join() {
         check_sizes();
+        translate();
         unite_textures();
         join_descriptions();
         join_element("vertex", [](const mesh_file& f) { return f.mesh.points.size(); });
@@ -97,6 +101,8 @@ class joiner {
             join_faces(file);
             file = {};
         }
+        if (const element* points = find_element(all_.attributes, "vertex"))
+            detail::attribute::look_at_ranges(*points, all_.ranges);
         return std::move(all_);
     }
 
@@ -122,6 +128,18 @@ class joiner {
                 "numbers can name");
     }
 
+    /// Points have the columns that the format of the first file has for them.
+    void translate() {
+        for (std::size_t i = 1; i < files_.size(); ++i)
+            for (element& e : files_[i].attributes.elements) {
+                if (e.name != "vertex") continue;
+                const detail::attribute::translation to(e, files_[i].format, files_[0].format, {});
+                if (!to.changes()) continue;
+                e = to.apply(e);
+                for (const io_warning& w : to.warnings()) warn(w.code, names_[i] + ": " + w.text);
+            }
+    }
+
     void unite_textures() {
         std::vector<mesh_file*> files;
         for (mesh_file& file : files_) files.push_back(&file);
@@ -132,7 +150,10 @@ class joiner {
     void join_descriptions() {
         all_.format = files_.front().format;
         all_.attributes.header = files_.front().attributes.header;
-        all_.las = files_.front().las;
+        all_.las = detail::carry::join_las(files_, names_, options_.mixed);
+        for (std::size_t i = 0; i < files_.size(); ++i)
+            if (!all_.las && files_[i].las && !files_[i].las->records.empty())
+                warn("left-out", names_[i] + ": records of LAS left out");
         all_.stored_as = precision::float32;
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const mesh_file& file = files_[i];
@@ -266,6 +287,7 @@ class joiner {
 
     std::vector<mesh_file> files_;
     std::span<const std::string> names_;
+    join_options options_;
     mesh_file all_{};
     bool polygons_ = false;
     bool parts_ = false;
@@ -273,12 +295,13 @@ class joiner {
 
 }  // namespace
 
-mesh_file join(std::vector<mesh_file> files, std::span<const std::string> names) {
+mesh_file join(std::vector<mesh_file> files, std::span<const std::string> names,
+               const join_options& options) {
     if (files.empty()) return {};
     if (files.size() != names.size())
         throw std::invalid_argument("treeform::join: " + std::to_string(names.size()) +
                                     " names for " + std::to_string(files.size()) + " files");
-    return joiner(std::move(files), names).join();
+    return joiner(std::move(files), names, options).join();
 }
 
 }  // namespace treeform

@@ -1,3 +1,4 @@
+#include <libmesh/attributes/known_columns.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 
@@ -61,10 +62,9 @@ point3 turned(const transform<3>& turn, const point3& n) {
 
 void turn_columns(element& e, const transform<3>& turn) {
     std::array<column*, 3> axes{};
-    constexpr std::array<const char*, 3> names{"nx", "ny", "nz"};
     for (column& c : e.columns)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (c.name == names[k] && holds_numbers(c)) axes[k] = &c;
+        if (const auto axis = detail::attribute::normal_axis(c.name); axis && holds_numbers(c))
+            axes[*axis] = &c;
     if (!axes[0] || !axes[1] || !axes[2]) return;
     for (std::size_t row = 0; row < e.rows; ++row) {
         point3 n;

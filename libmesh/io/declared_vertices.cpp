@@ -31,8 +31,8 @@ namespace {
 element declare_vertices(const write_job& job, bool text,
                          std::optional<std::span<const point3>> points) {
     element e{.name = "vertex"};
-    if (const element* source = find_element(job.file.attributes, "vertex"))
-        for (const column& c : source->columns) e.columns.push_back(declaration(c));
+    if (job.vertices != nullptr)
+        for (const column& c : job.vertices->columns) e.columns.push_back(declaration(c));
     const scalar_type wanted = job.single() ? scalar_type::float32 : scalar_type::float64;
     // Floats that are not to be single come from text, or have been moved.
     const bool widen = !points && !job.single() && has_single_axes(e);

@@ -69,6 +69,12 @@ void refuse_unless_text(const source& in) {
     in.fail("E57 is not read; convert it first, with PDAL: pdal translate in.e57 out.laz");
 }
 
+[[noreturn]] void refuse_ptx(const source& in) {
+    in.fail(
+        "PTX is not read, whose scans each have a place of their own; write it as LAS or PTS "
+        "first, with CloudCompare: CloudCompare -O in.ptx -C_EXPORT_FMT LAS -SAVE_CLOUDS");
+}
+
 [[nodiscard]] std::optional<detected> by_magic(const source& in, std::string_view extension) {
     text t(in);
     if (t.starts_with("ply\n") || t.starts_with("ply\r") || t.starts_with("ply "))
@@ -131,6 +137,13 @@ void refuse_unless_text(const source& in) {
 
 }  // namespace
 
+void check_chosen_columns(const source& in, const reading& how, file_kind kind) {
+    const bool is_table =
+        kind == file_kind::xyz || kind == file_kind::pts || kind == file_kind::csv;
+    if (!how.options.columns.empty() && !is_table)
+        in.fail("columns are chosen of XYZ, PTS and CSV alone");
+}
+
 detected detect(const source& in, std::string_view format, std::string_view extension) {
     if (in.size() == 0) in.fail("empty file");
     const std::string_view wanted = format.empty() ? extension : format;
@@ -145,6 +158,7 @@ detected detect(const source& in, std::string_view format, std::string_view exte
         return {file_kind::las};
     }
     if (wanted == "e57") refuse_e57(in);
+    if (wanted == "ptx") refuse_ptx(in);
     if (wanted == "stl") return is_binary_stl(in) ? detected{file_kind::stl_binary} : stl_kind(in);
     if (const auto kind = text_kind(wanted)) {
         refuse_unless_text(in);

@@ -2,6 +2,7 @@
 /// \file
 /// Which format an input has: by its content, then by its name.
 
+#include <libmesh/io/reading.hpp>
 #include <libmesh/io/source.hpp>
 
 #include <cstdint>
@@ -37,5 +38,8 @@ struct detected {
 /// \throws io_error when the content cannot be of any format that is read
 [[nodiscard]] detected detect(const source& in, std::string_view format,
                               std::string_view extension);
+
+/// \throws io_error for columns chosen of what is no table of text
+void check_chosen_columns(const source& in, const reading& how, file_kind kind);
 
 }  // namespace treeform::detail::io

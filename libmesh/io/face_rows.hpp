@@ -50,6 +50,8 @@ struct face_rows {
     std::function<bool(std::vector<placed_triangle>& triangles, std::size_t most,
                        std::vector<io_warning>& warnings)>
         append{};
+    /// Of PLY: faces of fewer than three corners that have been passed over.
+    std::function<std::uint64_t()> left_out{};
     /// Of PLY: as of `point_rows`.
     std::function<std::vector<row_place>(std::size_t count)> row_parts{};
     /// Of PLY: `append` gives the triangles of the rows from `first` on, up to row `end`, and looks at

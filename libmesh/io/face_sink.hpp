@@ -12,6 +12,14 @@
 
 namespace treeform::detail::io {
 
+/// Says how many faces had fewer than three corners, if any.
+inline void remark_on_short_faces(std::uint64_t count, std::vector<io_warning>& warnings) {
+    if (count > 0)
+        warnings.push_back(
+            {"short-faces", std::to_string(count) + (count == 1 ? " face" : " faces") +
+                                " of fewer than three corners left out, and not numbered"});
+}
+
 class face_sink {
   public:
     explicit face_sink(mesh_file& file) : file_(file) {}
@@ -50,11 +58,7 @@ class face_sink {
     }
 
     void remark(std::vector<io_warning>& warnings) const {
-        if (short_faces_ > 0)
-            warnings.push_back(
-                {"short-faces", std::to_string(short_faces_) +
-                                    (short_faces_ == 1 ? " face" : " faces") +
-                                    " of fewer than three corners left out, and not numbered"});
+        remark_on_short_faces(short_faces_, warnings);
     }
 
   private:

@@ -1,8 +1,11 @@
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_dimensions.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace treeform::detail::io {
@@ -96,6 +99,33 @@ void add_wave_packet(packed_dimensions& to) {
     return name.empty() ? "extra" : name;
 }
 
+/// The number that stands for "no value", in the widest type of its kind.
+[[nodiscard]] double no_data_in(const char* at, scalar_type type) {
+    using base::load;
+    if (type >= scalar_type::float32) return load<double, std::endian::little>(at);
+    const bool is_signed = with_type(type, []<class T>(T) { return std::is_signed_v<T>; });
+    return is_signed ? static_cast<double>(load<std::int64_t, std::endian::little>(at))
+                     : static_cast<double>(load<std::uint64_t, std::endian::little>(at));
+}
+
+/// Of the value `i` of a description.
+[[nodiscard]] std::optional<las_scaling> scaling_in(std::span<const std::byte> description,
+                                                    scalar_type type, std::size_t i) {
+    enum : unsigned { has_no_data = 1, has_scale = 8, has_offset = 16 };
+    const auto options = std::to_integer<unsigned>(description[3]);
+    const auto* const bytes = reinterpret_cast<const char*>(description.data());
+    const auto number = [&](std::size_t at) {
+        return base::load<double, std::endian::little>(bytes + at + 8 * i);
+    };
+    las_scaling s;
+    if ((options & has_scale) != 0) s.scale = number(112);
+    if ((options & has_offset) != 0) s.offset = number(136);
+    const bool usable = std::isfinite(s.scale) && s.scale != 0.0 && std::isfinite(s.offset);
+    if (!usable || (s.scale == 1.0 && s.offset == 0.0)) return std::nullopt;
+    if ((options & has_no_data) != 0) s.no_data = no_data_in(bytes + 40 + 8 * i, type);
+    return s;
+}
+
 /// `name`, or with a number behind it what is none of the names of `groups`.
 [[nodiscard]] std::string unique_name(const std::vector<extra_group>& groups,
                                       const std::string& name) {
@@ -169,6 +199,7 @@ std::vector<extra_group> extra_groups(std::span<const std::byte> descriptions, s
             const bool one = type > 0 && count == 1;
             const std::string full = one ? name : name + '[' + std::to_string(i) + ']';
             group.values.push_back({.name = unique_name(groups, full), .type = scalar, .byte = at});
+            if (type > 0 && i < 3) group.values.back().scaling = scaling_in(description, scalar, i);
             at += size_of(scalar);
         }
         groups.push_back(std::move(group));

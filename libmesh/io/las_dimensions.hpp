@@ -16,12 +16,25 @@
 
 namespace treeform::detail::io {
 
+/// How the stored numbers of extra bytes stand for values.
+struct las_scaling {
+    double scale = 1.0;
+    double offset = 0.0;
+    std::optional<double> no_data{};  ///< the stored number of those that have no value
+
+    friend bool operator==(const las_scaling&, const las_scaling&) = default;
+};
+
 struct las_dimension {
     std::string name{};
     scalar_type type = scalar_type::uint8;
     std::size_t byte = 0;  ///< where it begins in the record
     unsigned shift = 0;    ///< of values that share a byte
     unsigned bits = 0;     ///< of these; 0: the whole of `type`
+    /// Of extra bytes with a scale or an offset. Their columns hold the values, as doubles.
+    std::optional<las_scaling> scaling{};
+
+    [[nodiscard]] scalar_type column_type() const { return scaling ? scalar_type::float64 : type; }
 
     friend bool operator==(const las_dimension&, const las_dimension&) = default;
 };

@@ -76,6 +76,26 @@ void las_grid_choice::start_round(const digits& least) {
     moved_ = false;
 }
 
+void las_grid_choice::put(las_header& header, const las_grid_wish& wish) const {
+    put(header);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const range& r = ranges_[axis];
+        if (wish.scale) header.scale[axis] = (*wish.scale)[axis];
+        if (wish.offset) header.offset[axis] = (*wish.offset)[axis];
+        if (!std::isfinite(r.low) || !std::isfinite(r.high)) continue;
+        if (wish.scale && !wish.offset) {
+            const bool near = largest_of(r) / header.scale[axis] <= reach;
+            header.offset[axis] = near ? 0.0 : std::nearbyint(r.low + half_of(r));
+        } else if (wish.offset && !wish.scale) {
+            const double from = header.offset[axis];
+            const double far = std::max(r.high - from, from - r.low);
+            int d = digits_[axis];
+            while (far / las_unit_of(d) > reach) --d;
+            header.scale[axis] = las_unit_of(d);
+        }
+    }
+}
+
 void las_grid_choice::put(las_header& header) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const range& r = ranges_[axis];

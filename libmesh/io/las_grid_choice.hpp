@@ -7,9 +7,22 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace treeform::detail::io {
+
+/// What of scale and offset somebody has asked for.
+struct las_grid_wish {
+    std::optional<std::array<double, 3>> scale{};
+    std::optional<std::array<double, 3>> offset{};
+
+    /// In a header that a file had.
+    void put(las_header& header) const {
+        if (scale) header.scale = *scale;
+        if (offset) header.offset = *offset;
+    }
+};
 
 /// The scale is the coarsest power of ten that gives each coordinate back within two units in the last
 /// place of the largest one, else the finest of which 32 bits hold all. The steps are counted from 0,
@@ -37,6 +50,8 @@ class las_grid_choice {
     void start_round(const digits& least);
 
     void put(las_header& header) const;
+    /// With what is wished for in its place; the rest goes with that.
+    void put(las_header& header, const las_grid_wish& wish) const;
 
   private:
     static constexpr int most_digits = 12;

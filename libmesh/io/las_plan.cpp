@@ -64,15 +64,10 @@ void append_number(std::vector<std::byte>& to, T value) {
 class las_planner {
   public:
     las_planner(const write_job& job, std::optional<std::span<const point3>> points)
-        : job_(job), points_(points), vertices_(find_element(job.file.attributes, "vertex")) {
+        : job_(job), points_(points), vertices_(job.vertices) {
         if (vertices_ == nullptr) return;
         for (const column& c : vertices_->columns) {
-            if (c.role != column_role::data) continue;
-            if (c.list_length)
-                job.result.warnings.push_back(
-                    {"columns-dropped", "LAS holds no lists: " + c.name + " is left out"});
-            else
-                columns_.push_back(&c);
+            if (c.role == column_role::data && !c.list_length) columns_.push_back(&c);
         }
         used_.assign(columns_.size(), false);
     }
@@ -85,6 +80,7 @@ class las_planner {
             auto column = take(d.name);
             if (!column && d.name == "scan_angle") column = take("scan_angle_rank");
             plan_.column_of.push_back(column);
+            if (!column && !was_las() && is_return(d)) plan_.single_returns.push_back(d);
         }
         plan_.record_size = las_record_size(plan_.header.point_format);
         add_extra();
@@ -100,8 +96,10 @@ class las_planner {
   private:
     void start_header() {
         las_header& h = plan_.header;
+        const las_grid_wish wish = las_grid_wish_of(job_.options);
         if (job_.file.las) {
             h = *job_.file.las;
+            wish.put(h);
             drop_untrue(h.records, job_.result.warnings);
             drop_untrue(h.extended_records, job_.result.warnings);
             return;
@@ -110,7 +108,12 @@ class las_planner {
             throw las_fault(
                 "LAS is written by runs only with scale and offset: set "
                 "mesh_file::las of the header");
-        choose_las_grid(h, *points_);
+        choose_las_grid(h, *points_, wish);
+    }
+
+    [[nodiscard]] bool was_las() const { return job_.file.las && !job_.file.las->block.empty(); }
+    [[nodiscard]] static bool is_return(const las_dimension& d) {
+        return d.name == "return_number" || d.name == "number_of_returns";
     }
 
     [[nodiscard]] bool has(std::string_view name) const {
@@ -140,9 +143,10 @@ class las_planner {
         return std::nullopt;
     }
 
-    void add_dimension(const std::string& name, scalar_type type,
-                       std::optional<std::size_t> column) {
-        plan_.dimensions.push_back({.name = name, .type = type, .byte = plan_.record_size});
+    void add_dimension(const std::string& name, scalar_type type, std::optional<std::size_t> column,
+                       const std::optional<las_scaling>& scaling = {}) {
+        plan_.dimensions.push_back(
+            {.name = name, .type = type, .byte = plan_.record_size, .scaling = scaling});
         plan_.column_of.push_back(column);
         plan_.record_size += size_of(type);
     }
@@ -160,7 +164,8 @@ class las_planner {
                 if (std::none_of(g.values.begin(), g.values.end(),
                                  [&](const las_dimension& d) { return has(d.name); }))
                     continue;
-                for (const las_dimension& d : g.values) add_dimension(d.name, d.type, take(d.name));
+                for (const las_dimension& d : g.values)
+                    add_dimension(d.name, d.type, take(d.name), d.scaling);
                 descriptions.insert(descriptions.end(), g.description.begin(), g.description.end());
             }
         std::vector<std::size_t> undescribed;
@@ -232,11 +237,26 @@ class las_planner {
 
 }  // namespace
 
-void choose_las_grid(las_header& header, std::span<const point3> points) {
+las_grid_wish las_grid_wish_of(const write_options& options) {
+    const auto check = [](const std::optional<std::array<double, 3>>& given, bool is_scale) {
+        if (!given) return;
+        for (const double x : *given)
+            if (!std::isfinite(x) || (is_scale && x <= 0.0))
+                throw std::invalid_argument(
+                    is_scale ? "treeform::write: a scale of LAS is not above 0"
+                             : "treeform::write: an offset of LAS is not finite");
+    };
+    check(options.las_scale, true);
+    check(options.las_offset, false);
+    return {options.las_scale, options.las_offset};
+}
+
+void choose_las_grid(las_header& header, std::span<const point3> points,
+                     const las_grid_wish& wish) {
     las_grid_choice choice;
     choice.look(points);
     choice.try_on(points);
-    choice.put(header);
+    choice.put(header, wish);
 }
 
 bool has_extended_values(const element& vertices) {

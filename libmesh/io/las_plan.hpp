@@ -2,6 +2,7 @@
 /// \file
 /// How points will be stored in a LAS file: format, header, records, and the column of each value.
 
+#include <libmesh/io/las_grid_choice.hpp>
 #include <libmesh/io/las_rows.hpp>
 #include <libmesh/io/writers.hpp>
 #include <libmesh/laz/chunk.hpp>
@@ -32,6 +33,8 @@ struct las_plan {
     /// [dimensions] number of the column among those of "vertex" that are data and no lists; none:
     /// zeros.
     std::vector<std::optional<std::size_t>> column_of{};
+    /// Numbers of returns that no column has: 1 of 1, unless the file was LAS.
+    std::vector<las_dimension> single_returns{};
     std::vector<laz::item> items{};  ///< of packed points; empty: plain records
 };
 
@@ -39,7 +42,11 @@ struct las_plan {
 constexpr std::uint32_t laz_chunk = 50000;
 
 /// Scale and offset for these points, on each axis.
-void choose_las_grid(las_header& header, std::span<const point3> points);
+void choose_las_grid(las_header& header, std::span<const point3> points,
+                     const las_grid_wish& wish = {});
+
+/// \throws std::invalid_argument for a scale or offset that LAS has not
+[[nodiscard]] las_grid_wish las_grid_wish_of(const write_options& options);
 
 /// The whole number whose coordinate is nearest to `x`: the exact one, where there is one. It may be
 /// beyond 32 bits.

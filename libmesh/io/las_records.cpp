@@ -19,6 +19,8 @@ struct chunk_fault {
     std::size_t point = nobody;
     std::string reason{};
     double moved = 0.0;
+    las_tally::rounded_value rounded{};
+    std::uint64_t without_value = 0;
 
     void at(std::size_t i, const std::string& why) {
         if (i >= point) return;
@@ -128,7 +130,57 @@ void put_converted(const column& c, const record_rows& rows, const las_dimension
     });
 }
 
+/// The nearest of the numbers that stand for values, or the one that stands for none.
+void put_scaled(const column& c, const record_rows& rows, const las_dimension& d,
+                chunk_fault& fault) {
+    const las_scaling& s = *d.scaling;
+    with_type(d.type, [&]<class T>(T) {
+        for (std::size_t i = 0; i < rows.count; ++i) {
+            const double value = number_at(c, rows.first + i);
+            double stored = (value - s.offset) / s.scale;
+            if constexpr (std::is_integral_v<T>) stored = std::nearbyint(stored);
+            if (std::isnan(value)) {
+                if (!s.no_data) ++fault.without_value;
+                stored = s.no_data.value_or(0.0);
+            }
+            if constexpr (std::is_integral_v<T>) {
+                if (!is_value_of<T>(stored)) {
+                    fault.at(rows.first + i, too_large(c, value));
+                    continue;
+                }
+            }
+            const double product = stored * s.scale;
+            const double by = std::abs(product + s.offset - value);
+            constexpr double digits = 1e-12;  // what the rounding of a product and a sum may do
+            const bool is_step = by <= digits * (std::abs(value) + std::abs(s.offset));
+            if (!is_step && by > fault.rounded.by) fault.rounded = {c.name, by};
+            base::store<std::endian::little>(
+                reinterpret_cast<char*>(rows.to + i * rows.size + d.byte), static_cast<T>(stored));
+        }
+    });
+}
+
+/// One return of one.
+void put_single_return(const record_rows& rows, const las_dimension& d) {
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        std::uint8_t* const to = rows.to + i * rows.size + d.byte;
+        *to = static_cast<std::uint8_t>(*to | 1U << d.shift);
+    }
+}
+
 }  // namespace
+
+void las_tally::remark(std::vector<io_warning>& warnings) const {
+    if (rounded_.by > 0.0)
+        warnings.push_back({"extra-bytes", "values of " + rounded_.column +
+                                               " are rounded to the steps of its scale in the "
+                                               "LAS file, by at most " +
+                                               std::to_string(rounded_.by)});
+    if (without_value_ > 0)
+        warnings.push_back({"extra-bytes", std::to_string(without_value_) +
+                                               " values of extra bytes are no number, and are "
+                                               "stored as 0: their description names no other"});
+}
 
 las_tally::las_tally(const las_plan& plan)
     : record_size_(plan.record_size), return_bits_(plan.header.point_format >= 6 ? 4 : 3) {
@@ -198,13 +250,16 @@ void las_source::put(std::size_t first, std::size_t count, std::uint64_t number,
             for (std::size_t d = 0; d < columns_.size(); ++d) {
                 if (columns_[d] == nullptr) continue;
                 const las_dimension& to = plan_.dimensions[d];
-                if (to.bits == 0 && columns_[d]->type == to.type)
+                if (to.scaling)
+                    put_scaled(*columns_[d], rows, to, fault);
+                else if (to.bits == 0 && columns_[d]->type == to.type)
                     put_same_bits(*columns_[d], rows, to.byte);
                 else if (to.bits > 0 && columns_[d]->type == scalar_type::uint8)
                     put_bytes_as_bits(*columns_[d], rows, to, fault);
                 else
                     put_converted(*columns_[d], rows, to, fault);
             }
+            for (const las_dimension& d : plan_.single_returns) put_single_return(rows, d);
         }
     });
     for (const chunk_fault& f : faults) {
@@ -212,6 +267,8 @@ void las_source::put(std::size_t first, std::size_t count, std::uint64_t number,
             throw las_fault("point " + std::to_string(number + (f.point - first)) + ": " +
                             f.reason);
         tally.moved(f.moved);
+        tally.rounded(f.rounded);
+        tally.without_value(f.without_value);
     }
     tally.add(records, count);
 }

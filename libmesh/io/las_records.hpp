@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -28,6 +29,18 @@ class las_tally {
     /// The furthest that a coordinate is from the one that was to be written.
     [[nodiscard]] double max_displacement() const { return max_displacement_; }
 
+    /// A value of extra bytes with a scale that is no step of it, and how far it is from one.
+    struct rounded_value {
+        std::string column{};
+        double by = 0.0;
+    };
+    void rounded(const rounded_value& value) {
+        if (value.by > rounded_.by) rounded_ = value;
+    }
+    void without_value(std::uint64_t count) { without_value_ += count; }
+    /// What of values is other than it was to be, in words.
+    void remark(std::vector<io_warning>& warnings) const;
+
     /// Puts bounds and counts into a header. `count` is the number of points.
     void put(std::vector<std::byte>& block, const las_grid& grid, std::uint64_t count,
              unsigned version_minor, unsigned format) const;
@@ -36,6 +49,8 @@ class las_tally {
     std::size_t record_size_;
     unsigned return_bits_;  ///< 3 or 4
     double max_displacement_ = 0.0;
+    rounded_value rounded_{};
+    std::uint64_t without_value_ = 0;
     std::uint64_t seen_ = 0;
     std::array<std::int32_t, 3> low_{};
     std::array<std::int32_t, 3> high_{};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace treeform::detail::io {
 
@@ -41,8 +42,23 @@ void read_bits(std::byte* to, const record_run& from, const las_dimension& d) {
     }
 }
 
+/// The product is rounded, then the sum: this is compiled without contraction.
+void read_scaled(std::byte* to, const record_run& from, const las_dimension& d) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    with_type(d.type, [&]<class T>(T) {
+        for (std::size_t i = 0; i < from.count; ++i) {
+            const auto stored = static_cast<double>(
+                base::load<T, std::endian::little>(from.first + i * from.size + d.byte));
+            const double product = stored * d.scaling->scale;
+            const double value = stored == d.scaling->no_data ? nan : product + d.scaling->offset;
+            std::memcpy(to + i * sizeof value, &value, sizeof value);
+        }
+    });
+}
+
 void read_dimension(std::byte* to, const record_run& from, const las_dimension& d) {
     if (d.bits > 0) return read_bits(to, from, d);
+    if (d.scaling) return read_scaled(to, from, d);
     switch (size_of(d.type)) {
         case 1:
             return read_values<std::uint8_t>(to, from, d.byte);
@@ -64,7 +80,7 @@ element las_columns(std::span<const las_dimension> dimensions) {
                                     .type = scalar_type::float64,
                                     .role = role_of_axis(axis)});
     for (const las_dimension& d : dimensions)
-        vertices.columns.push_back({.name = d.name, .type = d.type});
+        vertices.columns.push_back({.name = d.name, .type = d.column_type()});
     return vertices;
 }
 
@@ -78,7 +94,7 @@ void append_las_rows(element& vertices, std::vector<point3>& points, std::size_t
     for (std::size_t d = 0; d < dimensions.size(); ++d) {
         std::vector<std::byte>& values = data[d].values;
         const std::size_t size = values.size();
-        values.resize(size + rows * size_of(dimensions[d].type));
+        values.resize(size + rows * size_of(dimensions[d].column_type()));
         to[d] = values.data() + size;
     }
     // A column at a time, over what the first cache holds.
@@ -89,7 +105,8 @@ void append_las_rows(element& vertices, std::vector<point3>& points, std::size_t
                                  std::min(at_once, end - at)};
             read_axes(points.data() + before + at, run, grid);
             for (std::size_t d = 0; d < dimensions.size(); ++d)
-                read_dimension(to[d] + at * size_of(dimensions[d].type), run, dimensions[d]);
+                read_dimension(to[d] + at * size_of(dimensions[d].column_type()), run,
+                               dimensions[d]);
         }
     });
 }

@@ -1,6 +1,7 @@
 #include <libmesh/base/add_to_box.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/io/face_rows.hpp>
+#include <libmesh/io/face_sink.hpp>
 #include <libmesh/io/ply_body.hpp>
 #include <libmesh/io/point_rows.hpp>
 
@@ -21,10 +22,13 @@ class ply_faces {
         : rows_(std::move(rows)), points_(std::move(points)), rows_ahead_(rows_ahead) {}
 
     void go_to(const row_place& first, std::optional<std::uint64_t> end) {
+        is_part_ = true;
         rows_.go_to(first);
         next_ = first.row;
         end_ = end;
     }
+
+    [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
     bool append(std::vector<placed_triangle>& triangles, std::size_t most,
                 std::vector<io_warning>& warnings) {
@@ -35,10 +39,16 @@ class ply_faces {
                 static_cast<std::size_t>(std::min<std::uint64_t>(left, rows_a_run));
             if (!rows_.behind(block_, some, warnings)) {
                 end_ = next_;
+                remark_on_short_faces(left_out_, warnings);
                 break;
             }
+            if (is_part_ && block_.left_out > 0)
+                throw io_error(
+                    "a face of fewer than three corners, which several processes cannot "
+                    "number; one can");
             if (block_.rows.name == "face") add(triangles);
-            next_ += block_.rows.rows;
+            next_ += block_.rows.rows + block_.left_out;
+            left_out_ += block_.left_out;
         }
         return triangles.size() > before;
     }
@@ -72,7 +82,7 @@ class ply_faces {
 
   private:
     void add(std::vector<placed_triangle>& triangles) {
-        auto stored = static_cast<std::uint32_t>(next_ - rows_ahead_);
+        auto stored = static_cast<std::uint32_t>(next_ - rows_ahead_ - left_out_);
         for (std::size_t f = 0; f < block_.rows.rows; ++f, ++stored) {
             placed_triangle t{.stored = stored};
             const std::uint64_t first = block_.first_corner[f];
@@ -94,6 +104,8 @@ class ply_faces {
     std::uint64_t rows_ahead_;  ///< of the faces, behind the points
     std::uint64_t next_ = 0;    ///< row behind the points
     std::optional<std::uint64_t> end_{};
+    std::uint64_t left_out_ = 0;  ///< faces
+    bool is_part_ = false;
     row_block block_{};
 };
 
@@ -127,6 +139,7 @@ face_rows open_ply_faces(const source& in,
     rows.append = [faces](auto& triangles, std::size_t most, auto& warnings) {
         return faces->append(triangles, most, warnings);
     };
+    rows.left_out = [faces] { return faces->left_out(); };
     rows.go_to = [faces](const row_place& first, std::optional<std::uint64_t> end) {
         faces->go_to(first, end);
     };

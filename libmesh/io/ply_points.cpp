@@ -128,10 +128,11 @@ class ply_points {
         restart(block.rows, e);
         block.corners.clear();
         block.first_corner.clear();
+        block.left_out = 0;
         if (e.name == "face") block.first_corner.push_back(0);
         constexpr std::size_t corners_a_face = 4;
-        while (block.rows.rows < most && block.corners.size() < corners_a_face * most &&
-               row_ < e.rows)
+        while (block.rows.rows + block.left_out < most &&
+               block.corners.size() < corners_a_face * most && row_ < e.rows)
             read_row(block);
         return true;
     }
@@ -251,21 +252,30 @@ class ply_points {
 
     void read_row(row_block& block) {
         values_.begin_row();
+        const std::size_t corners = block.corners.size();
+        bool is_face = true;
         for (column& c : block.rows.columns) {
             if (c.role == column_role::corners)
-                read_corners(c, block);
+                is_face = read_corners(c, block);
             else
                 read_data(values_, c);
         }
         values_.end_row();
-        ++block.rows.rows;
         ++row_;
+        if (is_face) {
+            ++block.rows.rows;
+            return;
+        }
+        drop_last_row(block.rows);
+        block.corners.resize(corners);
+        block.first_corner.pop_back();
+        ++block.left_out;
     }
 
-    void read_corners(const column& c, row_block& block) {
+    /// False for fewer than three.
+    [[nodiscard]] bool read_corners(const column& c, row_block& block) {
         const std::size_t count = values_.length(c);
         if (length_.value_or(count) != count) values_.fail("a face of another length");
-        if (count < 3) values_.fail("face with " + std::to_string(count) + " corners");
         for (std::size_t i = 0; i < count; ++i) {
             const std::int64_t index = values_.index(c);
             if (index < 0 || index >= static_cast<std::int64_t>(columns_.rows))
@@ -273,6 +283,7 @@ class ply_points {
             block.corners.push_back(static_cast<std::uint32_t>(index));
         }
         block.first_corner.push_back(block.corners.size());
+        return count >= 3;
     }
 
     const source& in_;

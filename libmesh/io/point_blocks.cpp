@@ -10,14 +10,16 @@ namespace treeform::detail::io {
 namespace {
 
 [[nodiscard]] file_kind kind_of(const source& in, const std::filesystem::path& path,
-                                std::string_view format) {
-    return detect(in, plain_extension(format), extension_of(path)).kind;
+                                const reading& how) {
+    return detect(in, plain_extension(how.format), extension_of(path)).kind;
 }
 
 [[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
-                                   std::string_view format, std::uint64_t first, row_use use,
+                                   const reading& how, std::uint64_t first, row_use use,
                                    const record_index* known, const byte_getter* unpacked) {
-    switch (kind_of(in, path, format)) {
+    const file_kind kind = kind_of(in, path, how);
+    check_chosen_columns(in, how, kind);
+    switch (kind) {
         case file_kind::ply:
             return open_ply_points(in, first, use, known);
         case file_kind::stl_binary:
@@ -28,11 +30,11 @@ namespace {
         case file_kind::las:
             return open_las_points(in, first);
         case file_kind::xyz:
-            return open_xyz_points(in, "xyz", first, known);
+            return open_xyz_points(in, "xyz", first, known, how.options.columns);
         case file_kind::pts:
-            return open_xyz_points(in, "pts", first, known);
+            return open_xyz_points(in, "pts", first, known, how.options.columns);
         case file_kind::csv:
-            return open_xyz_points(in, "csv", first, known);
+            return open_xyz_points(in, "csv", first, known, how.options.columns);
         default:
             fail_in_blocks(in, "only PLY, PCD, LAS, LAZ, XYZ and CSV are read in blocks");
     }
@@ -40,11 +42,11 @@ namespace {
 
 }  // namespace
 
-point_blocks::point_blocks(const std::filesystem::path& path, std::string_view format,
+point_blocks::point_blocks(const std::filesystem::path& path, const reading& how,
                            std::uint64_t first, row_use use, const record_index* known,
                            const byte_getter* unpacked)
     : in_(source::open(path, scratch_place::file)),
-      rows_(open_rows(in_, path, format, first, use, known, unpacked)) {
+      rows_(open_rows(in_, path, how, first, use, known, unpacked)) {
     point_block block;
     constexpr std::uint64_t some = std::uint64_t{1} << 15;
     for (std::uint64_t left = first - rows_.left_out;
@@ -60,23 +62,23 @@ bool point_blocks::read(point_block& block, std::size_t most) {
     return block.properties.rows > 0;
 }
 
-std::optional<record_index> scan_points(const std::filesystem::path& path, std::string_view format,
+std::optional<record_index> scan_points(const std::filesystem::path& path, const reading& how,
                                         const file_part& part, std::size_t most, bool even) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // it is read once
     try {
         const source in = source::open(path);
-        switch (kind_of(in, path, format)) {
+        switch (kind_of(in, path, how)) {
             case file_kind::ply:
                 return scan_ply(in, part, most);
             case file_kind::pcd:
                 return scan_pcd(in, part, most);
             case file_kind::xyz:
-                return scan_xyz(in, "xyz", part, most, even);
+                return scan_xyz(in, "xyz", part, most, even, how.options.columns);
             case file_kind::pts:
-                return scan_xyz(in, "pts", part, most, even);
+                return scan_xyz(in, "pts", part, most, even, how.options.columns);
             case file_kind::csv:
-                return scan_xyz(in, "csv", part, most, even);
+                return scan_xyz(in, "csv", part, most, even, how.options.columns);
             default:
                 return std::nullopt;
         }
@@ -85,12 +87,12 @@ std::optional<record_index> scan_points(const std::filesystem::path& path, std::
     }
 }
 
-bool has_listed_points_at(const std::filesystem::path& path, std::string_view format) {
+bool has_listed_points_at(const std::filesystem::path& path, const reading& how) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return false;
     try {
         const source in = source::open(path);
-        return kind_of(in, path, format) == file_kind::ply && has_listed_points(in);
+        return kind_of(in, path, how) == file_kind::ply && has_listed_points(in);
     } catch (const io_error&) {
         return false;
     }

@@ -3,6 +3,7 @@
 /// The points of a file in blocks; where their places are read, also by what is known of these.
 
 #include <libmesh/io/point_rows.hpp>
+#include <libmesh/io/reading.hpp>
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/io/source.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -20,7 +20,7 @@ namespace treeform::detail::io {
 class point_blocks {
   public:
     /// As for `point_reader`; `known` as for `open_xyz_points`, `unpacked` for `open_pcd_points`.
-    point_blocks(const std::filesystem::path& path, std::string_view format, std::uint64_t first,
+    point_blocks(const std::filesystem::path& path, const reading& how, std::uint64_t first,
                  row_use use, const record_index* known = nullptr,
                  const byte_getter* unpacked = nullptr);
     point_blocks(const point_blocks&) = delete;
@@ -48,11 +48,10 @@ class point_blocks {
 /// What a part of a text has, with at most so many marks; none for what is no text of points, or
 /// cannot be read, which is then said where it is opened. `even` as for `scan_xyz`.
 [[nodiscard]] std::optional<record_index> scan_points(const std::filesystem::path& path,
-                                                      std::string_view format,
-                                                      const file_part& part, std::size_t most,
-                                                      bool even = true);
+                                                      const reading& how, const file_part& part,
+                                                      std::size_t most, bool even = true);
 
 /// Whether it is a PLY that `has_listed_points`; not where it cannot be read.
-[[nodiscard]] bool has_listed_points_at(const std::filesystem::path& path, std::string_view format);
+[[nodiscard]] bool has_listed_points_at(const std::filesystem::path& path, const reading& how);
 
 }  // namespace treeform::detail::io

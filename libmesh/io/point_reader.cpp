@@ -1,6 +1,7 @@
 #include <libmesh/io/point_blocks.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
+#include <string>
 #include <vector>
 
 namespace treeform {
@@ -10,8 +11,10 @@ struct point_reader::state {
 };
 
 point_reader::point_reader(const std::filesystem::path& path, std::string_view format,
-                           std::uint64_t first, bool with_rows)
-    : state_(new state{{path, format, first,
+                           std::uint64_t first, bool with_rows, const read_options& options)
+    : state_(new state{{path,
+                        {std::string(format), options},
+                        first,
                         with_rows ? detail::io::row_use::copied : detail::io::row_use::none}}) {}
 point_reader::~point_reader() = default;
 point_reader::point_reader(point_reader&&) noexcept = default;

@@ -82,7 +82,8 @@ struct point_rows {
 [[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
 [[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format,
                                          std::uint64_t first = 0,
-                                         const record_index* known = nullptr);
+                                         const record_index* known = nullptr,
+                                         std::span<const named_column> columns = {});
 
 /// Whether the points of a PLY are rows of bytes with lists, so that only who has read those ahead knows
 /// where one begins. \throws io_error
@@ -105,7 +106,8 @@ struct listed_points {
 [[nodiscard]] std::optional<record_index> scan_pcd(const source& in, const file_part& part,
                                                    std::size_t most);
 [[nodiscard]] record_index scan_xyz(const source& in, std::string_view format,
-                                    const file_part& part, std::size_t most, bool even = true);
+                                    const file_part& part, std::size_t most, bool even = true,
+                                    std::span<const named_column> columns = {});
 
 [[noreturn]] inline void fail_in_blocks(const source& in, std::string_view reason) {
     throw whole_file_error(std::string(in.name()) + ": " + std::string(reason));

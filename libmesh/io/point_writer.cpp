@@ -1,3 +1,4 @@
+#include <libmesh/attributes/known_columns.hpp>
 #include <libmesh/io/formats.hpp>
 #include <libmesh/io/sink.hpp>
 #include <libmesh/io/vertex_columns.hpp>
@@ -27,6 +28,7 @@ namespace {
     head.attributes.comments = header.attributes.comments;
     head.attributes.obj_info = header.attributes.obj_info;
     head.las = header.las;
+    head.ranges = header.ranges;
     bool has_vertices = find_element(header.attributes, "vertex") == nullptr;
     for (const element& e : header.attributes.elements) {
         has_vertices = has_vertices || e.name == "vertex";
@@ -73,18 +75,35 @@ struct point_writer::state {
         result.format =
             detail::io::writes_text(format, options) ? format.text_name : format.binary_name;
         result.written_as = options.precision.value_or(head.stored_as);
+        translate(format);
         file.emplace(path);
         out.emplace(file->descriptor(), file->name());
         rows = format.start({.file = head,
                              .options = options,
                              .result = result,
                              .out = *out,
-                             .most_corners = most_corners},
+                             .most_corners = most_corners,
+                             .vertices = find_element(head.attributes, "vertex")},
                             count);
+        for (io_warning& w :
+             detail::io::left_out(format, head, find_element(head.attributes, "vertex"), false))
+            result.warnings.push_back(std::move(w));
         if (!behind.empty() && !rows.behind)
             throw io_error(path.string() +
                            ": of faces and other elements, only PLY and OBJ are written in blocks");
         head_size = out->size();
+    }
+
+    /// What blocks have, and what is written of it.
+    void translate(const detail::io::known_format& format) {
+        const auto at = std::ranges::find(head.attributes.elements, "vertex", &element::name);
+        if (at == head.attributes.elements.end()) return;
+        given = *at;
+        translation.emplace(*given,
+                            options.keep_names ? std::string(format.extension) : head.format,
+                            format.extension, head.ranges, options.drop, options.rename);
+        result.warnings = translation->warnings();
+        if (translation->changes()) *at = translation->apply(*given);
     }
 
     void check(const point_block& block) const {
@@ -93,7 +112,7 @@ struct point_writer::state {
             refuse_block("more points than were announced");
         if (properties.rows != block.points.size())
             refuse_block("another number of rows than there are points");
-        if (!same_columns(properties, find_element(head.attributes, "vertex")))
+        if (!same_columns(properties, given ? &*given : nullptr))
             refuse_block("the columns are not those of the header");
         detail::io::check_columns(properties);
         if (result.written_as == precision::float32 && !options.precision &&
@@ -130,6 +149,8 @@ struct point_writer::state {
     std::optional<std::uint64_t> points_end{};  ///< byte, where other points are in other parts
     std::vector<element> behind{};              ///< rows that are to come
     std::uint64_t head_size = 0;
+    std::optional<element> given{};  ///< the element "vertex" of the header
+    std::optional<detail::attribute::translation> translation{};
     write_options options;
     mesh_file head;
     write_result result{};
@@ -153,8 +174,12 @@ void point_writer::write(const point_block& block) {
         s.result.max_displacement =
             std::max(s.result.max_displacement,
                      detail::io::largest_move(block.points, s.written, s.file->name()));
-    const bool has_rows = find_element(s.head.attributes, "vertex") != nullptr;
-    s.rows.rows(block.points, has_rows ? &block.properties : nullptr);
+    if (s.given && s.translation->changes()) {
+        const element rows = s.translation->apply(block.properties);
+        s.rows.rows(block.points, &rows);
+    } else {
+        s.rows.rows(block.points, s.given ? &block.properties : nullptr);
+    }
     s.written += block.points.size();
 }
 

@@ -92,6 +92,7 @@ class obj_reader {
         faces_.remark(file_.warnings);
         text_.remark(file_.warnings);
         file_.attributes.corners = corners_.take(file_.warnings);
+        if (file_.mesh.faces.empty()) store_looks();
         file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);
     }
@@ -219,6 +220,29 @@ class obj_reader {
         for (std::size_t c = 0; c < 3; ++c) {
             for (std::size_t v = 0; v < count; ++v) channel[v] = colors_[3 * v + c];
             vertices.columns.push_back(make_column<double>(names[c], channel));
+        }
+    }
+
+    /// Of a cloud, normals and texture coordinates are those of its points where there is one of each.
+    void store_looks() {
+        corner_values& corners = file_.attributes.corners;
+        const std::size_t count = file_.mesh.points.size();
+        const auto add = [&](const char* name, const auto& value) {
+            std::vector<double> values(count);
+            for (std::size_t v = 0; v < count; ++v) values[v] = value(v);
+            obtain_element(file_.attributes, "vertex", count)
+                .columns.push_back(make_column<double>(name, values));
+        };
+        if (count > 0 && corners.texture.size() == count) {
+            add("s", [&](std::size_t v) { return corners.texture[v][0]; });
+            add("t", [&](std::size_t v) { return corners.texture[v][1]; });
+            corners.texture.clear();
+        }
+        if (count > 0 && corners.normals.size() == count) {
+            add("nx", [&](std::size_t v) { return corners.normals[v].x; });
+            add("ny", [&](std::size_t v) { return corners.normals[v].y; });
+            add("nz", [&](std::size_t v) { return corners.normals[v].z; });
+            corners.normals.clear();
         }
     }
 

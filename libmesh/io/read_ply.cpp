@@ -37,6 +37,7 @@ class body_reader {
                 read_rows(e);
         }
         look_behind(values_, file_.warnings);
+        faces_.remark(file_.warnings);
         if (from_strips_) store_strips();
         if (file_.mesh.faces.size() > most_numbers)
             in_.fail("more triangles than 32-bit numbers can name");
@@ -77,24 +78,31 @@ class body_reader {
 
     void read_faces(element& e) {
         reserve_large(file_.mesh.faces, e.rows);
+        std::size_t kept = 0;
         for (std::size_t row = 0; row < e.rows; ++row) {
             values_.begin_row();
+            bool is_face = true;
             for (column& c : e.columns) {
                 if (c.role == column_role::corners)
-                    read_corners(c);
+                    is_face = read_corners(c);
                 else
                     read_data(values_, c);
             }
             values_.end_row();
+            if (is_face)
+                ++kept;
+            else
+                drop_last_row(e);
         }
+        e.rows = kept;
     }
 
-    void read_corners(const column& c) {
-        const std::size_t count = values_.length(c);
-        if (count < 3) values_.fail("face with " + std::to_string(count) + " corners");
+    /// False for fewer than three.
+    [[nodiscard]] bool read_corners(const column& c) {
         faces_.begin();
-        for (std::size_t i = 0; i < count; ++i) faces_.add(vertex(values_.index(c)));
-        faces_.finish();
+        for (std::size_t left = values_.length(c); left > 0; --left)
+            faces_.add(vertex(values_.index(c)));
+        return faces_.finish();
     }
 
     [[nodiscard]] std::uint32_t vertex(std::int64_t index) const {

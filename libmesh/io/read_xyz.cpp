@@ -3,6 +3,7 @@
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/io/text.hpp>
+#include <libmesh/io/text_columns.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
@@ -23,10 +24,12 @@ namespace {
 /// another order where a heading names the columns.
 class xyz_reader {
   public:
-    xyz_reader(const source& in, std::string_view format) : text_(in), pts_(format == "pts") {
+    xyz_reader(const source& in, std::string_view format, std::span<const named_column> chosen)
+        : text_(in), pts_(format == "pts"), chosen_(chosen) {
         skip_heading();
         if (done()) text_.file.fail("no point found");
         learn_columns();
+        facts_.clear();
     }
 
     /// The element "vertex" without rows; none when there is nothing to say about it.
@@ -37,8 +40,20 @@ class xyz_reader {
     /// Of what was read so far.
     [[nodiscard]] std::vector<io_warning> warnings() const {
         std::vector<io_warning> all = warnings_;
+        if (keep_more_) remark_on_cells(declared_, facts_, all);
         text_.remark(all);
         return all;
+    }
+    /// Types for the columns, by all that was read; what is not to be a double.
+    [[nodiscard]] const std::vector<text_column>& facts() const { return facts_; }
+    void learn_types(const std::vector<text_column>& facts) {
+        facts_ = facts;
+        choose_types(declared_, facts_);
+    }
+    [[nodiscard]] bool has_large_numbers() const {
+        return std::ranges::any_of(declared_.columns, [](const column& c) {
+            return c.type == scalar_type::int64 || c.type == scalar_type::uint64;
+        });
     }
     /// False when the further columns differ between the lines read so far.
     [[nodiscard]] bool even() const { return keep_more_; }
@@ -56,6 +71,7 @@ class xyz_reader {
         record_index found = std::move(lines).found();
         found.even = keep_more_;
         found.hexadecimal = text_.hexadecimal;
+        found.columns = facts_;
         return found;
     }
 
@@ -64,6 +80,7 @@ class xyz_reader {
         text_.at = text_.end;
         check_count(all.records);
         text_.hexadecimal = all.hexadecimal;
+        learn_types(all.columns);
         if (!all.even) drop_columns();
         text_.file.rewind();
         text_.at = text_.file.begin() + std::min<std::uint64_t>(at.byte, text_.file.size());
@@ -159,21 +176,30 @@ class xyz_reader {
         if (first.find(',') != std::string_view::npos) separator_ = ',';
     }
 
-    /// From the heading, and from the number of values in the first line.
+    /// From the heading, from what was chosen, and from the number of values in the first line.
     void learn_columns() {
-        const std::vector<std::string> names = split_heading(heading_);
-        const auto axes = find_axes(names);
+        std::vector<std::string> names = split_heading(heading_);
+        if (heading_.empty()) names.clear();
+        const char* const start = text_.at;
+        if (names.empty() && !chosen_.empty()) {
+            const std::size_t count = split_heading(text_.rest_of_line()).size();
+            for (std::size_t i = 1; i <= count; ++i) names.push_back("column_" + std::to_string(i));
+            text_.at = start;
+        }
+        auto axes = choose_columns(text_.file, chosen_, names);
+        const bool is_chosen = axes.has_value();
+        if (!axes) axes = find_axes(names);
         if (!axes && has_angles(names))
             text_.file.fail_line(
                 heading_.data(),
                 "latitude and longitude are angles, not coordinates: project them to "
                 "meters first, for instance by cs2cs or pdal");
         if (axes) {
-            tell_axes(names, *axes);
+            if (!is_chosen) tell_axes(names, *axes);
             axis_of_.assign(1 + *std::max_element(axes->begin(), axes->end()), no_axis);
             for (std::size_t axis = 0; axis < 3; ++axis) axis_of_[(*axes)[axis]] = axis;
         }
-        const char* const start = text_.at;
+        expected_ = names.size() > 3 && axes ? names.size() - 3 : 0;
         point3 p;
         line(p);
         text_.at = start;
@@ -222,17 +248,60 @@ class xyz_reader {
         declared_.columns.clear();
     }
 
-    void skip_separator() {
+    /// Whether there was one, other than a blank.
+    bool skip_separator() {
         text_.skip_blanks();
-        if (separator_ == ' ' || text_.done() || *text_.at != separator_) return;
+        if (separator_ == ' ' || text_.done() || *text_.at != separator_) return false;
         ++text_.at;
         text_.skip_blanks();
+        return true;
     }
 
     [[nodiscard]] double number(std::string_view what) {
         const parsed<double> n = parse_number(text_.at, text_.end);
         if (n.end != nullptr && n.end != text_.end && *n.end == separator_) return text_.take(n);
         return text_.number(what);
+    }
+
+    [[nodiscard]] bool cell_ends(const char* at) const {
+        return at == text_.end || is_space(*at) || *at == separator_;
+    }
+
+    /// What is no number is NaN. `place` is among the values behind the coordinates.
+    void take_cell(std::size_t place) {
+        if (facts_.size() <= place) facts_.resize(place + 1);
+        const char* const start = text_.at;
+        const parsed<double> n = parse_number(text_.at, text_.end);
+        if (n.end == nullptr || !cell_ends(n.end)) {
+            const bool decimal_comma =
+                n.end != nullptr && *n.end == ',' && n.end + 1 < text_.end && is_digit(n.end[1]);
+            if (decimal_comma) static_cast<void>(text_.number("a number"));  // says what is wrong
+            pass_word();
+            return add_gap(place);
+        }
+        text_cell c{.value = text_.take(n)};
+        text_column& fact = facts_[place];
+        fact.least = std::min(fact.least, c.value);
+        fact.greatest = std::max(fact.greatest, c.value);
+        fact.whole = fact.whole && take_whole(start, n.end, c, fact);
+        more_.push_back(c);
+    }
+
+    void pass_word() {
+        if (!text_.done() && *text_.at == '"') {
+            const char* at = text_.at + 1;
+            while (at < text_.end && *at != '"' && !is_newline(*at)) ++at;
+            if (at < text_.end && *at == '"') text_.at = at + 1;
+        }
+        while (!text_.done() && !is_newline(*text_.at) && *text_.at != separator_ &&
+               (separator_ != ' ' || !is_blank(*text_.at)))
+            ++text_.at;
+    }
+
+    void add_gap(std::size_t place) {
+        if (facts_.size() <= place) facts_.resize(place + 1);
+        ++facts_[place].gaps;
+        more_.push_back({std::numeric_limits<double>::quiet_NaN()});
     }
 
     void line(point3& p) {
@@ -243,14 +312,16 @@ class xyz_reader {
             if (axis < no_axis)
                 p[axis] = number("a coordinate");
             else
-                more_.push_back(number("a number"));
+                take_cell(more_.size() - before);
         }
-        for (skip_separator(); !text_.line_done() && keep_more_; skip_separator()) {
-            const parsed<double> n = parse_number(text_.at, text_.end);
-            if (n.end == nullptr)
-                keep_more_ = false;
-            else
-                more_.push_back(number("a number"));
+        while (keep_more_) {
+            const bool separated = skip_separator();
+            const std::size_t place = more_.size() - before;
+            if (text_.line_done()) {
+                if (separated && place < width_.value_or(expected_)) add_gap(place);
+                break;
+            }
+            take_cell(place);
         }
         keep_more_ = keep_more_ && (!width_ || more_.size() - before == *width_);
         text_.skip_line();
@@ -262,23 +333,17 @@ class xyz_reader {
         if (keep_more_ && width > 0) {
             const std::size_t rows = more_.size() / width;
             std::size_t place = 0;
-            for (column& c : vertices.columns) {
-                if (c.role != column_role::data) continue;
-                const std::size_t before = c.values.size();
-                c.values.resize(before + rows * sizeof(double));
-                for (std::size_t row = 0; row < rows; ++row)
-                    std::memcpy(c.values.data() + before + row * sizeof(double),
-                                &more_[row * width + place], sizeof(double));
-                ++place;
-            }
+            for (column& c : vertices.columns)
+                if (c.role == column_role::data)
+                    append_cells(c, more_, {.first = place++, .width = width, .rows = rows});
         }
         more_.clear();
     }
-
     static inline const std::vector<std::size_t> axes_in_order{0, 1, 2};
 
     text text_;
     bool pts_;
+    std::span<const named_column> chosen_;
     std::optional<std::uint64_t> promised_{};  ///< number of points that the first line says
     std::string_view comment_{};
     std::string_view heading_{};
@@ -286,15 +351,18 @@ class xyz_reader {
     std::vector<std::size_t> axis_of_ = axes_in_order;  ///< of the values that each line must have
     bool keep_more_ = true;  ///< so far every line has the same number of further values
     std::optional<std::size_t> width_{};  ///< how many that is; none ahead of the first line
-    std::vector<double> more_{};
+    std::size_t expected_ = 0;            ///< by the heading
+    std::vector<text_cell> more_{};
+    std::vector<text_column> facts_{};  ///< of the columns behind the coordinates
     element declared_{.name = "vertex"};
     std::vector<io_warning> warnings_{};
 };
 
 }  // namespace
 
-mesh_file read_xyz(const source& in, std::string_view format) {
-    xyz_reader reader(in, format);
+mesh_file read_xyz(const source& in, std::string_view format,
+                   std::span<const named_column> columns) {
+    xyz_reader reader(in, format, columns);
     mesh_file file;
     file.format = format == "pts" ? "xyz" : format;
     file.attributes.elements = reader.elements();
@@ -305,6 +373,22 @@ mesh_file read_xyz(const source& in, std::string_view format) {
     if (vertices.rows > std::numeric_limits<std::uint32_t>::max())
         in.fail("more points than 32-bit numbers can name");
     reader.check_count(vertices.rows);
+    if (reader.even()) {
+        reader.learn_types(reader.facts());
+        if (reader.has_large_numbers()) {  // once more, as numbers that doubles do not hold
+            xyz_reader again(in, format, columns);
+            again.learn_types(reader.facts());
+            const std::size_t rows = vertices.rows;
+            vertices = again.elements()[0];
+            std::vector<point3> points;
+            again.append(points, vertices, std::numeric_limits<std::size_t>::max());
+            vertices.rows = rows;
+        }
+        const std::vector<element> typed = reader.elements();
+        for (std::size_t i = 0; !typed.empty() && i < typed[0].columns.size(); ++i)
+            if (typed[0].columns[i].role == column_role::data)
+                retype(vertices.columns[i], typed[0].columns[i].type);
+    }
     file.warnings = reader.warnings();
     if (!reader.even()) {
         file.warnings.push_back({"columns", xyz_reader::uneven});
@@ -315,13 +399,13 @@ mesh_file read_xyz(const source& in, std::string_view format) {
 }
 
 record_index scan_xyz(const source& in, std::string_view format, const file_part& part,
-                      std::size_t most, bool even) {
-    return xyz_reader(in, format).scan(part, most, even);
+                      std::size_t most, bool even, std::span<const named_column> columns) {
+    return xyz_reader(in, format, columns).scan(part, most, even);
 }
 
 point_rows open_xyz_points(const source& in, std::string_view format, std::uint64_t first,
-                           const record_index* known) {
-    auto reader = std::make_shared<xyz_reader>(in, format);
+                           const record_index* known, std::span<const named_column> columns) {
+    auto reader = std::make_shared<xyz_reader>(in, format, columns);
     const record_index found =
         known == nullptr ? reader->scan({}, most_marks, true) : record_index();
     const record_index& all = known == nullptr ? found : *known;

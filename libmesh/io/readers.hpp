@@ -6,6 +6,7 @@
 #include <treeform/mesh/mesh_file.hpp>
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace treeform::detail::io {
@@ -23,7 +24,8 @@ namespace treeform::detail::io {
 /// found.
 [[nodiscard]] mesh_file read_gltf(const source& in, const std::filesystem::path& path);
 /// `format` is "xyz" or "csv", which are read alike, or "pts", where a count may come first.
-[[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format);
+[[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format,
+                                 std::span<const named_column> columns = {});
 
 /// True when the library behind `read_scene` knows files of this extension (no dot).
 [[nodiscard]] bool scene_format(std::string_view extension);

@@ -16,6 +16,25 @@ namespace treeform::detail::io {
 
 inline constexpr std::size_t most_marks = 1024;
 
+/// What the cells of a column of text are.
+struct text_column {
+    bool whole = true;           ///< whole numbers, without point and exponent
+    bool beyond = false;         ///< one of them is beyond 2^53
+    bool unsigned_only = false;  ///< and one beyond 2^63
+    std::uint64_t gaps = 0;      ///< empty cells, and words
+    double least = 0.0;
+    double greatest = 0.0;
+
+    void add(const text_column& more) {
+        whole = whole && more.whole;
+        beyond = beyond || more.beyond;
+        unsigned_only = unsigned_only || more.unsigned_only;
+        gaps += more.gaps;
+        least = std::min(least, more.least);
+        greatest = std::max(greatest, more.greatest);
+    }
+};
+
 /// A record is a line with the values of a point, or in a PLY of a row; in binary a point with lists,
 /// where the last mark is the end of all points.
 struct record_index {
@@ -24,9 +43,10 @@ struct record_index {
         std::uint64_t byte = 0;  ///< of the file, where it begins
     };
     std::uint64_t records = 0;
-    std::vector<mark> marks{};  ///< ascending; the first record has one
-    bool even = true;           ///< of XYZ: all lines have as many values as the first one
-    bool hexadecimal = false;   ///< a number is
+    std::vector<mark> marks{};           ///< ascending; the first record has one
+    bool even = true;                    ///< of XYZ: all lines have as many values as the first one
+    bool hexadecimal = false;            ///< a number is
+    std::vector<text_column> columns{};  ///< of XYZ: those behind x, y and z
 
     /// The last mark that is not behind the record.
     [[nodiscard]] mark before(std::uint64_t record) const {
@@ -39,6 +59,8 @@ struct record_index {
         records += next.records;
         even = even && next.even;
         hexadecimal = hexadecimal || next.hexadecimal;
+        columns.resize(std::max(columns.size(), next.columns.size()));
+        for (std::size_t i = 0; i < next.columns.size(); ++i) columns[i].add(next.columns[i]);
     }
 };
 

@@ -9,11 +9,13 @@
 
 namespace treeform {
 
-double round_to_las(mesh_file& file) {
+double round_to_las(mesh_file& file, const write_options& options) {
     std::vector<point3>& points = file.mesh.points;
     if (!file.las) {
         file.las.emplace();
-        detail::io::choose_las_grid(*file.las, points);
+        detail::io::choose_las_grid(*file.las, points, detail::io::las_grid_wish_of(options));
+    } else {
+        detail::io::las_grid_wish_of(options).put(*file.las);
     }
     const detail::io::las_grid grid{file.las->scale, file.las->offset};
     std::vector<double> moved(chunk_count(points.size(), light_grain), 0.0);

@@ -72,6 +72,16 @@ inline void start_columns(element& e, std::size_t rows) {
     }
 }
 
+/// Takes back the values of the last row.
+inline void drop_last_row(element& e) {
+    for (column& c : e.columns) {
+        if (c.role != column_role::data) continue;
+        if (c.list_length) c.list_begin.pop_back();
+        c.values.resize(c.list_length ? c.list_begin.back() * size_of(c.type)
+                                      : c.values.size() - size_of(c.type));
+    }
+}
+
 /// Rows of zeros, to be filled in. \pre no lists
 inline void resize_columns(element& e, std::size_t rows) {
     e.rows = rows;

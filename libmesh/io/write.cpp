@@ -1,3 +1,5 @@
+#include <libmesh/attributes/known_columns.hpp>
+#include <libmesh/io/corner_looks.hpp>
 #include <libmesh/io/formats.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/writers.hpp>
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace treeform {
@@ -172,45 +175,53 @@ class writing {
     }
 
     write_result run(detail::io::sink& out) {
-        writer_({.file = file_, .options = options_, .result = result_, .out = out});
-        warn_of_corner_values();
-        warn_of_materials();
+        using detail::attribute::translation;
+        const element* vertices = find_element(file_.attributes, "vertex");
+        std::optional<element> with_looks = looks_of_points(vertices);
+        if (with_looks) vertices = &*with_looks;
+        std::optional<element> translated;
+        if (vertices != nullptr) {
+            std::vector<value_range> ranges = file_.ranges;
+            if (ranges.empty()) detail::attribute::look_at_ranges(*vertices, ranges);
+            const translation to(*vertices, source_format(), format_.extension, ranges,
+                                 options_.drop, options_.rename);
+            if (to.changes()) vertices = &translated.emplace(to.apply(*vertices));
+            result_.warnings = to.warnings();
+        }
+        writer_({.file = file_,
+                 .options = options_,
+                 .result = result_,
+                 .out = out,
+                 .vertices = vertices});
+        const bool text = detail::io::writes_text(format_, options_);
+        for (io_warning& w : detail::io::left_out(format_, file_, vertices, text))
+            result_.warnings.push_back(std::move(w));
         out.flush();
         return std::move(result_);
     }
 
   private:
-    void warn_of_corner_values() {
-        const corner_values& corners = file_.attributes.corners;
-        const bool is_glb = format_.extension == "glb";
-        if (format_.extension == "obj") return;
-        std::string lost;
-        if (!corners.texture_of_corner.empty()) {
-            const bool has_w = std::any_of(corners.texture.begin(), corners.texture.end(),
-                                           [](const auto& row) { return row[2] != 0.0; });
-            if (format_.extension != "ply" && !is_glb)
-                lost = "texture coordinates";
-            else if (has_w)
-                lost = "w of texture coordinates";
-        }
-        if (!corners.normal_of_corner.empty() && !is_glb)
-            lost += lost.empty() ? "normals" : " and normals";
-        if (!lost.empty()) warn_of_loss("corner-values", lost + " of corners");
+    /// With what corners have, where the format holds that of points alone, and each has one; else none.
+    [[nodiscard]] std::optional<element> looks_of_points(const element* vertices) const {
+        using detail::io::columns_held;
+        const detail::io::holdings& holds = format_.holds;
+        if (holds.points < columns_held::looks) return std::nullopt;
+        element made{.name = "vertex", .rows = file_.mesh.points.size()};
+        if (vertices != nullptr) made = *vertices;
+        bool changed = false;
+        const auto add = [&](std::vector<column> columns) {
+            if (columns.empty() || find_column(made, columns.front().name) != nullptr) return;
+            for (column& c : columns) made.columns.push_back(std::move(c));
+            changed = true;
+        };
+        if (!holds.normals) add(detail::io::normals_of_points(file_));
+        if (!holds.texture) add(detail::io::texture_of_points(file_));
+        return changed ? std::optional(std::move(made)) : std::nullopt;
     }
 
-    void warn_of_materials() {
-        const auto& parts = file_.attributes.parts;
-        if (format_.extension != "obj" && format_.extension != "3mf" &&
-            std::any_of(parts.begin(), parts.end(),
-                        [](const part& p) { return !p.material.empty(); }))
-            warn_of_loss("materials", "materials");
-        if (format_.extension != "ply" && !file_.attributes.texture_files.empty())
-            warn_of_loss("materials", "names of texture files");
-    }
-
-    void warn_of_loss(const char* code, const std::string& what) {
-        result_.warnings.push_back(
-            {code, what + " left out: " + std::string(format_.extension) + " does not hold them"});
+    /// That of the file, unless its columns are to stay as they are.
+    [[nodiscard]] std::string_view source_format() const {
+        return options_.keep_names ? format_.extension : file_.format;
     }
 
     const mesh_file& file_;

@@ -24,11 +24,7 @@ class csv_writer {
         : job_(job), declared_(declare_vertices(job, true, std::nullopt)) {
         bool first = true;
         for (const column& c : declared_.columns) {
-            if (c.list_length) {
-                job.result.warnings.push_back(
-                    {"columns-dropped", "CSV holds no lists: " + c.name + " is left out"});
-                continue;
-            }
+            if (c.list_length) continue;
             if (!std::exchange(first, false)) job.out.put(',');
             job.out.put(quoted_name(c.name));
         }
@@ -59,8 +55,7 @@ class csv_writer {
 }  // namespace
 
 void write_csv(const write_job& job) {
-    csv_writer(job).put_points(job.file.mesh.points, find_element(job.file.attributes, "vertex"));
-    warn_of_faces(job, "CSV");
+    csv_writer(job).put_points(job.file.mesh.points, job.vertices);
 }
 
 point_sink start_csv_points(const write_job& job, std::uint64_t) {

@@ -142,6 +142,7 @@ class las_writer {
         job_.out.replace(0, {reinterpret_cast<const char*>(block.data()), block.size()});
         job_.result.max_displacement =
             std::max(job_.result.max_displacement, tally_.max_displacement());
+        tally_.remark(job_.result.warnings);
     }
 
     [[nodiscard]] bool is_packed() const { return !plan_.items.empty(); }
@@ -238,10 +239,9 @@ void write_all(const write_job& job, bool packed) {
     const std::span<const point3> points(job.file.mesh.points);
     with_name(job.out, [&] {
         las_writer writer(job, points.size(), points, packed);
-        writer.put_points(points, find_element(job.file.attributes, "vertex"));
+        writer.put_points(points, job.vertices);
         writer.finish();
     });
-    warn_of_faces(job, packed ? "LAZ" : "LAS");
 }
 
 [[nodiscard]] point_sink start(const write_job& job, std::uint64_t count, bool packed) {

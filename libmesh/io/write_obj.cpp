@@ -7,9 +7,37 @@ namespace treeform::detail::io {
 
 namespace {
 
+/// What vertices have of what an OBJ gives to corners: it is written behind each of them, and corners
+/// then have the numbers of their vertices.
+struct vertex_looks {
+    std::vector<const column*> texture{};
+    std::vector<const column*> normal{};
+
+    /// Unless corners have values of their own.
+    vertex_looks(const write_job& job, const element* vertices) {
+        constexpr std::string_view textures[] = {"s", "t"};
+        constexpr std::string_view normals[] = {"nx", "ny", "nz"};
+        const corner_values& corners = job.file.attributes.corners;
+        if (corners.texture.empty()) texture = scalar_columns(vertices, textures);
+        if (corners.normals.empty()) normal = scalar_columns(vertices, normals);
+    }
+};
+
+void put_look(sink& out, std::string_view keyword, const std::vector<const column*>& values,
+              std::size_t row) {
+    if (values.empty()) return;
+    out.put(keyword);
+    for (const column* c : values) {
+        out.put(' ');
+        put_number(out, *c, row);
+    }
+    out.put('\n');
+}
+
 void put_vertices(const write_job& job, std::span<const point3> points, const element* vertices) {
     auto colors = color_columns(vertices);
     if (colors.size() == 4) colors.pop_back();
+    const vertex_looks looks(job, vertices);
     put_by_pieces(job, points.size(), [&](const write_job& piece, auto first, auto last) {
         for (std::size_t v = first; v < last; ++v) {
             piece.out.put("v ");
@@ -19,6 +47,8 @@ void put_vertices(const write_job& job, std::span<const point3> points, const el
                 piece.out.number(color_value(*c, v));
             }
             piece.out.put('\n');
+            put_look(piece.out, "vt", looks.texture, v);
+            put_look(piece.out, "vn", looks.normal, v);
         }
     });
 }
@@ -41,10 +71,14 @@ void put_corner_values(sink& out, const corner_values& corners) {
 /// The numbers that corners have for one kind of value.
 class row_numbers {
   public:
-    explicit row_numbers(const std::vector<face>& fans) : fans_(fans) {}
+    /// `by_vertex`: those of their vertices.
+    explicit row_numbers(const std::vector<face>& fans, bool by_vertex)
+        : fans_(fans), by_vertex_(by_vertex) {}
 
     /// Of corner `corner` of the face whose first triangle is `first`, from 1; 0 where it has none.
-    [[nodiscard]] std::uint64_t of(std::size_t first, std::size_t corner) const {
+    [[nodiscard]] std::uint64_t of(std::size_t first, std::size_t corner,
+                                   std::uint32_t vertex) const {
+        if (by_vertex_) return std::uint64_t{vertex} + 1;
         if (fans_.empty()) return 0;
         const auto [triangle, place] = place_in_fan(corner);
         const std::uint32_t row = fans_[first + triangle][place];
@@ -53,6 +87,7 @@ class row_numbers {
 
   private:
     const std::vector<face>& fans_;
+    bool by_vertex_;
 };
 
 /// "f 1/1/1 2/2/2 3/3/3"
@@ -66,8 +101,8 @@ struct face_lines {
         for (std::size_t i = 0; i < corners.size(); ++i) {
             out.put(' ');
             out.number(std::uint64_t{corners[i]} + 1);
-            const std::uint64_t texture = textures.of(first, i);
-            const std::uint64_t normal = normals.of(first, i);
+            const std::uint64_t texture = textures.of(first, i, corners[i]);
+            const std::uint64_t normal = normals.of(first, i, corners[i]);
             if (texture + normal > 0) out.put('/');
             if (texture > 0) out.number(texture);
             if (normal == 0) continue;
@@ -106,7 +141,9 @@ void put_faces(const write_job& job, const row_block& block) {
     put_by_pieces(job, block.rows.rows, [&](const write_job& piece, auto first, auto last) {
         const std::span<const std::uint32_t> all(block.corners);
         const std::vector<face> none;
-        const face_lines lines{row_numbers(none), row_numbers(none)};
+        const vertex_looks looks(job, job.vertices);
+        const face_lines lines{row_numbers(none, !looks.texture.empty()),
+                               row_numbers(none, !looks.normal.empty())};
         for (std::size_t f = first; f < last; ++f)
             lines.put(piece.out, f,
                       all.subspan(block.first_corner[f],
@@ -118,11 +155,12 @@ void put_faces(const write_job& job, const row_block& block) {
 
 void write_obj(const write_job& job) {
     put_head(job, job.file.mesh.points.size());
-    put_vertices(job, job.file.mesh.points, find_element(job.file.attributes, "vertex"));
+    put_vertices(job, job.file.mesh.points, job.vertices);
+    const vertex_looks looks(job, job.vertices);
     const corner_values& values = job.file.attributes.corners;
     put_corner_values(job.out, values);
-    const face_lines lines{row_numbers(values.texture_of_corner),
-                           row_numbers(values.normal_of_corner)};
+    const face_lines lines{row_numbers(values.texture_of_corner, !looks.texture.empty()),
+                           row_numbers(values.normal_of_corner, !looks.normal.empty())};
     const mesh_file& file = job.file;
     const auto& parts = file.attributes.parts;
     if (parts.empty() && file.stored_face.empty()) {
@@ -147,9 +185,6 @@ void write_obj(const write_job& job) {
 
 point_sink start_obj_points(const write_job& job, std::uint64_t count) {
     put_head(job, count);
-    if (!job.file.attributes.texture_files.empty())
-        job.result.warnings.push_back(
-            {"materials", "names of texture files left out: obj does not hold them"});
     return {.rows = [job](std::span<const point3> points,
                           const element* vertices) { put_vertices(job, points, vertices); },
             .behind = [job](const row_block& block) { put_faces(job, block); }};

@@ -28,11 +28,11 @@ struct vertex_columns {
     std::vector<const column*> color;
     std::vector<const column*> texture;
 
-    explicit vertex_columns(const mesh_file& file) : color(color_columns(file, "vertex")) {
+    explicit vertex_columns(const element* vertices) : color(color_columns(vertices)) {
         constexpr std::string_view normals[] = {"nx", "ny", "nz"};
         constexpr std::string_view textures[] = {"s", "t"};
-        normal = scalar_columns(file, "vertex", normals);
-        texture = scalar_columns(file, "vertex", textures);
+        normal = scalar_columns(vertices, normals);
+        texture = scalar_columns(vertices, textures);
     }
     [[nodiscard]] std::string word() const {
         std::string word = texture.empty() ? "" : "ST";
@@ -55,7 +55,7 @@ void put_list(sink& out, const column* list, std::size_t row) {
 
 void write_off(const write_job& job) {
     const mesh_file& file = job.file;
-    const vertex_columns columns(file);
+    const vertex_columns columns(job.vertices);
     sink& out = job.out;
     out.put(columns.word());
     out.number(file.mesh.points.size());

@@ -146,11 +146,7 @@ class pcd_writer {
         const std::span<const point3> all(job_.file.mesh.points);
         declared_ = declare_vertices(job_, is_text(), by_runs_ ? std::nullopt : std::optional(all));
         for (const column& c : declared_.columns) {
-            if (!c.list_length)
-                columns_.push_back(&c);
-            else
-                job_.result.warnings.push_back(
-                    {"columns-dropped", "PCD holds no lists: " + c.name + " is left out"});
+            if (!c.list_length) columns_.push_back(&c);
         }
     }
 
@@ -350,9 +346,8 @@ std::string join_packed_pcd_heads(const std::vector<std::string>& heads) {
 
 void write_pcd(const write_job& job) {
     pcd_writer writer(job);
-    writer.put_points(job.file.mesh.points, find_element(job.file.attributes, "vertex"));
+    writer.put_points(job.file.mesh.points, job.vertices);
     writer.finish();
-    warn_of_faces(job, "PCD");
 }
 
 point_sink start_pcd_points(const write_job& job, std::uint64_t count) {

@@ -43,7 +43,8 @@ class ply_writer {
     void write() {
         put_header();
         for (const element& e : names_) {
-            const element* source = find_element(job_.file.attributes, e.name);
+            const element* source =
+                e.name == "vertex" ? job_.vertices : find_element(job_.file.attributes, e.name);
             if (e.name == "face")
                 put_faces(e);
             else

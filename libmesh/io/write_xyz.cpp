@@ -20,10 +20,7 @@ void put_rows(const write_job& job, std::span<const point3> points, const elemen
 
 }  // namespace
 
-void write_xyz(const write_job& job) {
-    put_rows(job, job.file.mesh.points, find_element(job.file.attributes, "vertex"));
-    warn_of_faces(job, "XYZ");
-}
+void write_xyz(const write_job& job) { put_rows(job, job.file.mesh.points, job.vertices); }
 
 point_sink start_xyz_points(const write_job& job, std::uint64_t) {
     return {.rows = [job](std::span<const point3> points, const element* vertices) {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -29,6 +30,8 @@ struct write_job {
     write_result& result;
     sink& out;
     std::size_t most_corners = 0;  ///< of faces that come by runs
+    /// The element "vertex" in the words of the format, or null; of points by runs without values.
+    const element* vertices = nullptr;
 
     [[nodiscard]] bool single() const { return result.written_as == precision::float32; }
     /// A coordinate in the precision of the job.
@@ -89,12 +92,6 @@ void write_laz(const write_job& job);
 [[nodiscard]] point_sink start_pcd_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_las_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_laz_points(const write_job& job, std::uint64_t count);
-
-/// For formats of points: says that faces are not written, if there are any.
-inline void warn_of_faces(const write_job& job, const std::string& format) {
-    if (!job.file.mesh.faces.empty())
-        job.result.warnings.push_back({"faces-dropped", format + " holds points only"});
-}
 
 /// \throws std::invalid_argument for a column that is not as long as the element, or whose name
 ///         no format can hold
@@ -180,9 +177,11 @@ void put_bits(sink& out, const column& c, std::size_t i) {
 [[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
                                                        std::string_view element);
 
-/// A color as a number from 0 to 1: whole numbers count 255ths, others are taken as they are.
+/// A color as a number from 0 to 1: whole numbers count 255ths, those of 16 bits by their high byte;
+/// others are taken as they are.
 [[nodiscard]] inline double color_value(const column& c, std::size_t row) {
     const double value = number_at(c, row);
+    if (c.type == scalar_type::uint16) return std::floor(value / 256.0) / 255.0;
     return c.type < scalar_type::float32 ? value / 255.0 : value;
 }
 

@@ -47,7 +47,7 @@ void clear_rows(mesh_file& file) {
 }  // namespace
 
 joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team& all)
-    : inputs_(inputs), as_las_(as_las), known_(look_at_records(inputs.paths, inputs.format, all)) {
+    : inputs_(inputs), as_las_(as_las), known_(look_at_records(inputs.paths, how(), all)) {
     std::vector<mesh_file> firsts;
     for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
         open(i);
@@ -63,9 +63,10 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team
         firsts.push_back(file_of(reader_->header(), read_first(counts_.back())));
     }
     std::vector<std::string> names = inputs.names;
-    head_ = join(std::move(firsts), names);
+    head_ = join(std::move(firsts), names, {.mixed = inputs.mixed});
     of_join_ = std::exchange(head_.warnings, {});
     clear_rows(head_);
+    head_.ranges.clear();
     rewind();
 }
 
@@ -92,7 +93,7 @@ void joined_points::open(std::size_t file, std::uint64_t first) {
                                                                          auto some) {
             if (from->read(at, some) != some.size()) fail_damaged(from->path());
         };
-    reader_.emplace(inputs_.paths[file], inputs_.format, first,
+    reader_.emplace(inputs_.paths[file], how(), first,
                     is_alone ? io::row_use::copied : io::row_use::none, known(file),
                     unpacked ? &unpacked : nullptr);
     file_ = file;
@@ -142,7 +143,7 @@ void joined_points::fit(point_block& block) {
     if (!fits_) {
         std::vector<mesh_file> both{head_, file_of(reader_->header(), std::move(block))};
         const std::vector<std::string> names(2);
-        mesh_file file = join(std::move(both), names);
+        mesh_file file = join(std::move(both), names, {.mixed = true});
         block.points = std::move(file.mesh.points);
         block.properties = std::move(obtain_element(file.attributes, "vertex", 0));
     }

@@ -2,6 +2,7 @@
 /// \file
 /// Clouds in any number of files, read as one from the first point to the last, or from any on.
 
+#include <libmesh/io/las_grid_choice.hpp>
 #include <libmesh/io/point_blocks.hpp>
 #include <libmesh/stream/team.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -34,6 +35,10 @@ class joined_points {
 
     [[nodiscard]] bool lacks_las_grid() const { return as_las_ && !head_.las; }
     void set_las_grid(las_header grid) { head_.las = std::move(grid); }
+    /// Of files that are LAS.
+    void wish_las_grid(const io::las_grid_wish& wish) {
+        if (head_.las) wish.put(*head_.las);
+    }
 
     /// Starts again, with the first point of the share; of one that is not all, where the number of
     /// points is known.
@@ -63,6 +68,7 @@ class joined_points {
     [[nodiscard]] double moved() const { return moved_; }
 
   private:
+    [[nodiscard]] io::reading how() const { return {inputs_.format, {.columns = inputs_.columns}}; }
     void open(std::size_t file, std::uint64_t first = 0);
     [[nodiscard]] point_block read_first(std::uint64_t count);
     [[nodiscard]] bool read_some(point_block& block, std::size_t most);

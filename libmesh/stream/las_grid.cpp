@@ -47,17 +47,18 @@ bool try_on_all(las_grid_choice& choice, const pass_of_points& each, const team&
 
 }  // namespace
 
-las_header las_grid_of(const pass_of_points& each, const team& all) {
+las_header las_grid_of(const pass_of_points& each, const team& all, const io::las_grid_wish& wish) {
     las_grid_choice choice;
     look_at_all(choice, each, all);
     while (!try_on_all(choice, each, all)) {
     }
     las_header header;
-    choice.put(header);
+    choice.put(header, wish);
     return header;
 }
 
-las_header las_grid_of(joined_points& points, const team& all, const share& mine, pacer& pace) {
+las_header las_grid_of(joined_points& points, const team& all, const share& mine, pacer& pace,
+                       const io::las_grid_wish& wish) {
     const auto each = [&](const std::function<void(points_view)>& take) {
         point_block block;
         points.rewind(mine);
@@ -66,7 +67,7 @@ las_header las_grid_of(joined_points& points, const team& all, const share& mine
             pace.check();
         }
     };
-    return las_grid_of(each, all);
+    return las_grid_of(each, all, wish);
 }
 
 }  // namespace treeform::detail::stream

@@ -2,6 +2,7 @@
 /// \file
 /// Scale and offset of LAS for clouds that have none.
 
+#include <libmesh/io/las_grid_choice.hpp>
 #include <libmesh/stream/joined_points.hpp>
 #include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/team.hpp>
@@ -14,12 +15,13 @@ namespace treeform::detail::stream {
 using pass_of_points = std::function<void(const std::function<void(points_view)>&)>;
 
 /// Those that `round_to_las` chooses for all points, those of each of the team, in two passes or more.
-[[nodiscard]] las_header las_grid_of(const pass_of_points& each, const team& all);
+[[nodiscard]] las_header las_grid_of(const pass_of_points& each, const team& all,
+                                     const io::las_grid_wish& wish);
 
 /// Those that `round_to_las` chooses for all points, of which each of the team reads its share twice,
 /// or more often where the first ones have fewer digits than later ones.
 /// \throws io_error, cancelled
 [[nodiscard]] las_header las_grid_of(joined_points& points, const team& all, const share& mine,
-                                     pacer& pace);
+                                     pacer& pace, const io::las_grid_wish& wish);
 
 }  // namespace treeform::detail::stream

@@ -1,3 +1,4 @@
+#include <libmesh/attributes/known_columns.hpp>
 #include <libmesh/base/add_to_box.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/stream/point_survey.hpp>
@@ -109,6 +110,16 @@ void add_survey(cloud_survey& sum, const cloud_survey& one) {
         of.single = of.single && one.sources[i].single;
         of.format = one.sources[i].format;
     }
+    for (const value_range& r : one.ranges) {
+        const auto at = std::ranges::find(sum.ranges, r.column, &value_range::column);
+        if (at == sum.ranges.end()) {
+            sum.ranges.push_back(r);
+            continue;
+        }
+        at->least = std::min(at->least, r.least);
+        at->greatest = std::max(at->greatest, r.greatest);
+        at->whole = at->whole && r.whole;
+    }
     sum.warnings.insert(sum.warnings.end(), one.warnings.begin(), one.warnings.end());
 }
 
@@ -169,6 +180,7 @@ point_survey survey(joined_points& points, const team& all, const share& mine,
     points.rewind(mine);
     while (read()) {
         base::add_to_box(s.box, bounding_box(block.points));
+        attribute::look_at_ranges(block.properties, s.ranges);
         cloud_survey::source& from = s.sources[points.file()];
         from.points += block.points.size();
         from.single = from.single && !points.file_header().las && points.is_single(block);
@@ -208,6 +220,13 @@ void store(const point_survey& survey, state_writer& state) {
         state.number(one.single ? 1 : 0);
         state.text(one.format);
     }
+    state.number(s.ranges.size());
+    for (const value_range& r : s.ranges) {
+        state.text(r.column);
+        state.real(r.least);
+        state.real(r.greatest);
+        state.number(r.whole ? 1 : 0);
+    }
     state.number(s.warnings.size());
     for (const io_warning& w : s.warnings) {
         state.text(w.code);
@@ -231,6 +250,13 @@ point_survey load_survey(state_reader& state) {
         one.single = state.number() != 0;
         one.format = state.text();
         s.sources.push_back(std::move(one));
+    }
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
+        value_range r{.column = state.text()};
+        r.least = state.real();
+        r.greatest = state.real();
+        r.whole = state.number() != 0;
+        s.ranges.push_back(std::move(r));
     }
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
         std::string code = state.text();

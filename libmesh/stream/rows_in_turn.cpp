@@ -64,7 +64,8 @@ class turns {
     [[nodiscard]] row_range read_share(
         const io::row_place& first, const std::function<void(const row_block&)>& take_block,
         const std::function<void(const io::point_blocks&)>& done) const {
-        io::point_blocks reader(of_.path, of_.format, 0, of_.use, of_.known);
+        io::point_blocks reader(of_.path, {.format = std::string(of_.format)}, 0, of_.use,
+                                of_.known);
         if (!places_.empty()) reader.go_to(first);
         row_range read{.first = reader.next_row()};
         read.last = read.first;

@@ -15,6 +15,14 @@ void store_text(const std::optional<io::record_index>& text, state_writer& state
     for (const std::uint64_t n :
          {text->records, std::uint64_t{text->even}, std::uint64_t{text->hexadecimal}})
         state.number(n);
+    state.number(text->columns.size());
+    for (const io::text_column& c : text->columns) {
+        for (const std::uint64_t n : {std::uint64_t{c.whole}, std::uint64_t{c.beyond},
+                                      std::uint64_t{c.unsigned_only}, c.gaps})
+            state.number(n);
+        state.real(c.least);
+        state.real(c.greatest);
+    }
     state.number(text->marks.size());
     for (const io::record_index::mark& m : text->marks) {
         state.number(m.record);
@@ -27,6 +35,15 @@ std::optional<io::record_index> load_text(state_reader& state) {
     io::record_index text{.records = state.number()};
     text.even = state.number() != 0;
     text.hexadecimal = state.number() != 0;
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
+        io::text_column c{.whole = state.number() != 0};
+        c.beyond = state.number() != 0;
+        c.unsigned_only = state.number() != 0;
+        c.gaps = state.number();
+        c.least = state.real();
+        c.greatest = state.real();
+        text.columns.push_back(c);
+    }
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
         const std::uint64_t record = state.number();
         text.marks.push_back({record, state.number()});
@@ -92,7 +109,7 @@ std::optional<io::record_index> look_in_turn(const std::filesystem::path& path, 
 }  // namespace
 
 std::vector<std::optional<io::record_index>> look_at_records(
-    const std::vector<std::filesystem::path>& paths, std::string_view format, const team& all) {
+    const std::vector<std::filesystem::path>& paths, const io::reading& how, const team& all) {
     const std::size_t marks =
         std::clamp<std::size_t>(4 * io::most_marks / paths.size(), 2, io::most_marks);
     const io::file_part part{all.rank(), all.size()};
@@ -104,16 +121,16 @@ std::vector<std::optional<io::record_index>> look_at_records(
         for (state_reader& one : all.exchange(mine))
             for (parts_of_file& parts : texts) parts.push_back(load_text(one));
     };
-    share([&](std::size_t i) { return io::scan_points(paths[i], format, part, marks); });
+    share([&](std::size_t i) { return io::scan_points(paths[i], how, part, marks); });
     if (std::ranges::any_of(texts, is_misread))
         share([&](std::size_t i) {
             const bool again = is_misread(texts[i]) && all.rank() >= seen_as_one(texts[i]);
-            return again ? io::scan_points(paths[i], format, part, marks, false)
+            return again ? io::scan_points(paths[i], how, part, marks, false)
                          : texts[i][all.rank()];
         });
     std::vector<std::optional<io::record_index>> joined;
     for (std::size_t i = 0; i < paths.size(); ++i)
-        joined.push_back(!all.is_alone() && io::has_listed_points_at(paths[i], format)
+        joined.push_back(!all.is_alone() && io::has_listed_points_at(paths[i], how)
                              ? look_in_turn(paths[i], all, marks)
                              : joined_text(texts[i]));
     return joined;

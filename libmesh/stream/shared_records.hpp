@@ -3,6 +3,7 @@
 /// Files that each of a team looks at before any of them can read its share: at the lines of a text that
 /// begin in its share of the bytes, and likewise at points with lists, one after the other.
 
+#include <libmesh/io/reading.hpp>
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/stream/team.hpp>
 
@@ -16,6 +17,6 @@ namespace treeform::detail::stream {
 /// What is known of each file when all have looked; none of what is no text of points or of a PLY, and
 /// of what cannot be read: what is wrong is said where it is read from the front. All come here.
 [[nodiscard]] std::vector<std::optional<io::record_index>> look_at_records(
-    const std::vector<std::filesystem::path>& paths, std::string_view format, const team& all);
+    const std::vector<std::filesystem::path>& paths, const io::reading& how, const team& all);
 
 }  // namespace treeform::detail::stream

@@ -109,7 +109,7 @@ void tile_faces::each_block(bool whole, const Take& take) {
         in_parts ? parts_[last].row - parts_[first].row : std::numeric_limits<std::uint64_t>::max();
     row_block block;
     while (left > 0 && reader.read(block, rows_of_next(left, rows_at_once_))) {
-        left -= block.rows.rows;
+        left -= block.rows.rows + block.left_out;
         take(block);
         pace_.check();
     }
@@ -321,7 +321,7 @@ void tile_faces::renumber(row_block& block) {
 void tile_faces::tell(mesh_file& head, bool all) const {
     for (element& e : head.attributes.elements) {
         if (e.name != "face" || e.rows == 0) continue;
-        if (!all) e.rows = static_cast<std::size_t>(counts_.faces);
+        e.rows = static_cast<std::size_t>(all ? steps_.survey().faces : counts_.faces);
         drop_blank(e);
     }
     if (is_blank_)

@@ -1,6 +1,7 @@
 /// \file
 /// The first look at the rows behind the points, and whose each of them is.
 
+#include <libmesh/io/face_sink.hpp>
 #include <libmesh/stream/tile_faces.hpp>
 
 #include <algorithm>
@@ -39,7 +40,7 @@ file_of_rows tile_faces::file() const {
 
 io::point_blocks tile_faces::open() const {
     const file_of_rows of = file();
-    return {of.path, of.format, 0, of.use, of.known};
+    return {of.path, {.format = std::string(of.format)}, 0, of.use, of.known};
 }
 
 void tile_faces::look(cloud_survey& survey) {
@@ -51,6 +52,7 @@ void tile_faces::look(cloud_survey& survey) {
         look_in_turn(survey);
         static_cast<void>(share_look(survey, true));
     }
+    io::remark_on_short_faces(left_out_, survey.warnings);
     if (survey.triangles > std::numeric_limits<std::uint32_t>::max())
         throw io_error(task_.inputs.paths.front().string() +
                        ": more triangles than 32-bit numbers can name");
@@ -60,7 +62,7 @@ void tile_faces::look(cloud_survey& survey) {
 }
 
 void tile_faces::start_look(cloud_survey& survey) {
-    survey.faces = survey.triangles = 0;
+    survey.faces = survey.triangles = left_out_ = 0;
     most_corners_ = 0;
     is_blank_ = is_soup_;
     parts_.clear();
@@ -78,7 +80,7 @@ bool tile_faces::look_at_part(cloud_survey& survey) {
         std::uint64_t left = parts_[steps_.all().rank() + 1].row - first.row;
         row_block block;
         while (left > 0 && reader.read(block, rows_of_next(left))) {
-            left -= block.rows.rows;
+            left -= block.rows.rows + block.left_out;
             look_at_rows(block, survey);
             pace_.check();
         }
@@ -109,6 +111,7 @@ void tile_faces::look_in_turn(cloud_survey& survey) {
 void tile_faces::look_at_rows(const row_block& block, cloud_survey& survey) {
     if (block.rows.name != "face") return;
     survey.faces += block.rows.rows;
+    left_out_ += block.left_out;
     survey.triangles += block.corners.size() - 2 * block.rows.rows;
     is_blank_ = is_blank_ && are_zeros(block.rows);
     most_corners_ = std::max(most_corners_, longest_face(block));
@@ -125,9 +128,9 @@ void tile_faces::end_look(const io::point_blocks& reader, cloud_survey& survey) 
 bool tile_faces::share_look(cloud_survey& survey, bool seen) {
     state_writer mine;
     for (const std::uint64_t n :
-         {std::uint64_t{seen}, survey.faces, survey.triangles, std::uint64_t{most_corners_},
-          std::uint64_t{is_blank_}, std::uint64_t{survey.warnings.size()},
-          std::uint64_t{parts_.size()}})
+         {std::uint64_t{seen}, survey.faces, survey.triangles, left_out_,
+          std::uint64_t{most_corners_}, std::uint64_t{is_blank_},
+          std::uint64_t{survey.warnings.size()}, std::uint64_t{parts_.size()}})
         mine.number(n);
     for (const io_warning& w : survey.warnings) {
         mine.text(w.code);
@@ -137,11 +140,12 @@ bool tile_faces::share_look(cloud_survey& survey, bool seen) {
         mine.number(place.row);
         mine.number(place.byte);
     }
-    survey.faces = survey.triangles = 0;
+    survey.faces = survey.triangles = left_out_ = 0;
     for (state_reader& one : steps_.all().exchange(mine)) {
         seen = one.number() != 0 && seen;
         survey.faces += one.number();
         survey.triangles += one.number();
+        left_out_ += one.number();
         most_corners_ = std::max(most_corners_, static_cast<std::size_t>(one.number()));
         is_blank_ = one.number() != 0 && is_blank_;
         survey.warnings.resize(one.whole() ? static_cast<std::size_t>(one.number()) : 0);

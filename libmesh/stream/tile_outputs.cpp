@@ -113,6 +113,7 @@ class giving_back {
           faces_(faces),
           head_(steps.source().header()) {
         head_.stored_as = survey_.single ? precision::float32 : precision::float64;
+        head_.ranges = survey_.ranges;
         is_divided_ = may_divide();
         if (is_divided_) return;
         steps.tell_first(welded);
@@ -199,6 +200,7 @@ class giving_back {
         head.format = head_.format;
         head.stored_as = head_.stored_as;
         head.las = head_.las;
+        head.ranges = head_.ranges;
         if (const element* vertices = find_element(head_.attributes, "vertex"))
             head.attributes.elements.push_back(*vertices);
         return head;
@@ -301,7 +303,8 @@ class giving_back {
                 return true;
             });
         };
-        removed_head_.las = las_grid_of(each, all);
+        removed_head_.las = las_grid_of(
+            each, all, {asked_.removed->options.las_scale, asked_.removed->options.las_offset});
         seen.share(all);
         seen.tell(removed_head_);
     }

@@ -194,7 +194,8 @@ bool tile_search::give_tiles(bool in_turn) {
         return std::make_unique<shared_points>(folder_, all_, points, memory_ / 4);
     };
     std::optional<io::record_index> text;
-    if (!all_.is_alone()) text = look_at_records({input_}, options_.format, all_).front();
+    if (!all_.is_alone())
+        text = look_at_records({input_}, {.format = options_.format}, all_).front();
     const io::record_index* const known = text ? &*text : nullptr;
     io::face_rows rows =
         open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size()}, known);
@@ -222,6 +223,7 @@ bool tile_search::give_tiles(bool in_turn) {
         if (all_.is_alone()) throw;
         failure = error.what();
     }
+    if (rows.left_out) survey_.stored_faces -= rows.left_out();
     survey_.header = std::move(rows.head);
     const auto failed = share_counts(failure);
     others_read_ = false;

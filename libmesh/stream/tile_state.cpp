@@ -78,7 +78,8 @@ void tile_steps::look() {
         tiles_.clear();
         unpack();
         if (source_.lacks_las_grid())
-            source_.set_las_grid(las_grid_of(source_, team_, read_by(team_.rank()), pace_));
+            source_.set_las_grid(las_grid_of(source_, team_, read_by(team_.rank()), pace_,
+                                             {task_.options.las_scale, task_.options.las_offset}));
         const std::size_t most = std::bit_floor(
             std::clamp<std::uint64_t>(task_.options.memory / bytes_of_sample, 1U << 12, 1U << 18));
         survey_ = stream::survey(

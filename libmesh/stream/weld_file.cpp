@@ -61,6 +61,7 @@ mesh_file head_of(const mesh_file& file) {
     head.stored_as = file.stored_as;
     head.format = file.format;
     head.las = file.las;
+    head.ranges = file.ranges;
     head.warnings = file.warnings;
     return head;
 }

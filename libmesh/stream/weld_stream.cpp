@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using detail::stream::work_folder;
 
 /// Changes whenever the files in the folder do.
-constexpr std::uint64_t layout_of_folder = 4;
+constexpr std::uint64_t layout_of_folder = 5;
 
 std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o) {
     detail::stream::state_writer state;
@@ -37,6 +37,11 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
             static_cast<std::uint64_t>(fs::last_write_time(input).time_since_epoch().count()));
     }
     state.text(inputs.format);
+    for (const named_column& c : inputs.columns) {
+        state.text(c.name);
+        state.text(c.source);
+    }
+    state.number(inputs.mixed ? 1 : 0);
     state.number(static_cast<std::uint64_t>(o.rule));
     state.real(o.tolerance);
     for (const weld_condition& c : o.same) {
@@ -47,6 +52,8 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
     state.text(o.order_by);
     for (const bool one : {o.relative, o.as_las, o.keep_seams}) state.number(one ? 1 : 0);
     for (const std::string& name : o.across) state.text(name);
+    for (const auto* grid : {&o.las_scale, &o.las_offset})
+        for (const double x : grid->value_or(std::array<double, 3>{})) state.real(x);
     return state.bytes();
 }
 
@@ -125,6 +132,7 @@ struct stream_weld::state {
           steps(pace, folder, task, all, source, keys) {
         if (all.leads()) all.meet();
         all.meet();  // or one would make again what the first one has removed
+        source.wish_las_grid({task.options.las_scale, task.options.las_offset});
         if (!detail::stream::has_rows_behind(source.header())) return;
         check_soup(source.header(), task.options);
         faces.emplace(pace, folder, task, steps);
@@ -180,7 +188,8 @@ struct stream_weld::state {
         if (!again.same.empty() &&
             !have_same_values(source.header(), outline(input, o.team).header, again.same)) {
             weld_stream_outputs as_read{.unfinished = outputs.unfinished};
-            as_read.welded = {whole, {.precision = outputs.welded->options.precision}};
+            as_read.welded = {whole,
+                              {.precision = outputs.welded->options.precision, .keep_names = true}};
             static_cast<void>(detail::stream::give_back(pace, task, as_read, steps, *welded,
                                                         rows ? &*rows : nullptr, nullptr, folder));
             input = {.paths = {whole}};

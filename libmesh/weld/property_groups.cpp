@@ -1,8 +1,10 @@
+#include <libmesh/attributes/known_columns.hpp>
 #include <libmesh/weld/property_groups.hpp>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -12,23 +14,14 @@ namespace {
 using option = weld_property_error::option;
 using fault = weld_property_error::fault;
 
-/// Names of columns that say one thing, in the spellings that files use.
-struct column_group {
-    std::string_view name;
-    std::array<std::string_view, 7> columns;
-};
+using detail::attribute::column_use;
 
-constexpr column_group groups[] = {
-    {"normal", {"nx", "ny", "nz", "normal_x", "normal_y", "normal_z"}},
-    {"uv", {"u", "v", "s", "t", "texture_u", "texture_v"}},
-    {"color", {"red", "green", "blue", "alpha", "rgb", "rgba"}},
-    {"color", {"red", "green", "blue", "alpha", "rgb", "rgba"}},
-};
-
-const column_group* find_group(std::string_view name) {
-    const auto at = std::find_if(std::begin(groups), std::end(groups),
-                                 [&](const column_group& g) { return g.name == name; });
-    return at == std::end(groups) ? nullptr : at;
+/// What stands for all columns that say one thing, whatever files call them.
+std::optional<column_use> find_group(std::string_view name) {
+    if (name == "normal") return column_use::normal;
+    if (name == "uv") return column_use::texture;
+    if (name == "color") return column_use::color;
+    return std::nullopt;
 }
 
 const column* data_column(const attributes& properties, std::string_view name) {
@@ -37,16 +30,25 @@ const column* data_column(const attributes& properties, std::string_view name) {
     return c == nullptr || c->role != column_role::data ? nullptr : c;
 }
 
+/// Values by which vertices at one place differ.
+bool is_seam(std::string_view name) {
+    using detail::attribute::is_use;
+    return is_use(name, column_use::normal) || is_use(name, column_use::texture) ||
+           is_use(name, column_use::color);
+}
+
 bool is_axis(std::string_view name) { return name == "x" || name == "y" || name == "z"; }
 
 /// The columns that `name` stands for; empty when there are none.
 std::vector<std::string> columns_of(const attributes& properties, std::string_view name) {
     if (is_axis(name) || data_column(properties, name) != nullptr) return {std::string(name)};
     std::vector<std::string> columns;
-    if (const column_group* const group = find_group(name))
-        for (const std::string_view column : group->columns)
-            if (!column.empty() && data_column(properties, column) != nullptr)
-                columns.emplace_back(column);
+    const element* const vertices = find_element(properties, "vertex");
+    const auto group = find_group(name);
+    if (!group || vertices == nullptr) return columns;
+    for (const column& c : vertices->columns)
+        if (c.role == column_role::data && detail::attribute::is_use(c.name, *group))
+            columns.push_back(c.name);
     return columns;
 }
 
@@ -70,9 +72,8 @@ std::vector<weld_condition> kept_seams(const attributes& properties,
                                        const std::vector<std::string>& across) {
     std::vector<weld_condition> seams = seam_conditions(properties);
     for (const std::string& name : across) {
-        const auto let_go = find_group(name) != nullptr
-                                ? columns_of(properties, name)
-                                : required(properties, option::across, name);
+        const auto let_go = find_group(name) ? columns_of(properties, name)
+                                             : required(properties, option::across, name);
         std::erase_if(seams, [&](const weld_condition& c) {
             return std::find(let_go.begin(), let_go.end(), c.property) != let_go.end();
         });
@@ -118,15 +119,11 @@ std::vector<weld_condition> weld_conditions(const attributes& properties, bool h
 }
 
 std::vector<weld_condition> seam_conditions(const attributes& properties) {
-    constexpr std::array<std::string_view, 13> names{
-        "nx",        "ny",        "nz",  "u",     "v",    "s",    "t",
-        "texture_u", "texture_v", "red", "green", "blue", "alpha"};
     std::vector<weld_condition> found;
     const element* vertices = find_element(properties, "vertex");
     if (vertices == nullptr) return found;
     for (const column& c : vertices->columns)
-        if (c.role == column_role::data && !c.list_length &&
-            std::find(names.begin(), names.end(), c.name) != names.end())
+        if (c.role == column_role::data && !c.list_length && is_seam(c.name))
             found.push_back({c.name, 0.0});
     return found;
 }

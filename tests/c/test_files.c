@@ -127,6 +127,48 @@ static void test_write(void) {
     treeform_free(mesh);
 }
 
+static void test_columns(void) {
+    const char* const table = "id;E;N;H\n7;1;2;3\n8;4;nan;6\n9;7;8;9\n";
+    const treeform_named_column columns[] = {{"x", "E"}, {"y", "N"}, {"z", "4"}};
+    const treeform_named_column rename[] = {{"number", "id"}};
+    const char* const drop[] = {"number"};
+    const double scale[] = {0.5, 0.5, 0.5};
+    const char* const path = path_in_work("table.csv");
+    treeform_read_options how;
+    treeform_write_options options;
+    treeform_file* file = NULL;
+    treeform_file_view* view = NULL;
+    FILE* out = fopen(path, "w");
+    CHECK(out != NULL && fputs(table, out) >= 0 && fclose(out) == 0);
+    treeform_read_options_init(&how, sizeof how);
+    how.columns = columns;
+    how.column_count = 3;
+    how.drop_nan = 1;
+    OK(treeform_read_as(path, &how, &file));
+    treeform_write_options_init(&options, sizeof options);
+    options.rename = rename;
+    options.rename_count = 1;
+    options.las_scale = scale;
+    OK(treeform_write(path_in_work("table.las"), file, &options, NULL));
+    treeform_free(file);
+    OK(treeform_read(path_in_work("table.las"), NULL, &file));
+    OK(treeform_file_look(file, &view));
+    CHECK(view->mesh.point_count == 2 && view->mesh.points[3] == 7.0);
+    CHECK(view->las_scale[0] == 0.5);
+    CHECK(is(view->elements[0].columns[view->elements[0].column_count - 1].name, "number"));
+    treeform_free(view);
+    treeform_write_options_init(&options, sizeof options);
+    options.drop = drop;
+    options.drop_count = 1;
+    OK(treeform_write(path_in_work("table.ply"), file, &options, NULL));
+    INVALID("rename", (options.rename_count = 1,
+                       treeform_write(path_in_work("table.ply"), file, &options, NULL)));
+    treeform_free(file);
+    file = NULL;
+    how.format = "stl";
+    ENDS(TREEFORM_FILE, "", treeform_read_as(path, &how, &file));
+}
+
 static void test_parts(void) {
     treeform_file* file = NULL;
     treeform_file* sphere = NULL;
@@ -247,6 +289,7 @@ void test_files(void) {
     test_look();
     test_change();
     test_write();
+    test_columns();
     test_parts();
     test_folders();
     test_robots();

@@ -62,11 +62,19 @@ class Las(WeldTest):
         # 0.304 becomes 0.30, which is within 0.3 of the point at the origin.
         self.write("a.las", las_file([(0, 0, 0, 1)]))
         self.write("b.las", las_file([(304, 0, 0, 2)], scale=0.001))
-        entry = self.entry("a.las", "b.las", "--join", "-t", "0.3", "-o", "out.las", status=0)
+        entry = self.entry("a.las", "b.las", "--join", "-t", "0.3", "-o", "out.las",
+                           "--las-scale", "0.01", status=0)
         self.assertEqual(entry["points"]["out"], 1)
         self.assertEqual([w["code"] for w in entry["warnings"]], ["las-grid"])
         entry = self.entry("a.las", "b.las", "--join", "-t", "0.3", "-o", "out.ply", status=0)
         self.assertEqual((entry["points"]["out"], entry["warnings"]), (2, []))
+
+    def test_joined_files_get_the_finest_scale_of_theirs(self):
+        self.write("a.las", las_file([(0, 0, 0, 1)]))
+        self.write("b.las", las_file([(304, 0, 0, 2)], scale=0.001))
+        entry = self.entry("a.las", "b.las", "--join", "-t", "0.3", "-o", "out.las", status=0)
+        self.assertEqual((entry["points"]["out"], entry["warnings"]), (2, []))
+        self.assertEqual(struct.unpack_from("<d", self.read_bytes("out.las"), 131), (0.001,))
 
     def test_withheld_points_stay_with_a_flag(self):
         entry = self.entry("in.las", "-t", "0.3", "--withhold", "-o", "out.las", status=0)

@@ -145,8 +145,10 @@ class Tiles(WeldTest):
         for name in "ab":
             self.run_tool(f"{name}.ply", "-o", f"{name}.las", status=0)
         for which in ([], ["--keep", "mean"], ["--order", "x"]):
-            entry = self.check("a.las", "b.las", "--join", "-t", "0.05", *which, size=70,
-                               out="out.las", also=("--removed", "gone.laz"))
+            self.check("a.las", "b.las", "--join", "-t", "0.05", *which, size=70,
+                       out="out.las", also=("--removed", "gone.laz"))
+            entry = self.check("a.las", "b.las", "--join", "-t", "0.05", *which, "--las-scale",
+                               "0.02", size=70, out="out.las", also=("--removed", "gone.laz"))
             self.assertIn("las-grid", [w["code"] for w in entry["warnings"]])
         self.check("a.las", "b.las", "--join", "-t", "0.05", size=70, also=("--removed", "gone.csv"))
 

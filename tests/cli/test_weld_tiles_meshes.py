@@ -210,11 +210,23 @@ class TilesOfMeshes(WeldTest):
         self.assertEqual(entry["nonmanifold_edges"]["before"], 1)
         self.check("in.ply", "-t", "0.3", size=2)
 
+    def test_faces_of_fewer_than_three_corners_are_left_out_as_in_memory(self):
+        points, faces = grid(5, self.rng)
+        rows = [(*p, 0.0, 7, 0, 0.0) for p in points]
+        short = faces[:4] + [(0, 1)] + faces[4:] + [(), (3,)]
+        for encoding in ORDERS:
+            self.write("in.ply", ply_mesh(encoding, [
+                ("vertex", VERTEX, rows), ("face", FACE[:1], [(f,) for f in short])]))
+            for which in ([], ["-t", "0.3"], ["--label", "group"]):
+                removed = () if "--label" in which else ("--removed", "gone.ply")
+                entry = self.check("in.ply", *which, size=2, also=(*removed, "--map", "map.csv"))
+                self.assertIn("short-faces", [w["code"] for w in entry["warnings"]])
+                self.assertEqual(entry["polygons"]["in"], len(faces))
+
     def test_a_damaged_face_ends_before_the_work_with_nothing_left(self):
         points, faces = grid(5, self.rng)
         for face, words in (((0, 1, 36), "vertex index 36 is out of range"),
-                            ((0, -1, 2), "vertex index -1 is out of range"),
-                            ((0, 1), "face with 2 corners")):
+                            ((0, -1, 2), "vertex index -1 is out of range")):
             for encoding in ORDERS:
                 rows = [(*p, 0.0, 7, 0, 0.0) for p in points]
                 self.write("in.ply", ply_mesh(encoding, [
@@ -348,15 +360,13 @@ class TilesOfMeshes(WeldTest):
         self.write("in.ply", mesh(self.rng, "ascii", points, faces))
         self.write("in.stl", stl(*soup(points, [f[:3] for f in faces], self.rng)))
         rows = [(*p, 0.0, 7, 0, 0.0) for p in points]
-        for name, face in (("far.ply", (0, 1, 36)), ("two.ply", (0, 1))):
-            self.write(name, ply_mesh("binary_little_endian", [
-                ("vertex", VERTEX, rows), ("face", FACE[:1], [(f,) for f in faces + [face]])]))
+        self.write("far.ply", ply_mesh("binary_little_endian", [
+            ("vertex", VERTEX, rows), ("face", FACE[:1], [(f,) for f in faces + [(0, 1, 36)]])]))
         self.write("cut.ply", self.read_bytes("far.ply")[:-9])
         self.write("cube.obj", obj_bytes(cube()))
         inputs = self.listing()
         for size, name, options, status, words in (
                 (3, "far.ply", ["-o", "out.ply"], 3, "vertex index 36 is out of range"),
-                (2, "two.ply", ["-o", "out.ply"], 3, "face with 2 corners"),
                 (3, "cut.ply", ["-o", "out.ply", "--removed", "gone.ply"], 3, "cut.ply"),
                 (2, "in.ply", ["-o", "out.off"], 2, "format off of a mesh needs the whole mesh"),
                 (3, "in.ply", ["--keep-manifold", "-o", "out.ply", "--tile-points", 9], 2,

@@ -131,3 +131,17 @@ def test_hostile_files_are_read_or_refused():
             refused += 1
             assert name in str(error)
     assert refused > 20
+
+
+def test_columns_are_what_they_are_said_to_be(tmp_path):
+    path = tmp_path / "t.csv"
+    path.write_text("id;E;N;H\n7;1;2;3\n8;4;nan;6\n9;7;8;9\n")
+    cloud = tf.read(path, columns={"x": "E", "y": "N", "z": 4}, drop_nan=True)
+    assert cloud.vertices.tolist() == [[1, 2, 3], [7, 8, 9]]
+    tf.write(tmp_path / "t.las", cloud, rename={"id": "number"}, las_scale=(0.5, 0.5, 0.5),
+             las_offset=(1, 2, 3))
+    assert "number" in tf.read(tmp_path / "t.las").attributes.vertex
+    tf.write(tmp_path / "t.ply", cloud, drop=["id"])
+    assert "id" not in tf.read(tmp_path / "t.ply").attributes.vertex
+    with pytest.raises(ValueError, match="none"):
+        tf.write(tmp_path / "t.ply", cloud, drop=["none"])

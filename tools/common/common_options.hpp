@@ -7,6 +7,7 @@
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -35,7 +36,13 @@ struct common_options {
     bool joined = false;    ///< all inputs are one set, and give one result
     bool force = false;
     bool dry_run = false;
-    std::string format;         ///< of the inputs; empty: by content
+    std::string format;                     ///< of the inputs; empty: by content
+    std::vector<tf::named_column> columns;  ///< of tables of text
+    bool drop_nan = false;
+    std::vector<std::string> drop;         ///< columns of points that are not written
+    std::vector<tf::named_column> rename;  ///< of points that are written
+    std::optional<std::array<double, 3>> las_scale;
+    std::optional<std::array<double, 3>> las_offset;
     std::string output_format;  ///< empty: by extension
     bool ascii = false;
     bool binary = false;

@@ -27,7 +27,11 @@ std::string move_objection(json& entry, const rails& limits, double diagonal,
     if (moved <= allowed) return {};
     // Six digits round by at most 5e-6 of the number: the limit that is shown is large enough.
     return "a point would move by " + brief(moved * (1.0 + 5e-6)) + ", more than " +
-           brief(allowed) + " (--max-move)";
+           brief(allowed) + " (--max-move)" +
+           (known.precision == tf::precision::float32
+                ? "; --precision double with -o as PLY, OBJ or OFF does not round so far, nor does "
+                  "moving the inputs to the origin first"
+                : "");
 }
 
 }  // namespace tools

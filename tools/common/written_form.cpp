@@ -42,7 +42,12 @@ tf::precision written_precision(const common_options& options,
 }
 
 tf::write_options write_options_for(const common_options& options, const written_form& form) {
-    tf::write_options how{.format = form.format, .ascii = form.ascii};
+    tf::write_options how{.format = form.format,
+                          .ascii = form.ascii,
+                          .drop = options.drop,
+                          .rename = options.rename,
+                          .las_scale = options.las_scale,
+                          .las_offset = options.las_offset};
     if (options.precision == "float") how.precision = tf::precision::float32;
     if (options.precision == "double") how.precision = tf::precision::float64;
     return how;

@@ -28,21 +28,29 @@ std::string in_plain_words(const std::exception& error) {
     return text.substr(text.find(": ") + 2);
 }
 
-tf::mesh_file join(std::vector<tf::mesh_file> files, const std::vector<std::string>& names) {
+tf::mesh_file join(std::vector<tf::mesh_file> files, const std::vector<std::string>& names,
+                   bool mixed) {
     if (files.size() == 1) return std::move(files.front());
     try {
-        tf::mesh_file all = tf::join(std::move(files), names);
+        tf::mesh_file all = tf::join(std::move(files), names, {.mixed = mixed});
         for (tf::io_warning& w : all.warnings)
             if (w.code == "left-out") w.text += " by --join";
         return all;
     } catch (const std::length_error& error) {
         throw failure(bad_input, "size", in_plain_words(error));
     } catch (const std::invalid_argument& error) {
-        throw failure(bad_input, "property", in_plain_words(error));
+        const std::string text = in_plain_words(error);
+        const bool of_las = text.find("reference systems") != std::string::npos ||
+                            text.find("GPS time") != std::string::npos;
+        throw failure(
+            bad_input, of_las ? "mixed" : "property",
+            text + (of_las ? "; convert one first (pdal translate), or --mixed joins them "
+                             "as they are"
+                           : ""));
     }
 }
 
-tf::mesh_file read_all(job& work) {
+tf::mesh_file read_all(job& work, bool mixed) {
     const std::vector<std::string> names =
         work.options.joined ? work.options.inputs : std::vector<std::string>{work.path};
     std::vector<tf::mesh_file> files;
@@ -60,7 +68,7 @@ tf::mesh_file read_all(job& work) {
     for (const char* key : {"format", "sha256"})
         work.entry[key] = files.size() == 1 ? first[key] : json(nullptr);
     warn_of_materials(work, files);
-    tf::mesh_file all = join(std::move(files), names);
+    tf::mesh_file all = join(std::move(files), names, mixed);
     work.entry["precision_in"] = name_of(all.stored_as);
     work.warn(all.warnings);
     return all;
@@ -78,7 +86,7 @@ void label(job& work, tf::mesh_file& file, const welding& w, const std::string& 
 void fit_to_las(job& work, tf::mesh_file& file, const std::string& why) {
     const auto path = mesh_output(work.options, work.path);
     if (!path || !form_of(work, file, *path).is_las()) return;
-    warn_of_las_grid(work, why, tf::round_to_las(file));
+    warn_of_las_grid(work, why, tf::round_to_las(file, write_options_for(work.options, {})));
 }
 
 }  // namespace
@@ -89,7 +97,7 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
     enter_blank_report(work, request);
     if (!remark.empty()) work.warn("in-memory", remark);
     check_outputs(work, {asked.map}, {asked.removed});
-    tf::mesh_file file = read_all(work);
+    tf::mesh_file file = read_all(work, request.mixed);
     check_formats(work, request, file);
     fit_to_las(work, file, "coordinates");
     const auto path = mesh_output(o, work.path);

@@ -53,6 +53,8 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     const std::string& format = work.options.output_format;
     options.as_las =
         path ? form_of(work, header, *path).is_las() : format == "las" || format == "laz";
+    options.las_scale = work.options.las_scale;
+    options.las_offset = work.options.las_offset;
     options.memory = work.options.memory;
     options.folder = folder_for(work, request, tiles);
     options.points_per_tile = tiles.per_tile;

@@ -79,6 +79,38 @@ void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_opt
     line.flag(outputs.check, {"--check", "", "only count; exit 1 if anything would be merged"});
 }
 
+void add_columns(command_line& line, common_options& o, bool& mixed) {
+    line.group("Properties");
+    line.option({"--columns", "A=B,...",
+                 "of XYZ, PTS, CSV: property A is what the heading\n"
+                 "calls B, or column number B, e.g. x=E,y=N,z=H"},
+                [&o](std::string_view text) { o.columns = tools::parse_names("--columns", text); });
+    line.flag(o.drop_nan,
+              {"--drop-nan", "", "drop points with a NaN or infinite coordinate first"});
+    line.option({"--drop", "P,...", "properties of points that are not written"},
+                [&o](std::string_view text) { o.drop = tools::parse_properties("--drop", text); });
+    line.option({"--rename", "P=NAME,...", "property P of points is written as NAME"},
+                [&o](std::string_view text) {
+                    o.rename = tools::parse_names("--rename", text);
+                    for (auto& r : o.rename) std::swap(r.name, r.source);
+                });
+    line.option({"--las-scale", "S[,S,S]", "steps of coordinates in LAS, one or of each axis",
+                 "of the input, else chosen"},
+                [&o](std::string_view text) {
+                    o.las_scale = tools::parse_axes("--las-scale", text);
+                    for (const double s : *o.las_scale)
+                        if (!(s > 0.0))
+                            refuse("--las-scale " + std::string(text) + ": not above 0");
+                });
+    line.option(
+        {"--las-offset", "X[,Y,Z]", "where these steps are counted from",
+         "of the input, else chosen"},
+        [&o](std::string_view text) { o.las_offset = tools::parse_axes("--las-offset", text); });
+    line.flag(mixed, {"--mixed", "",
+                      "--join LAS of different reference systems or time\n"
+                      "types, too; those of the first are written"});
+}
+
 void add_meshes(command_line& line, weld_settings& s) {
     line.group("Meshes");
     line.flag(s.options.keep_degenerate,
@@ -153,6 +185,12 @@ void check_request(const command_line& line, const tools::weld_request& r,
     if (!mesh && outputs.removed.empty() && (o.ascii || o.binary))
         refuse("--ascii and --binary need an output that they apply to");
     if (!outputs.removed.empty()) tools::check_points_format(outputs.removed);
+    if (!mesh && outputs.removed.empty() &&
+        (!o.drop.empty() || !o.rename.empty() || o.las_scale || o.las_offset))
+        refuse("--drop, --rename, --las-scale and --las-offset need an output that they apply to");
+    if (o.drop_nan && !outputs.map.empty())
+        refuse("--drop-nan changes the numbers of points; it excludes --map");
+    if (r.mixed && !o.joined) refuse("--mixed needs --join");
     for (const auto& condition : r.settings.options.same)
         for (const auto& name : r.settings.options.across)
             if (condition.property == name) refuse(name + " is named by --same and by --across");
@@ -186,6 +224,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     add_which_one_stays(line, r.settings.options);
     add_what_to_give_back(line, r.outputs, options);
     add_meshes(line, r.settings);
+    add_columns(line, options, r.mixed);
     tools::add_tile_options(line, tiles,
                             "What is larger than --memory is welded in tiles on the disk",
                             "--tile-points");

@@ -38,6 +38,7 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const tf::mesh_file& header = cloud.header;
     const tf::weld_options& o = request.settings.options;
     if (work.options.shows()) return work.options.html.empty() ? "--png" : "--html";
+    if (work.options.drop_nan) return "--drop-nan";
     if (o.only_borders) return "--borders";
     if (o.keep_manifold) return "--keep-manifold";
     const bool chooses = o.keep != tf::weld_keep::first;
@@ -157,7 +158,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
 
 exit_status weld_somewhere(job& work, const weld_request& request, const tile_options& tiles) {
     const common_options& o = work.options;
-    tf::cloud_inputs inputs{.format = o.format};
+    tf::cloud_inputs inputs{.format = o.format, .columns = o.columns, .mixed = request.mixed};
     if (o.joined)
         inputs.names = o.inputs;
     else

@@ -61,9 +61,12 @@ bool is_of_points(const std::string& format) {
 }  // namespace
 
 void check_formats(const job& work, const weld_request& request, const tf::mesh_file& file) {
+    check_properties(work, file);
     const auto path = mesh_output(work.options, work.path);
     if (!path) return;
     const std::string format = form_of(work, file, *path).format;
+    if ((work.options.las_scale || work.options.las_offset) && format != "las" && format != "laz")
+        refuse(path->string() + ": --las-scale and --las-offset are of the formats las and laz");
     if (!request.outputs.label.empty() && !is_of_points(format))
         refuse(path->string() +
                ": --label needs a format with properties: ply, pcd, las, laz, xyz, csv");
@@ -187,6 +190,7 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     gone.format = file.format;
     gone.stored_as = file.stored_as;
     gone.las = file.las;
+    gone.ranges = file.ranges;
     gone.mesh.points.reserve(rows.size());
     for (const std::uint32_t p : rows) gone.mesh.points.push_back(file.mesh.points[p]);
     if (const tf::element* vertices = tf::find_element(file.attributes, "vertex"))

@@ -29,7 +29,64 @@ tf::weld_condition parse_condition(std::string_view text) {
     return {.property = std::string(text.substr(0, equals)), .tolerance = tolerance};
 }
 
+std::string known_properties(const tf::attributes& known) {
+    std::string names;
+    if (const tf::element* const vertices = tf::find_element(known, "vertex"))
+        for (const tf::column& c : vertices->columns)
+            if (c.role == tf::column_role::data) names += (names.empty() ? "" : ", ") + c.name;
+    return names.empty() ? "the points have none but x, y, z" : "the points have " + names;
+}
+
 }  // namespace
+
+std::vector<tf::named_column> parse_names(std::string_view option, std::string_view text) {
+    std::vector<tf::named_column> names;
+    for (const auto part : split(option, text)) {
+        const std::size_t equals = part.find('=');
+        if (equals == std::string_view::npos || equals == 0 || equals + 1 == part.size())
+            refuse(std::string(option) + " " + std::string(part) + ": expected A=B");
+        names.push_back(
+            {std::string(part.substr(0, equals)), std::string(part.substr(equals + 1))});
+    }
+    return names;
+}
+
+std::vector<std::string> parse_properties(std::string_view option, std::string_view text) {
+    const auto parts = split(option, text);
+    return {parts.begin(), parts.end()};
+}
+
+std::array<double, 3> parse_axes(std::string_view option, std::string_view text) {
+    const auto parts = split(option, text);
+    if (parts.size() != 1 && parts.size() != 3)
+        refuse(std::string(option) + " " + std::string(text) + ": expected one number or three");
+    std::array<double, 3> axes{};
+    for (std::size_t k = 0; k < 3; ++k)
+        axes[k] = parse_number(std::string(option), parts[parts.size() == 1 ? 0 : k]);
+    return axes;
+}
+
+void check_properties(const job& work, const tf::mesh_file& file) {
+    const tf::element* const vertices = tf::find_element(file.attributes, "vertex");
+    const auto has = [&](const std::string& name) {
+        const tf::column* const c = vertices == nullptr ? nullptr : find_column(*vertices, name);
+        return c != nullptr && c->role == tf::column_role::data;
+    };
+    const auto check = [&](const std::string& option, const std::string& name) {
+        if (!has(name))
+            throw failure(
+                bad_input, "property",
+                option + " " + name + ": no such property; " + known_properties(file.attributes));
+    };
+    for (const std::string& name : work.options.drop) check("--drop", name);
+    for (const tf::named_column& r : work.options.rename) {
+        check("--rename", r.source);
+        if (has(r.name) || r.name == "x" || r.name == "y" || r.name == "z")
+            throw failure(bad_input, "property",
+                          "--rename " + r.source + "=" + r.name + ": there is a property " +
+                              r.name + " already");
+    }
+}
 
 tf::weld_rule parse_rule(std::string_view text) {
     if (text == "first") return tf::weld_rule::first;
@@ -93,12 +150,7 @@ failure property_failure(const tf::weld_property_error& error, const tf::attribu
     std::string why =
         error.what_is_wrong() == is_list ? "has lists of values" : "is more than one property";
     if (error.what_is_wrong() == missing) {
-        std::string names;
-        if (const tf::element* const vertices = tf::find_element(known, "vertex"))
-            for (const tf::column& c : vertices->columns)
-                if (c.role == tf::column_role::data) names += (names.empty() ? "" : ", ") + c.name;
-        why = "no such property; " +
-              (names.empty() ? "the points have none but x, y, z" : "the points have " + names);
+        why = "no such property; " + known_properties(known);
     }
     return {bad_input, "property", option + error.name() + ": " + why};
 }

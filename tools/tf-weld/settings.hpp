@@ -4,9 +4,11 @@
 
 #include "tools/common/exit_status.hpp"
 #include "tools/common/parse_value.hpp"
+#include "tools/common/run.hpp"
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -34,6 +36,7 @@ struct weld_outputs {
 struct weld_request {
     weld_settings settings{};
     weld_outputs outputs{};
+    bool mixed = false;  ///< as in `tf::join_options`
 };
 
 /// Values of options. All of them: \throws failure (bad_usage) naming option and text
@@ -41,6 +44,14 @@ struct weld_request {
 /// "intensity,nx=0.01"
 [[nodiscard]] std::vector<tf::weld_condition> parse_same(std::string_view text);
 [[nodiscard]] std::vector<std::string> parse_across(std::string_view text);
+/// "x=E,y=N,z=H"; `option` is named where it is none
+[[nodiscard]] std::vector<tf::named_column> parse_names(std::string_view option,
+                                                        std::string_view text);
+/// "P,..."
+[[nodiscard]] std::vector<std::string> parse_properties(std::string_view option,
+                                                        std::string_view text);
+/// "0.001" or "0.01,0.01,0.001"
+[[nodiscard]] std::array<double, 3> parse_axes(std::string_view option, std::string_view text);
 /// "first", "last", "mean", "min:P", "max:P"
 void parse_keep(std::string_view text, tf::weld_options& options);
 
@@ -51,6 +62,9 @@ void parse_order(std::string_view text, tf::weld_options& options);
 [[nodiscard]] std::string order_in_words(const tf::weld_options& options);
 [[nodiscard]] std::string keep_in_words(const tf::weld_options& options);
 [[nodiscard]] const char* name_of(tf::weld_rule rule);
+
+/// That points have the properties that --drop and --rename name. \throws failure (bad_input)
+void check_properties(const job& work, const tf::mesh_file& file);
 
 /// What is wrong with a property that an option names; `known` are those of the input.
 [[nodiscard]] failure property_failure(const tf::weld_property_error& error,

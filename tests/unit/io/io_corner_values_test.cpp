@@ -275,15 +275,15 @@ TEST_CASE("writing: formats that do not hold what corners have say so once") {
     };
     using list = std::vector<std::string>;
     for (const char* const format : {"stl", "off"}) CHECK(warnings(textured, format).size() == 1);
-    CHECK(warnings(textured, "ply") == list{"normals of corners left out: ply does not hold them"});
+    CHECK(warnings(textured, "ply") == list{"normals of corners left out: PLY does not hold them"});
     CHECK(warnings(textured, "obj").empty());
     const std::string only_texture = square + rows + "f 1/1 2/2 3/3\n";
     CHECK(warnings(only_texture, "ply").empty());
     CHECK(warnings(only_texture, "stl") ==
-          list{"texture coordinates of corners left out: stl does not hold them"});
+          list{"texture coordinates of corners left out: STL does not hold them"});
     CHECK(warnings(square + rows + "f 1 2 3\n", "stl").empty());
     CHECK(warnings(square + "vt 0 0 0.5\nf 1/1 2/1 3/1\n", "ply") ==
-          list{"w of texture coordinates of corners left out: ply does not hold them"});
+          list{"w of texture coordinates of corners left out: PLY does not hold them"});
     CHECK(warnings(square + "vt 0 0 0\nf 1/1 2/1 3/1\n", "ply").empty());
 }
 
@@ -342,7 +342,11 @@ TEST_CASE("writing: formats that do not hold materials say so") {
     for (const char* const format : {"ply", "stl", "off", "glb"}) {
         CAPTURE(format);
         CHECK(codes("usemtl oak\n" + face, format) == std::vector<std::string>{"materials"});
-        CHECK(codes("mtllib none.mtl\no oak\ng oak\nusemtl\n" + face, format).empty());
+        CHECK(codes("mtllib none.mtl\nusemtl\n" + face, format).empty());
+        CHECK(codes("o oak\n" + face, format).empty());
+        const bool is_glb = format == std::string("glb");
+        CHECK(codes("o oak\n" + face + "o elm\nf 1 3 2\n", format) ==
+              std::vector<std::string>(is_glb ? 0 : 1, "left-out"));
     }
     CHECK(codes("usemtl oak\n" + face, "obj").empty());
 }

@@ -172,7 +172,7 @@ TEST_CASE("point parts: whether points are too many to be compressed, all of the
             tf::write_result result;
             static_cast<void>(writer.commit_part(result));
             CHECK(result.format == "pcd-binary");
-            REQUIRE(result.warnings.size() == 1);
+            REQUIRE_FALSE(result.warnings.empty());
             CHECK(result.warnings[0].text == "too many points to be compressed");
         }
     }

@@ -199,7 +199,7 @@ TEST_CASE("record index: what is unusual anywhere is known wherever the text is 
         CHECK(read_from(k, in, 8, &all) == read_from(k, in, 8, nullptr));
         CHECK(read_from(k, in, 8, &all).warnings.size() == 1);
     }
-    for (const char* odd : {"1 2 3\n", "1 2 3 4 5\n", "1 2 3 tree\n"}) {
+    for (const char* odd : {"1 2 3\n", "1 2 3 4 5\n", "1 2 3 a tree\n"}) {
         const text_kind k = text_kinds(9).front();
         const std::string text = plain + plain + odd + plain;
         const io::source in = source_of(text);

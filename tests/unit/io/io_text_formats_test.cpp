@@ -329,7 +329,76 @@ TEST_CASE("csv: headings of other programs, and those that are of no use") {
     CHECK(read_text("x y z\n1 2 3\n", "stdin").format == "xyz");
     CHECK(says_of_text(text_complaint("x,y,z\n", "a.csv"), "no point found"));
     CHECK(says_of_text(text_complaint("a,x,y,z\n1,2,3,4\n1,2,3\n", "a.csv"), "a.csv:3:"));
-    CHECK(says_of_text(text_complaint("a,x,y,z\nred,2,3,4\n", "a.csv"), "a.csv:2: 'red,"));
+    CHECK(says_of_text(text_complaint("a,x,y,z\n1,2,3,\n", "a.csv"), "a.csv:2:"));
+}
+
+TEST_CASE("csv: empty cells and words are NaN where they stand, which is said") {
+    const tf::mesh_file file =
+        read_text("x,y,z,a,b\n1,2,3,5,7\n2,2,3,,8\n3,2,3,a \"b\" c,\n4,2,3,\"d, e\",9\n", "a.csv");
+    const auto values = [&](const char* name) {
+        std::string text;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double value = tf::number_at(text_column(file, "vertex", name), i);
+            text += std::isnan(value) ? "-" : std::to_string(static_cast<int>(value));
+        }
+        return text;
+    };
+    CHECK(values("a") == "5---");
+    CHECK(values("b") == "78-9");
+    REQUIRE(file.warnings.size() == 1);
+    CHECK(file.warnings[0].text == "4 cells of a, b empty or no number: NaN there");
+    CHECK(read_text("1 2 3 oak\n1 2 3 4\n", "a.xyz").warnings.at(0).text ==
+          "1 cell of column_4 empty or no number: NaN there");
+    CHECK(says_of_text(text_complaint("1;2;3;4,5\n", "a.csv"), "decimal mark"));
+}
+
+TEST_CASE("csv: whole numbers beyond 2^53 stay, colors are of 8 or 16 bits, the rest doubles") {
+    const auto column = [](const std::string& text, const char* name) {
+        return text_column(read_text(text, "a.csv"), "vertex", name);
+    };
+    const std::string large = "x,y,z,t\n1,2,3,1234567890123456789\n1,2,3,-1234567890123456788\n";
+    CHECK(column(large, "t") ==
+          tf::make_column<std::int64_t>(
+              "t", std::vector<std::int64_t>{1234567890123456789, -1234567890123456788}));
+    CHECK(column("x,y,z,t\n1,2,3,18446744073709551615\n", "t").type == tf::scalar_type::uint64);
+    const tf::mesh_file mixed =
+        read_text("x,y,z,t\n1,2,3,1234567890123456789\n1,2,3,0.5\n", "a.csv");
+    CHECK(text_column(mixed, "vertex", "t").type == tf::scalar_type::float64);
+    CHECK(mixed.warnings.at(0).text.find("2^53") != std::string::npos);
+    CHECK(column("x,y,z,t\n1,2,3,9007199254740992\n", "t").type == tf::scalar_type::float64);
+    const std::string colors = "x,y,z,red,green,blue\n1,2,3,0,0,255\n";
+    CHECK(column(colors, "blue").type == tf::scalar_type::uint8);
+    CHECK(column(colors + "1,2,3,0,256,0\n", "blue").type == tf::scalar_type::uint16);
+    CHECK(column(colors + "1,2,3,0,0.5,0\n", "blue").type == tf::scalar_type::float64);
+}
+
+TEST_CASE("csv: columns are what they are said to be") {
+    const auto chosen = [](const std::string& text, std::vector<tf::named_column> columns) {
+        return tf::read(std::as_bytes(std::span(text)), "a.csv", {},
+                        {.columns = std::move(columns)});
+    };
+    const std::string text = "id;E;N;H;I\n7;1;2;3;9\n8;4;5;6;10\n";
+    const tf::mesh_file file =
+        chosen(text, {{"x", "N"}, {"y", "E"}, {"z", "4"}, {"intensity", "I"}});
+    CHECK(file.mesh.points == std::vector<tf::point3>{{2, 1, 3}, {5, 4, 6}});
+    CHECK(tf::number_at(text_column(file, "vertex", "intensity"), 1) == 10);
+    CHECK(tf::number_at(text_column(file, "vertex", "id"), 1) == 8);
+    CHECK(file.warnings.empty());
+    const tf::mesh_file plain = chosen("9 1 2 3\n", {{"x", "2"}, {"y", "3"}, {"z", "4"}});
+    CHECK(plain.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
+    CHECK(tf::number_at(text_column(plain, "vertex", "column_1"), 0) == 9);
+    const auto complaint = [&](const std::vector<tf::named_column>& columns) -> std::string {
+        try {
+            (void)chosen(text, columns);
+        } catch (const tf::io_error& error) {
+            return error.what();
+        }
+        return {};
+    };
+    CHECK(complaint({{"x", "X"}, {"y", "E"}, {"z", "H"}}).find("'X' among id, E, N, H, I") !=
+          std::string::npos);
+    CHECK(complaint({{"x", "E"}}).find("together") != std::string::npos);
+    CHECK(complaint({{"x", "E"}, {"y", "E"}, {"z", "H"}}).find("three") != std::string::npos);
 }
 
 TEST_CASE("detection: what is no LAS is not read as LAS") {

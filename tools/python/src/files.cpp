@@ -12,6 +12,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -58,9 +59,13 @@ static void all_fields(State& state, las_header& h) {
           h.extended_records);
 }
 template <class State>
+static void all_fields(State& state, value_range& r) {
+    state(r.column, r.least, r.greatest, r.whole);
+}
+template <class State>
 static void all_fields(State& state, mesh_file& f) {
     state(f.stored_face, f.stored_faces, f.indexed, f.stored_as, f.format, f.warnings, f.attributes,
-          f.las);
+          f.las, f.ranges);
 }
 
 }  // namespace treeform
@@ -74,9 +79,20 @@ static void all_fields(State& state, file_data& d) {
 
 namespace {
 
-py::tuple read(const std::filesystem::path& path, const std::string& format, bool join) {
+/// Pairs of names as Python has them: the new one, and that in the file.
+using name_pairs = std::vector<std::pair<std::string, std::string>>;
+
+std::vector<tf::named_column> columns_of(const name_pairs& pairs) {
+    std::vector<tf::named_column> columns;
+    for (const auto& [name, source] : pairs) columns.push_back({name, source});
+    return columns;
+}
+
+py::tuple read(const std::filesystem::path& path, const std::string& format, bool join,
+               const name_pairs& columns, bool drop_nan) {
     tf::mesh_file file = run([&](const tf::progress_callback&) {
-        tf::mesh_file read = tf::read(path, format);
+        tf::mesh_file read =
+            tf::read(path, format, {.columns = columns_of(columns), .drop_nan = drop_nan});
         if (join && !read.indexed) {
             for (tf::element& e : read.attributes.elements)
                 if (e.name == "vertex")
@@ -117,8 +133,17 @@ tf::write_result write_to(const std::filesystem::path& path, const held_mesh& me
 
 py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
                bool certified, const std::string& format, bool ascii,
-               const std::optional<std::string>& precision, bool round) {
-    tf::write_options options{.format = format, .ascii = ascii, .round = round};
+               const std::optional<std::string>& precision, bool round,
+               const std::vector<std::string>& drop, const name_pairs& rename,
+               const std::optional<std::array<double, 3>>& las_scale,
+               const std::optional<std::array<double, 3>>& las_offset) {
+    tf::write_options options{.format = format,
+                              .ascii = ascii,
+                              .drop = drop,
+                              .rename = columns_of(rename),
+                              .las_scale = las_scale,
+                              .las_offset = las_offset,
+                              .round = round};
     if (precision) options.precision = precision_of(*precision);
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();

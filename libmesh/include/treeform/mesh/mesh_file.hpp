@@ -49,8 +49,9 @@ struct las_record {
 /// key_point, withheld, overlap, scanner_channel, scan_angle_rank (formats 0 to 5), scan_angle (6 to
 /// 10), user_data, point_source_id, gps_time, red, green, blue, nir, wave_packet_index,
 /// wave_packet_offset, wave_packet_size, wave_return_location, wave_x, wave_y, wave_z. Extra bytes
-/// are columns with the names and types that their record gives them, in the integers that are
-/// stored: neither scaled nor shifted. Those that no record describes are "extra_bytes[0]" and so on.
+/// are columns with the names and types that their record gives them; those to which it gives a scale or
+/// an offset are doubles, the values, NaN where it says that there is none, and are stored in the steps
+/// of that scale. Those that no record describes are "extra_bytes[0]" and so on.
 struct las_header {
     std::uint8_t version_minor = 2;  ///< of 1.0 to 1.4
     std::uint8_t point_format = 0;   ///< 0 to 10
@@ -65,6 +66,31 @@ struct las_header {
     std::vector<std::byte> behind_records{};  ///< up to the first point
     std::vector<las_record> extended_records{};
     friend bool operator==(const las_header&, const las_header&) = default;
+};
+
+/// Least and greatest of a column of points.
+struct value_range {
+    std::string column{};
+    double least = 0.0;
+    double greatest = 0.0;
+    bool whole = true;  ///< all are whole numbers
+
+    friend bool operator==(const value_range&, const value_range&) = default;
+};
+
+/// A column of a table of text, by the name that it gets.
+struct named_column {
+    std::string name{};    ///< "x", "intensity", ...
+    std::string source{};  ///< what the heading calls it, or its number, from 1
+
+    friend bool operator==(const named_column&, const named_column&) = default;
+};
+
+/// How to read.
+struct read_options {
+    /// Of XYZ, PTS and CSV: names for columns. Those for x, y and z are the coordinates.
+    std::vector<named_column> columns{};
+    bool drop_nan = false;  ///< `drop_non_finite`, which a warning says; of `read` alone
 };
 
 /// The content of a file. Points and faces keep the order and the numbers that they have in it:
@@ -83,12 +109,19 @@ struct mesh_file {
     std::vector<io_warning> warnings{};
     treeform::attributes attributes{};  ///< everything else that was read
     std::optional<las_header> las{};    ///< of LAS and LAZ
+    /// Of colors and intensities whose scale shows in their values alone. Another format is written
+    /// by what is here; what is not here is looked for in the columns.
+    std::vector<value_range> ranges{};
 };
 
 /// Makes each triangle a face of its own, for callers who then give each triangle a value. Rows of
 /// the element "face" are repeated for the triangles of a polygon, parts are renumbered, and
 /// `stored_face` becomes empty.
 TREEFORM_API void split_polygons(mesh_file& file);
+
+/// Drops the points with a coordinate that is NaN or infinite, and the faces with such a corner. Returns
+/// how many points those were.
+TREEFORM_API std::size_t drop_non_finite(mesh_file& file);
 
 /// Whether float32 holds every coordinate exactly, or it is NaN or infinite.
 [[nodiscard]] TREEFORM_API bool fits_single(std::span<const point3> points);

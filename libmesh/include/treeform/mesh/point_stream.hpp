@@ -39,6 +39,8 @@ struct row_block {
     element rows{};                        ///< with the element's name
     std::vector<std::uint32_t> corners{};  ///< of faces: those of the first, then of the next, ...
     std::vector<std::uint64_t> first_corner{};  ///< [rows + 1] in `corners`; of others empty
+    /// Faces of fewer than three corners that were among these: the header counts them.
+    std::uint64_t left_out = 0;
 };
 
 /// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
@@ -60,7 +62,8 @@ class TREEFORM_API point_reader {
     ///         that have rows; with `with_rows` for what is ahead of the points, for strips of
     ///         triangles, and for faces with texture coordinates of corners; io_error as `read`
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {},
-                          std::uint64_t first = 0, bool with_rows = false);
+                          std::uint64_t first = 0, bool with_rows = false,
+                          const read_options& options = {});
     ~point_reader();
     point_reader(point_reader&&) noexcept;
     point_reader& operator=(point_reader&&) noexcept;
@@ -168,8 +171,10 @@ class TREEFORM_API point_writer {
 /// Files that are one cloud, all points of the first before those of the next.
 struct cloud_inputs {
     std::vector<std::filesystem::path> paths{};
-    std::string format{};              ///< as for `read`
-    std::vector<std::string> names{};  ///< for warnings; empty: the paths
+    std::string format{};                 ///< as for `read`
+    std::vector<named_column> columns{};  ///< as in `read_options`
+    std::vector<std::string> names{};     ///< for warnings; empty: the paths
+    bool mixed = false;                   ///< as in `join_options`
 };
 
 /// What is in files before their points are read.

@@ -37,7 +37,10 @@ namespace treeform {
 /// - PLY: the list "texcoord" of faces is in `attributes::corners` when it has two numbers a
 ///   corner, or none. Lines `comment TextureFile NAME` are in `attributes::texture_files`.
 /// - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
-///   any columns.
+///   any columns, also such as easting, northing and elevation, which a warning says; latitude and
+///   longitude are refused. `read_options::columns` says which is which. An empty cell, or one with a
+///   word, is NaN. Whole numbers beyond 2^53 are 64-bit integers where a column has nothing else.
+///   Colors are of 8 or 16 bits where they are whole numbers of these.
 /// - PTS: as XYZ. Where the first line is the number of points, 4 columns are x y z intensity, 6 are
 ///   x y z red green blue, and 7 have both. More points than it says are read with a warning; fewer
 ///   are an error. The format is then called "xyz".
@@ -68,11 +71,13 @@ namespace treeform {
 ///
 /// \throws io_error naming path, line or byte, and reason
 [[nodiscard]] TREEFORM_API mesh_file read(const std::filesystem::path& path,
-                                          std::string_view format = {});
+                                          std::string_view format = {},
+                                          const read_options& options = {});
 
 /// The same for bytes in memory. Errors say `name` in place of the path.
 [[nodiscard]] TREEFORM_API mesh_file read(std::span<const std::byte> bytes, std::string_view name,
-                                          std::string_view format);
+                                          std::string_view format,
+                                          const read_options& options = {});
 
 /// Which files of a folder are meant.
 enum class file_content : std::uint8_t {

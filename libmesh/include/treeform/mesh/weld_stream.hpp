@@ -12,7 +12,6 @@
 /// same, byte for byte, as `weld` of the whole cloud would give, or of what `join` makes of several.
 
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/process_team.hpp>
@@ -49,6 +48,7 @@ struct weld_stream_options {
     /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS, else
     /// to those of `round_to_las`, before anything is decided of them.
     bool as_las = false;
+    std::optional<std::array<double, 3>> las_scale{}, las_offset{};  ///< as in `write_options`
     std::uint64_t memory = 0;           ///< bytes that the process may take; 0: `default_memory`
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< at most about this many; 0: as the memory allows
@@ -73,7 +73,8 @@ struct cloud_survey {
         bool single = true;
         std::string format{};  ///< "ply-binary", ...
     };
-    std::vector<source> sources{};  ///< of each file
+    std::vector<source> sources{};      ///< of each file
+    std::vector<value_range> ranges{};  ///< as `mesh_file::ranges`
     std::vector<io_warning> warnings{};
     double las_moved = 0.0;  ///< the furthest that a coordinate went to a step of LAS
     double tolerance = 0.0;  ///< as a length

@@ -7,6 +7,7 @@
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
+#include <array>
 #include <concepts>
 #include <filesystem>
 #include <optional>
@@ -27,6 +28,14 @@ struct write_options {
     /// Precision of the coordinates; none: as they were stored. Binary STL and GLB hold float32
     /// only. 3MF holds doubles, but its readers make floats of them: none is float32 there.
     std::optional<treeform::precision> precision{};
+    /// Columns of points keep the names and types that they have in `file`, also where the format has
+    /// others for them.
+    bool keep_names = false;
+    std::vector<std::string> drop{};     ///< columns of points that are not written
+    std::vector<named_column> rename{};  ///< of points: `source` is the column, `name` the new one
+    /// Of LAS and LAZ; none: those of the file, else as below.
+    std::optional<std::array<double, 3>> las_scale{};
+    std::optional<std::array<double, 3>> las_offset{};
     /// Allow further rounding of certified coordinates, which can undo what was certified.
     /// Coordinates without a certificate are always rounded to the precision.
     bool round = false;
@@ -55,14 +64,16 @@ struct write_result {
 /// - PLY: all elements in their order; texture coordinates of corners, as the list "texcoord" of
 ///   faces with two numbers a corner, in float32 unless the file has that list as double (NaN where
 ///   a corner has none); names of texture files, behind the comments.
-/// - OBJ: parts, material files, texture coordinates and normals of corners, vertex colors.
+/// - OBJ: parts, material files, texture coordinates and normals of corners, or those of points, vertex
+///   colors.
 /// - OFF: normals, colors and texture coordinates of points.
 /// - STL: its header, without a leading "solid" and with a NUL as its last byte where it has none; the
 ///   names of solids, the column "stl_attribute".
 /// - XYZ and CSV: further columns. PCD: these, and the lines "num_cols", "num_rows" and "viewpoint"
 ///   of `obj_info`.
 /// - LAS and LAZ: what `las_header` says; further columns as extra bytes. Columns red, green and blue
-///   of 8 bits are multiplied by 256; scan_angle_rank becomes scan_angle in formats from 6 on. Coordinates that the file's scale and offset do not hold are
+///   of 8 bits are multiplied by 256; points that no column says it of are returns 1 of 1; intensities
+///   that are no whole numbers are rounded, or multiplied by 65535 where all are from 0 to 1; scan_angle_rank becomes scan_angle in formats from 6 on. Coordinates that the file's scale and offset do not hold are
 ///   rounded (`max_displacement`). A file that was not LAS gets the smallest format that holds its
 ///   columns, and for each axis the coarsest scale of 1, 0.1, 0.01, ... that gives all coordinates
 ///   back within two units in their last place, else the finest that 32 bits allow.
@@ -78,7 +89,12 @@ struct write_result {
 ///   of `obj_info`, else millimeters. Polygons are written as triangles. A number in text is that of
 ///   the double, so that readers of floats and of doubles get the same.
 ///
-/// A warning says when values of corners, materials or names of texture files are lost.
+/// Columns of points that several formats know have the names and types of the format that is written
+/// (`libmesh/attributes/known_columns.cpp` is the table): colors are red, green and blue of 8 bits, but
+/// in LAS of 16, in PCD the packed `rgb`, in OBJ numbers from 0 to 1; normals are nx, ny, nz, in PCD
+/// normal_x, ..., in OBJ `vn`. A file is not translated to its own format.
+///
+/// Warnings say what is scaled, what is rounded, and all that is left out.
 ///
 /// A mesh without points and faces can be written in every format of meshes, and read again.
 ///
@@ -93,11 +109,11 @@ TREEFORM_API write_result write(const std::filesystem::path& path, const mesh_fi
 /// Moves the coordinates of `file` to those that a LAS file can hold, and gives it the scale and
 /// offset that it will have there (`mesh_file::las`). What is decided of the points after that holds
 /// in the file that is written. Returns the furthest that a coordinate moved: 0 for what was LAS and
-/// is as it was. Coordinates that are not finite stay.
+/// is as it was. Coordinates that are not finite stay. Of `options`, scale and offset count.
 ///
 /// \throws io_error naming the first point that 32 bits do not hold with the file's scale
 /// \cost   O(V)
-TREEFORM_API double round_to_las(mesh_file& file);
+TREEFORM_API double round_to_las(mesh_file& file, const write_options& options = {});
 
 /// `write` for a mesh without attributes.
 TREEFORM_API write_result write(const std::filesystem::path& path, mesh surface,

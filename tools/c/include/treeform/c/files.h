@@ -18,6 +18,30 @@ typedef struct treeform_file treeform_file;
 TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
 
+/// A column of points, and another name for it.
+typedef struct treeform_named_column {
+    const char* name;    ///< the new one
+    const char* source;  ///< that in the file
+} treeform_named_column;
+
+/// How to read.
+typedef struct treeform_read_options {
+    size_t size;
+    const char* format;  ///< as for `treeform_read`
+    /// [column_count] of XYZ, PTS and CSV: names for columns; `source` is what the heading says, or a
+    /// number from 1. Those for x, y and z are the coordinates.
+    const treeform_named_column* columns;
+    size_t column_count;
+    int32_t drop_nan;  ///< drop points with a NaN or infinite coordinate, and their faces
+} treeform_read_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_read_options_init(treeform_read_options* options, size_t size);
+
+/// Reads the file at `path` as `treeform_read` does; options may be null.
+TREEFORM_C_API treeform_code treeform_read_as(const char* path,
+                                              const treeform_read_options* options,
+                                              treeform_file** file);
+
 /// The same of bytes in memory. Errors say `name`.
 TREEFORM_C_API treeform_code treeform_read_memory(const void* bytes, size_t size, const char* name,
                                                   const char* format, treeform_file** file);
@@ -179,6 +203,12 @@ typedef struct treeform_write_options {
     /// returns other than 0. May be null.
     treeform_progress progress;
     void* progress_data;
+    const char* const* drop;  ///< [drop_count] columns of points that are not written
+    size_t drop_count;
+    const treeform_named_column* rename;  ///< [rename_count] columns of points with other names
+    size_t rename_count;
+    const double* las_scale;   ///< [3] of LAS and LAZ; null: of the file, else chosen
+    const double* las_offset;  ///< [3]
 } treeform_write_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_write_options_init(treeform_write_options* options, size_t size);
