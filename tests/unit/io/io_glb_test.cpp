@@ -148,7 +148,7 @@ TEST_CASE("glb: points get copies where their corners differ in texture or norma
     corners.texture[3][2] = 0.5;
     corners.has_w = true;
     CHECK(through_glb(file).warnings.back() ==
-          "corner-values: w of texture coordinates of corners left out: glb does not hold them");
+          "corner-values: w of texture coordinates of corners left out: GLB does not hold them");
 }
 
 TEST_CASE("glb: parts are nodes with their names and points; the same name again is one") {
@@ -170,7 +170,7 @@ TEST_CASE("glb: parts are nodes with their names and points; the same name again
     CHECK(column_values(w.again, "s") == numbers{0, 1, 2, 3, 1, 2, 3});
     CHECK(w.again.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}});
     CHECK(w.warnings == texts{"left-out: 1 points that no face has were left out",
-                              "materials: materials left out: glb does not hold them"});
+                              "materials: materials left out: GLB does not hold them"});
     // A name for all is that of the one node, and then all points are kept.
     file.attributes.parts.resize(1);
     CHECK(through_glb(file).again.mesh == file.mesh);
