@@ -70,10 +70,11 @@ las_system system_of(const las_header& h) {
     }
     const auto keys = record_data(h, user, 34735);
     if (keys.size() < 8) return {.name = "none"};
-    for (const std::uint16_t id : {34735, 34736, 34737})
+    for (const std::uint16_t id :
+         {std::uint16_t{34735}, std::uint16_t{34736}, std::uint16_t{34737}})
         s.text += text_in(record_data(h, user, id)) + '|';
     s.name = "GeoTIFF keys";
-    for (const std::uint16_t wanted : {3072, 2048})
+    for (const std::uint16_t wanted : {std::uint16_t{3072}, std::uint16_t{2048}})
         for (std::size_t at = 8; at + 8 <= keys.size() && s.code.empty(); at += 8)
             if (las_number<std::uint16_t>(keys, at) == wanted &&
                 las_number<std::uint16_t>(keys, at + 6) != 32767)
