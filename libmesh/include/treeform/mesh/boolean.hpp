@@ -152,15 +152,15 @@ struct TREEFORM_API boolean_result {
     /// the inside is behind every face: the surface winds once around points just behind it, and
     /// not around those in front.
     treeform::certificate certificate{};
-    /// Components, by vertices, of the exact result that have no face left, because they are
-    /// thinner than the coordinates can show. Where operands were mended, components of what those
-    /// make.
+    /// Components, by vertices, of the exact result (of mended operands, where some were) that have
+    /// no face left, because they are thinner than the coordinates can show.
     std::uint64_t vanished_components = 0;
     std::vector<point3> vanished_at{};  ///< a point of each, at most 100
     std::optional<operand_volumes> volumes{};
     boolean_statistics statistics{};
 
-    /// The mesh. \throws not_certified_error unless the certificate's status is ok
+    /// The mesh.
+    /// \throws not_certified_error unless the certificate's status is ok
     [[nodiscard]] const treeform::mesh& value() const&;
     [[nodiscard]] treeform::mesh value() &&;
 };
