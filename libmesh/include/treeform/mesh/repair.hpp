@@ -215,8 +215,12 @@ struct TREEFORM_API repair_result {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repair_result repair(mesh_view mesh, const repair_options& options = {});
 
-/// What keeps a mesh from being a solid. Points with equal coordinates are one.
+/// What keeps a mesh from being a solid. Points with equal coordinates are one. The first three are
+/// of the mesh as given, all others of it without the faces that cannot be used.
 struct TREEFORM_API solid_defects {
+    std::uint64_t nonfinite_vertices = 0;    ///< with a NaN or infinite coordinate, used or not
+    std::uint64_t unusable_faces = 0;        ///< with such a corner, or one that is no vertex
+    bool without_faces = false;              ///< there are points, but no face that can be used
     std::uint64_t tetrahedra = 0;            ///< that the faces are, as of a volume mesh
     std::uint64_t degenerate = 0;            ///< faces without area
     std::uint64_t repeated = 0;              ///< faces with the corners of another one
@@ -237,9 +241,10 @@ struct TREEFORM_API solid_defects {
     [[nodiscard]] std::string message() const;
 };
 
-/// What `repair` would have to mend. Nothing is changed.
+/// What keeps a mesh from being a solid: what `repair` would have to mend, and what it does not
+/// take. Nothing is changed. Without points, there is none: that is the empty solid.
 ///
-/// \throws std::invalid_argument as `self_intersections`
+/// \throws std::invalid_argument as `self_intersections`, but not for corners
 /// \cost   O(V log V + F log F), and as `self_intersections`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API solid_defects find_solid_defects(mesh_view mesh,
