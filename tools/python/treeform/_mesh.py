@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any, Iterator, Protocol, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, Protocol, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arrays, _core
+from . import _arrays, _core, _others
 from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
+from ._others import arrays_of
 from ._results import Result
 
 if TYPE_CHECKING:
     from ._show import View
+
+__all__ = ["Attributes", "HasCells", "HasFaces", "HasMesh", "HasPolys", "HasTensors",
+           "HasTriangles", "Mesh", "MeshLike", "MeshResult", "as_mesh", "cloud_of", "from_meshio",
+           "from_open3d", "from_pyvista", "from_trimesh", "from_vtk", "held", "held_body",
+           "listed"]
 
 
 class HasFaces(Protocol):
@@ -32,6 +37,31 @@ class HasTriangles(Protocol):
     def vertices(self) -> Any: ...
     @property
     def triangles(self) -> Any: ...
+
+
+class HasCells(Protocol):
+    """A mesh as meshio has it, and grids of PyVista."""
+
+    @property
+    def points(self) -> Any: ...
+    @property
+    def cells_dict(self) -> Any: ...
+
+
+class HasTensors(Protocol):
+    """A mesh as `open3d.t.geometry` has it."""
+
+    @property
+    def vertex(self) -> Any: ...
+    @property
+    def triangle(self) -> Any: ...
+
+
+class HasPolys(Protocol):
+    """A mesh as VTK has it."""
+
+    def GetPoints(self) -> Any: ...
+    def GetPolys(self) -> Any: ...
 
 
 class HasMesh(Protocol):
@@ -264,10 +294,29 @@ class Mesh:
         return show(self, *others, **look)
 
     def to_trimesh(self) -> Any:
-        """A `trimesh.Trimesh` with copies of the arrays; trimesh has to be installed."""
+        """A `trimesh.Trimesh` with copies of the arrays, as all that follow; the library has to be
+        installed. A cloud becomes a cloud there."""
+        return _others.to_trimesh(*self._own())
+
+    def to_open3d(self, *, tensor: bool = False) -> Any:
+        """An `open3d.geometry.TriangleMesh`; with `tensor`, one of `open3d.t.geometry`."""
+        return _others.to_open3d(*self._own(), tensor)
+
+    def to_pyvista(self) -> Any:
+        """A `pyvista.PolyData`."""
+        return _others.to_pyvista(*self._own())
+
+    def to_vtk(self) -> Any:
+        """A `vtkPolyData`."""
+        return _others.to_vtk(*self._own())
+
+    def to_meshio(self) -> Any:
+        """A `meshio.Mesh`."""
+        return _others.to_meshio(*self._own())
+
+    def _own(self) -> tuple[Floats, Ids]:
         mesh = self._ready()
-        return importlib.import_module("trimesh").Trimesh(
-            vertices=mesh._vertices.copy(), faces=mesh._faces.astype(np.int64), process=False)
+        return mesh._vertices, mesh._faces
 
     def __or__(self, other: MeshLike) -> Mesh:
         return _operation("|", self, other)
@@ -314,20 +363,22 @@ class Mesh:
         return f"Mesh({len(self._vertices):,} vertices, {len(self._faces):,} faces)"
 
 
-MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, Tuple[ArrayLike, ArrayLike]]
+MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, HasCells, HasTensors, HasPolys,
+                 Tuple[ArrayLike, ArrayLike]]
 
 
 _Array = TypeVar("_Array", Floats, Ids)
 
 
 def _read_only(array: _Array) -> _Array:
-    view = array.view()
-    view.flags.writeable = False
-    return view
+    """The same memory, through a buffer that NumPy cannot be told to write to."""
+    memory: Any = array
+    locked: Any = memoryview(memory).toreadonly()
+    return np.asarray(locked)
 
 
 def from_trimesh(mesh: HasFaces) -> Mesh:
-    """A Mesh of the arrays of a `trimesh.Trimesh`, or of anything with `vertices` and `faces`.
+    """A Mesh of the arrays of a `trimesh.Trimesh`, or of whatever else is taken for a mesh.
 
     >>> import treeform
     >>> class Trimesh:
@@ -339,43 +390,65 @@ def from_trimesh(mesh: HasFaces) -> Mesh:
     return as_mesh(mesh)
 
 
-def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
-    """Vertices and faces of whatever is taken for a mesh."""
-    if isinstance(mesh, (tuple, list)):
-        if len(mesh) != 2:
-            raise ValueError("mesh: a pair (vertices, faces) is needed, "
-                             f"not {len(mesh)} elements")
-        return mesh[0], mesh[1]
-    if hasattr(mesh, "vertices"):
-        for name in ("faces", "triangles"):
-            if hasattr(mesh, name):
-                return np.asarray(mesh.vertices), np.asarray(getattr(mesh, name))
-    if hasattr(mesh, "points"):
-        if hasattr(mesh, "cells_dict"):
-            return np.asarray(mesh.points), _faces_of_cells(mesh.cells_dict)
-        if hasattr(mesh, "faces"):
-            return np.asarray(mesh.points), np.asarray(mesh.faces)
-    raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces")
+def from_open3d(mesh: HasTriangles | HasTensors) -> Mesh:
+    """A Mesh of a TriangleMesh of `open3d.geometry` or `open3d.t.geometry`.
+
+    >>> import treeform
+    >>> class TriangleMesh:
+    ...     vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    ...     triangles = [[0, 1, 2]]
+    >>> treeform.from_open3d(TriangleMesh())
+    Mesh(3 vertices, 1 faces)
+    """
+    return as_mesh(mesh)
 
 
-#: By the names of meshio and the numbers of VTK.
-_NO_FACES = ("vertex", "line", 1, 3)
-_TRIANGLES = ("triangle", 5)
-_QUADS = ("quad", 9)
+def from_pyvista(mesh: HasFaces | HasCells) -> Mesh:
+    """A Mesh of a `pyvista.PolyData` or grid: triangles, and quads, each cut in two.
+
+    >>> import treeform
+    >>> class PolyData:
+    ...     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    ...     faces = [4, 0, 1, 2, 3]
+    >>> treeform.from_pyvista(PolyData())
+    Mesh(4 vertices, 2 faces)
+    """
+    return as_mesh(mesh)
 
 
-def _faces_of_cells(cells: Any) -> NDArray[Any]:
-    """Triangles, and two of each quad, in the order of `cells`."""
-    faces = [np.empty((0, 3), np.uint32)]
-    for kind, corners in cells.items():
-        if kind in _TRIANGLES:
-            faces.append(np.asarray(corners))
-        elif kind in _QUADS:
-            faces.append(np.asarray(corners)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
-        elif kind not in _NO_FACES and len(corners):
-            raise ValueError(f"mesh: {len(corners)} cells of the kind {kind!r}; only triangles and "
-                             "quads are taken")
-    return np.concatenate([_arrays.faces(part) for part in faces])
+def from_vtk(mesh: HasPolys) -> Mesh:
+    """A Mesh of a `vtkPolyData`: triangles, and quads, each cut in two.
+
+    >>> import treeform
+    >>> def mesh_of(reader):  # a vtkSTLReader
+    ...     reader.Update()
+    ...     return treeform.from_vtk(reader.GetOutput())
+    """
+    return as_mesh(mesh)
+
+
+def from_meshio(mesh: HasCells) -> Mesh:
+    """A Mesh of a `meshio.Mesh`: triangles, and quads, each cut in two.
+
+    >>> import treeform
+    >>> class Meshio:
+    ...     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    ...     cells_dict = {"quad": [[0, 1, 2, 3]]}
+    >>> treeform.from_meshio(Meshio())
+    Mesh(4 vertices, 2 faces)
+    """
+    return as_mesh(mesh)
+
+
+def listed(meshes: Any) -> tuple[Any, ...] | None:
+    """What is in a list of meshes, or in anything else that can be gone through; None for what is no
+    list, but a mesh."""
+    if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes)) or any(
+            hasattr(meshes, name) for name in ("mesh", "vertices", "points", "__array__")):
+        return None
+    several = tuple(meshes)
+    is_pair = len(several) == 2 and isinstance(several[0], np.ndarray)
+    return None if is_pair or _arrays.is_pair(several) else several
 
 
 def as_mesh(mesh: Any) -> Mesh:
@@ -400,8 +473,11 @@ def cloud_of(body: Any) -> Floats | None:
     a mesh."""
     if isinstance(body, np.ndarray) or isinstance(body, (list, tuple)) and not _arrays.is_pair(body):
         return _arrays.points(body, "points")
-    if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict")):
+    if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict", "triangle",
+                                          "GetPolys")):
         return None
+    if hasattr(body, "point"):  # of open3d.t.geometry
+        return _arrays.points(np.asarray(body.point["positions"].cpu().numpy()), "points")
     for name in ("points", "vertices"):
         if hasattr(body, name):
             return _arrays.points(np.asarray(getattr(body, name)), "points")
