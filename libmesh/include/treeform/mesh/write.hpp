@@ -131,7 +131,7 @@ TREEFORM_API write_result write_certified(const std::filesystem::path& path, mes
                                           const write_options& options);
 TREEFORM_API write_result write_certified(const std::filesystem::path& path, const mesh_file& file,
                                           const write_options& options);
-}
+}  // namespace detail::io
 
 /// Writes the mesh of a result in the coordinates that were certified. Binary STL and GLB hold
 /// `precision::float32` only.
