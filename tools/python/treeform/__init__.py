@@ -14,17 +14,18 @@ from . import _core, _exit
 from ._arrays import NONE
 from ._assembly import (STANDINGS, ClashResult, NearestPoints, PartClash, PoseClashes, check_poses,
                         clash, closest_points, distance, intersects)
+from ._attributes import Attributes
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
                         symmetric_difference, union)
 from ._core import Certificate
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
                       NotSolidError)
 from ._files import Written, read, write
+from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, from_vtk
 from ._intersections import (KINDS, FacePairs, FilePairs, Region, StreamSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
                              self_intersections, self_intersections_of_file)
-from ._mesh import (Attributes, Mesh, MeshLike, from_meshio, from_open3d, from_pyvista,
-                    from_trimesh, from_vtk)
+from ._mesh import Mesh, MeshLike
 from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_point, contains,
                         deviation, locate, raycast, raycast_all, raycast_any, signed_distance,
                         winding_number)

@@ -10,8 +10,9 @@ from functools import partial
 from typing import IO, Any, Iterable, Mapping, Sequence, Union
 
 from . import _arrays, _core
+from ._attributes import Attributes
 from ._errors import FileError, file_error
-from ._mesh import Attributes, Mesh, MeshLike, as_mesh, listed
+from ._mesh import Mesh, MeshLike, as_mesh, listed
 from ._progress import Progress
 from ._results import Result
 

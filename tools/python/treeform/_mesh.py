@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _others
 from ._arrays import Floats, Ids
+from ._attributes import Attributes
 from ._core import Certificate
 from ._errors import require
 from ._others import arrays_of
@@ -17,10 +18,8 @@ from ._results import Result
 if TYPE_CHECKING:
     from ._show import View
 
-__all__ = ["Attributes", "HasCells", "HasFaces", "HasMesh", "HasPolys", "HasTensors",
-           "HasTriangles", "Mesh", "MeshLike", "MeshResult", "as_mesh", "cloud_of", "from_meshio",
-           "from_open3d", "from_pyvista", "from_trimesh", "from_vtk", "held", "held_body",
-           "listed"]
+__all__ = ["HasCells", "HasFaces", "HasMesh", "HasPolys", "HasTensors", "HasTriangles", "Mesh",
+           "MeshLike", "MeshResult", "as_mesh", "cloud_of", "held", "held_body", "listed"]
 
 
 class HasFaces(Protocol):
@@ -69,101 +68,6 @@ class HasMesh(Protocol):
 
     @property
     def mesh(self) -> "Mesh": ...
-
-
-class Attributes:
-    """All that a file has besides points and faces.
-
-    Columns of numbers for vertices and faces (colors, normals, qualities), names of parts, texture
-    coordinates and normals of corners, comments, and the format that the file had. `write` puts
-    back what the format of the output can hold. What operations make of a mesh has its columns,
-    corners and parts, too; lists and other kinds of rows are left out.
-
-    >>> import numpy as np
-    >>> import treeform
-    >>> extra = treeform.Attributes()
-    >>> extra.set_vertex("quality", np.array([0.5, 1.0, 2.0]))
-    >>> extra.vertex
-    {'quality': array([0.5, 1. , 2. ])}
-    """
-
-    __slots__ = ("_data",)
-
-    def __init__(self, data: _core.FileData | None = None) -> None:
-        self._data = _core.FileData() if data is None else data
-
-    def __reduce__(self) -> Any:
-        return Attributes, (self._data,)
-
-    def __copy__(self) -> Attributes:
-        return Attributes(_core.FileData(self._data))
-
-    @property
-    def format(self) -> str:
-        """Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty."""
-        return self._data.format
-
-    @property
-    def precision(self) -> str:
-        """Of the coordinates in the file: 'float32' or 'float64'."""
-        return self._data.precision
-
-    @property
-    def warnings(self) -> list[tuple[str, str]]:
-        """What a person should know of the file: (code, text)."""
-        return self._data.warnings
-
-    @property
-    def comments(self) -> list[str]:
-        """Lines of comment of a PLY."""
-        return self._data.comments
-
-    @property
-    def elements(self) -> list[str]:
-        """Kinds of rows that the file has: 'vertex', 'face', ..."""
-        return self._data.elements
-
-    @property
-    def parts(self) -> list[tuple[str, str, str, int]]:
-        """Names in the file: (object, group, material, first face)."""
-        return self._data.parts
-
-    @property
-    def corners(self) -> dict[str, NDArray[Any]]:
-        """Values of corners: `texture` (n, 3), `texture_of_corner` (F, 3) numbers in it, and the
-        same for `normals`; 4294967295 where a corner has none."""
-        return self._data.corners
-
-    @property
-    def stored_face(self) -> Ids | None:
-        """(F,) the file's face that each triangle is a part of; None where all are triangles."""
-        return self._data.stored_face
-
-    @property
-    def vertex(self) -> dict[str, Any]:
-        """A copy of each column of vertices, (V,)."""
-        return self._data.columns("vertex")
-
-    @property
-    def face(self) -> dict[str, Any]:
-        """A copy of each column of faces as stored in the file."""
-        return self._data.columns("face")
-
-    def columns(self, element: str) -> dict[str, Any]:
-        """A copy of each column of `element`; lists as (begin, values)."""
-        return self._data.columns(element)
-
-    def set_vertex(self, name: str, values: ArrayLike) -> None:
-        """Sets a column of vertices, (V,), in the type of `values`."""
-        self._data.set_column("vertex", name, np.asarray(values))
-
-    def set_face(self, name: str, values: ArrayLike) -> None:
-        """Sets a column of faces, (F,), in the type of `values`."""
-        self._data.set_column("face", name, np.asarray(values))
-
-    def __repr__(self) -> str:
-        rows = {name: list(self.columns(name)) for name in self.elements}
-        return f"Attributes(format={self.format!r}, columns={rows})"
 
 
 class Mesh:
@@ -375,69 +279,6 @@ def _read_only(array: _Array) -> _Array:
     memory: Any = array
     locked: Any = memoryview(memory).toreadonly()
     return np.asarray(locked)
-
-
-def from_trimesh(mesh: HasFaces) -> Mesh:
-    """A Mesh of the arrays of a `trimesh.Trimesh`, or of whatever else is taken for a mesh.
-
-    >>> import treeform
-    >>> class Trimesh:
-    ...     vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-    ...     faces = [[0, 1, 2]]
-    >>> treeform.from_trimesh(Trimesh())
-    Mesh(3 vertices, 1 faces)
-    """
-    return as_mesh(mesh)
-
-
-def from_open3d(mesh: HasTriangles | HasTensors) -> Mesh:
-    """A Mesh of a TriangleMesh of `open3d.geometry` or `open3d.t.geometry`.
-
-    >>> import treeform
-    >>> class TriangleMesh:
-    ...     vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-    ...     triangles = [[0, 1, 2]]
-    >>> treeform.from_open3d(TriangleMesh())
-    Mesh(3 vertices, 1 faces)
-    """
-    return as_mesh(mesh)
-
-
-def from_pyvista(mesh: HasFaces | HasCells) -> Mesh:
-    """A Mesh of a `pyvista.PolyData` or grid: triangles, and quads, each cut in two.
-
-    >>> import treeform
-    >>> class PolyData:
-    ...     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
-    ...     faces = [4, 0, 1, 2, 3]
-    >>> treeform.from_pyvista(PolyData())
-    Mesh(4 vertices, 2 faces)
-    """
-    return as_mesh(mesh)
-
-
-def from_vtk(mesh: HasPolys) -> Mesh:
-    """A Mesh of a `vtkPolyData`: triangles, and quads, each cut in two.
-
-    >>> import treeform
-    >>> def mesh_of(reader):  # a vtkSTLReader
-    ...     reader.Update()
-    ...     return treeform.from_vtk(reader.GetOutput())
-    """
-    return as_mesh(mesh)
-
-
-def from_meshio(mesh: HasCells) -> Mesh:
-    """A Mesh of a `meshio.Mesh`: triangles, and quads, each cut in two.
-
-    >>> import treeform
-    >>> class Meshio:
-    ...     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
-    ...     cells_dict = {"quad": [[0, 1, 2, 3]]}
-    >>> treeform.from_meshio(Meshio())
-    Mesh(4 vertices, 2 faces)
-    """
-    return as_mesh(mesh)
 
 
 def listed(meshes: Any) -> tuple[Any, ...] | None:
