@@ -1,6 +1,7 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/carry/solid_parts.hpp>
 #include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -168,8 +169,10 @@ solid_defects find_solid_defects(const carry_source& input, repair_scope scope,
     if (parts.empty()) return find_solid_defects(input.file->mesh, progress);
     faces_done part_of(progress, input.file->mesh.faces.size());
     solid_defects all;
+    all.nonfinite_vertices = find_defects(input.file->mesh).nonfinite_points.size();
     for (const solid_part& part : parts) {
         const solid_defects found = find_solid_defects(part.mesh, part_of.next(part.faces.size()));
+        all.unusable_faces += found.unusable_faces;
         all.tetrahedra += found.tetrahedra;
         all.degenerate += found.degenerate;
         all.repeated += found.repeated;

@@ -12,6 +12,7 @@
 namespace treeform::detail::io {
 
 void sink::flush() {
+    go_on();
     const char* at = buffer_.data();
     std::size_t left = used_;
     flushed_ += used_;
@@ -23,7 +24,7 @@ void sink::flush() {
     while (left > 0) {
         const ssize_t written = ::write(fd_, at, left);
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw io_error(name_ + ": " + std::generic_category().message(errno));
+        if (written < 0) throw io_error(name_, {errno, std::generic_category()});
         at += written;
         left -= static_cast<std::size_t>(written);
     }
@@ -32,7 +33,7 @@ void sink::flush() {
 void sink::skip(std::uint64_t bytes) {
     flush();
     if (bytes > 0 && ::lseek(fd_, static_cast<off_t>(bytes), SEEK_CUR) == static_cast<off_t>(-1))
-        throw io_error(name_ + ": " + std::generic_category().message(errno));
+        throw io_error(name_, {errno, std::generic_category()});
 }
 
 bool sink::can_replace() const {
@@ -48,7 +49,7 @@ void sink::replace(std::size_t at, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(at));
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw io_error(name_ + ": " + std::generic_category().message(errno));
+        if (written < 0) throw io_error(name_, {errno, std::generic_category()});
         at += static_cast<std::size_t>(written);
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
@@ -101,8 +102,6 @@ void output_file::commit() {
     beside_.clear();
 }
 
-void output_file::fail(int error) const {
-    throw io_error(name_ + ": " + std::generic_category().message(error));
-}
+void output_file::fail(int error) const { throw io_error(name_, {error, std::generic_category()}); }
 
 }  // namespace treeform::detail::io

@@ -9,18 +9,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace treeform::detail::io {
 
+/// Thrown where a sink is told to stop.
+class writing_stopped {};
+
 /// A buffer in front of a file descriptor, or of a string that grows.
 class sink {
   public:
     explicit sink(std::string& memory) : memory_(&memory) {}
-    /// `name` stands for the file in errors.
-    sink(int fd, std::string name) : fd_(fd), name_(std::move(name)) {}
+    /// `name` stands for the file in errors. Where `goes_on` returns false, nothing more is written:
+    /// `writing_stopped` is thrown.
+    sink(int fd, std::string name, std::function<bool()> goes_on = {})
+        : fd_(fd), name_(std::move(name)), goes_on_(std::move(goes_on)) {}
     sink(const sink&) = delete;
     sink& operator=(const sink&) = delete;
     ~sink() = default;
@@ -55,8 +61,13 @@ class sink {
         used_ += sizeof(T);
     }
 
-    /// \throws io_error
+    /// \throws io_error, writing_stopped
     void flush();
+
+    /// For what takes long before anything is put. \throws writing_stopped
+    void go_on() const {
+        if (goes_on_ && !goes_on_()) throw writing_stopped();
+    }
 
     /// Leaves a hole of so many bytes in the file. \pre a regular file. \throws io_error
     void skip(std::uint64_t bytes);
@@ -84,6 +95,7 @@ class sink {
     std::string* memory_ = nullptr;
     int fd_ = -1;
     std::string name_{};
+    std::function<bool()> goes_on_{};
 };
 
 /// A file that appears at its path only when it is whole: written beside it, renamed by `commit`,

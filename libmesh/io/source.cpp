@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t release_step = std::size_t{8} << 20;
 
 [[noreturn]] void fail_system(const std::string& name, int error) {
-    throw io_error(name + ": " + std::generic_category().message(error));
+    throw io_error(name, {error, std::generic_category()});
 }
 
 /// Closes a descriptor that is ours; standard input is not.

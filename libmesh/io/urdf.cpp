@@ -7,12 +7,14 @@
 #include <pugixml.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 namespace treeform {
 namespace {
@@ -29,7 +31,7 @@ class urdf_reader {
 
     [[nodiscard]] urdf_robot read() {
         std::ifstream in(path_, std::ios::binary);
-        if (!in) fail("cannot be read");
+        if (!in) throw io_error(path_.string(), {errno, std::generic_category()});
         std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
         const pugi::xml_parse_result parsed =
             document_.load_buffer_inplace(text.data(), text.size(), pugi::parse_default);

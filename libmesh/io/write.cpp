@@ -240,8 +240,13 @@ write_result write_file(const std::filesystem::path& path, const mesh_file& file
     const auto goes_on = [&](double done) { return !options.progress || options.progress(done); };
     if (!goes_on(0.0)) return {.cancelled = true};
     detail::io::output_file target(path);
-    detail::io::sink out(target.descriptor(), target.name());
-    write_result result = job.run(out);
+    detail::io::sink out(target.descriptor(), target.name(), [&] { return goes_on(0.0); });
+    write_result result;
+    try {
+        result = job.run(out);
+    } catch (const detail::io::writing_stopped&) {
+        return {.cancelled = true};
+    }
     result.cancelled = !goes_on(1.0);
     if (!result.cancelled) target.commit();
     return result;
@@ -261,6 +266,11 @@ write_result write(const std::filesystem::path& path, mesh surface, const write_
 write_result detail::io::write_certified(const std::filesystem::path& path, mesh surface,
                                          const write_options& options) {
     return write_file(path, {.mesh = std::move(surface)}, options, false);
+}
+
+write_result detail::io::write_certified(const std::filesystem::path& path, const mesh_file& file,
+                                         const write_options& options) {
+    return write_file(path, file, options, false);
 }
 
 std::string write_to_memory(const mesh_file& file, const write_options& options) {

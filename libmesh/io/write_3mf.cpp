@@ -201,6 +201,7 @@ class model_writer {
     }
 
     void drain() {
+        job_.out.go_on();
         out_.flush();
         archive_.put(piece_);
         piece_.clear();

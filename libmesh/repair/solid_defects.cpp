@@ -12,6 +12,16 @@
 namespace treeform {
 namespace {
 
+/// Points that are left without a face may be anything.
+mesh joined_usable(mesh_view given, std::uint64_t unusable) {
+    if (unusable == 0) return join_meshes({&given, 1}).mesh;
+    mesh usable{{given.points.begin(), given.points.end()},
+                {given.faces.begin(), given.faces.end()}};
+    (void)drop_unusable_faces(usable);
+    const mesh_view left = usable;
+    return join_meshes({&left, 1}).mesh;
+}
+
 void count_inverted(mesh joined, solid_defects& found) {
     detail::repair::working_mesh parts{std::move(joined.points), std::move(joined.faces), {}};
     parts.source.resize(parts.faces.size());
@@ -31,10 +41,11 @@ void count_inverted(mesh joined, solid_defects& found) {
 }  // namespace
 
 bool solid_defects::any() const {
-    return degenerate + repeated + open_edges + nonmanifold_edges + misoriented_edges +
-                   nonmanifold_vertices + meeting_pairs + inverted >
+    return nonfinite_vertices + unusable_faces + degenerate + repeated + open_edges +
+                   nonmanifold_edges + misoriented_edges + nonmanifold_vertices + meeting_pairs +
+                   inverted >
                0 ||
-           wrongly_nested;
+           wrongly_nested || without_faces;
 }
 
 std::string solid_defects::message() const {
@@ -43,6 +54,10 @@ std::string solid_defects::message() const {
     const auto add_count = [&](std::uint64_t n, const char* one, const char* several) {
         if (n > 0) add(detail::base::counted(n, one, several));
     };
+    add_count(nonfinite_vertices, "vertex that is not finite", "vertices that are not finite");
+    add_count(unusable_faces, "face with a corner that is not finite or no vertex",
+              "faces with a corner that is not finite or no vertex");
+    if (without_faces) add("there are points, but no faces");
     if (tetrahedra > 0)
         add("faces are " + detail::base::counted(tetrahedra, "tetrahedron", "tetrahedra"));
     if (open_edges > 0) add("open at " + detail::base::counted(open_edges, "edge", "edges"));
@@ -58,9 +73,13 @@ std::string solid_defects::message() const {
 }
 
 solid_defects find_solid_defects(mesh_view given, const progress_callback& progress) {
-    // Points that no face uses may be anything.
-    mesh joined = join_meshes({&given, 1}).mesh;
     solid_defects found;
+    const mesh_defects elements = find_defects(given);
+    found.nonfinite_vertices = elements.nonfinite_points.size();
+    found.unusable_faces = elements.nonfinite_faces.size() + elements.out_of_range_faces.size();
+    found.degenerate = elements.degenerate_faces.size();
+    found.without_faces = !given.points.empty() && given.faces.size() == found.unusable_faces;
+    mesh joined = joined_usable(given, found.unusable_faces);
     const auto met =
         self_intersections(joined, {.vertices = vertex_identity::by_index, .progress = progress});
     if (met.cancelled) {
@@ -70,7 +89,6 @@ solid_defects find_solid_defects(mesh_view given, const progress_callback& progr
     found.meeting_pairs = met.pairs.size();
     found.tetrahedra = detail::repair::count_tetrahedra(joined);
     const topology_counts topology = count_topology(joined.points.size(), joined.faces);
-    found.degenerate = find_defects(joined).degenerate_faces.size();
     found.repeated = topology.duplicate_faces;
     found.open_edges = topology.boundary_edges;
     found.nonmanifold_edges = topology.nonmanifold_edges;

@@ -81,7 +81,7 @@ std::string tile_search::identity() const {
     state.text(std::filesystem::absolute(input_).string());
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(input_, error);
-    if (error) throw io_error(input_.string() + ": cannot be read: " + error.message());
+    if (error) throw io_error(input_.string(), error);
     state.number(size);
     state.number(static_cast<std::uint64_t>(
         std::filesystem::last_write_time(input_).time_since_epoch().count()));

@@ -31,7 +31,7 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
         state.text(fs::absolute(input).string());
         std::error_code error;
         const std::uint64_t size = fs::file_size(input, error);
-        if (error) throw io_error(input.string() + ": cannot be read: " + error.message());
+        if (error) throw io_error(input.string(), error);
         state.number(size);
         state.number(
             static_cast<std::uint64_t>(fs::last_write_time(input).time_since_epoch().count()));

@@ -115,7 +115,10 @@ static void test_resolve(void) {
 }
 
 static void test_repair(void) {
+    const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, NAN, 0, 0};
+    const uint32_t triangles[] = {0, 1, 2, 0, 1, 3};
     treeform_file* file = NULL;
+    treeform_mesh* broken = NULL;
     treeform_mesh* mesh = model("data/dirty.stl");
     treeform_repair_options options;
     treeform_repair_result* result = NULL;
@@ -128,7 +131,14 @@ static void test_repair(void) {
     treeform_free(defects);
     OK(treeform_find_solid_defects_of_file(file, TREEFORM_EACH_PART, NULL, NULL, &defects));
     CHECK(defects->any == 1);
+    CHECK(defects->nonfinite_vertices == 0 && defects->unusable_faces == 0);
     treeform_free(defects);
+    OK(treeform_mesh_create(corners, 4, triangles, 2, TREEFORM_COPY, &broken));
+    OK(treeform_find_solid_defects(broken, NULL, NULL, &defects));
+    CHECK(defects->any == 1 && defects->nonfinite_vertices == 1 && defects->unusable_faces == 1);
+    CHECK(defects->open_edges == 3 && defects->without_faces == 0);
+    treeform_free(defects);
+    treeform_free(broken);
     ENDS(TREEFORM_CANCELLED, "", treeform_find_solid_defects(mesh, stop, &calls, &defects));
     CHECK(defects == NULL);
     OK(treeform_repair(mesh, NULL, &result));

@@ -150,6 +150,16 @@ class Mend(ToolTest):
         write(self.path("clean.obj"), CLEAN)
         self.assertEqual(self.run_tool("clean.obj", "--check", status=0).text,
                          "clean.obj: solid, 12 faces, volume 1\n")
+
+    def test_what_is_not_finite_is_a_defect(self):
+        points, faces = CLEAN
+        part = write(self.path("part.stl"), (list(points) + [(float("nan"), 0.0, 0.0)],
+                                             list(faces) + [(0, 1, len(points))]))
+        defects = self.mended(part, "--check", status=1)["defects"]
+        self.assertEqual((defects["non_finite"], defects["non_finite_vertices"]), (1, 1))
+        self.assertEqual(defects["open_edges"], 0)
+        self.assertIn("1 vertex that is not finite, 1 face with a corner that is not finite",
+                      self.run_tool(part, "--check", status=1).text)
         self.assertEqual(self.listing(), ["clean.obj", "part.obj", "two.obj"])
 
     def test_a_step_can_be_left_out(self):

@@ -46,7 +46,8 @@ TAKES = {
     "winding_number": AT, "wrap": {"mesh": CUBE, "size": 0.5}}
 ELSEWHERE = {"BoxTree", "PointTree", "Attributes", "Mesh", "StreamSearch", "StreamWeld", "plot",
              "show", "thread_count", "threads", "difference", "intersection", "union", "split",
-             "symmetric_difference", "from_trimesh", "read_urdf", "write", "weld_stream"}
+             "symmetric_difference", "from_meshio", "from_open3d", "from_pyvista", "from_trimesh",
+             "from_vtk", "read_urdf", "write", "weld_stream"}
 
 BROKEN = CUBE.vertices.copy()
 BROKEN[3] = np.nan

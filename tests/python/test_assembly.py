@@ -125,3 +125,24 @@ def test_rings_in_each_other_do_not_clash():
     found = tf.clash([thin, other])
     assert found.pairs == [] and found.boxes_apart == 0 and found.counts["separate"] == 1
     assert not tf.intersects(SHEET, moved(SPHERES, 50, 0, 0))
+
+
+def test_parts_clash_where_their_poses_put_them():
+    poses = matrices([[0, 0, 0], [0.5, 0, 0], [0, 0, 9]])
+    found = tf.clash([CUBE, CUBE, CUBE], poses=poses)
+    there = tf.clash([moved(CUBE, *pose[:3, 3]) for pose in poses])
+    assert [(one.a, one.b, one.how, one.volume, one.depth) for one in found.pairs] == [
+        (0, 1, "penetrating", 0.5, 0.5)]
+    assert str(found) == str(there) and str(found.pairs) == str(there.pairs)
+    assert len(tf.check_poses([CUBE] * 3, poses[None]).pose) == 1
+    turned = np.eye(4)
+    turned[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+    assert tf.clash([CUBE, CUBE], poses=[np.eye(4), turned]).pairs[0].how == "touching"
+    mirror = np.diag([-1.0, 1, 1, 1])
+    mirror[0, 3] = 1.5
+    one, = tf.clash([CUBE, CUBE], poses=[np.eye(4), mirror]).pairs
+    assert one.how == "penetrating" and one.volume == 0.5
+    assert tf.clash([CUBE, [[0.5, 0.5, 5.0]]], poses=[np.eye(4), matrices([[0, 0, -4.5]])[0]]).clashes
+    for wrong in (np.eye(4), poses[:2], poses[:, :3], np.full((3, 4, 4), np.nan), "x"):
+        with pytest.raises(ValueError, match="poses"):
+            tf.clash([CUBE, CUBE, CUBE], poses=wrong)

@@ -147,3 +147,23 @@ def test_a_sphere_of_many_directions():
     assert rest.mesh.volume == pytest.approx(ball.volume / 2)
     assert tf.check_solid(rest)
     assert same_mesh(tf.union(ball).mesh, tf.union(ball).mesh)
+
+
+def test_a_list_may_stand_among_operands():
+    plate = box([0, 0, 0], [4, 1, 1])
+    cutters = [box([k, -1, -1], [k + 0.5, 2, 2]) for k in (1, 2, 3)]
+    pairs = [(one.vertices, one.faces) for one in cutters]
+    for many in (cutters, tuple(cutters), iter(cutters), pairs, [tf.union(c) for c in cutters]):
+        assert tf.difference(plate, many).mesh.volume == 2.5
+    assert tf.difference([plate], *cutters).mesh.volume == 2.5
+    assert tf.difference(plate, cutters[:1], cutters[1:]).mesh.volume == 2.5
+    assert tf.difference(plate, cutters).face_source[:, 0].max() == 3
+    assert tf.difference(plate, []).mesh.volume == 4
+    assert tf.union([plate], cutters, cutters[0]).mesh.volume == tf.union(plate, *cutters).mesh.volume
+    assert tf.intersection(plate, cutters[:1]).mesh.volume == 0.5
+    assert tf.symmetric_difference(plate, cutters[:1]).mesh.volume == 3.5 + 4
+    sheet = ([[-1, 0.5, 0.5], [9, 0.5, 0.5], [-1, 0.75, 0.5]], [[0, 1, 2]])
+    assert tf.clip(sheet, cutters).mesh.area == tf.clip(sheet, *cutters).mesh.area
+    for wrong in ([plate, 3], "plate", [[cutters]], {"a": plate}):
+        with pytest.raises(ValueError, match="mesh"):
+            tf.difference(plate, wrong)

@@ -1,12 +1,15 @@
 """Reading and writing: numbers of the file, attributes, what must not be rounded."""
 
+import errno
+import io
 import os
+import pickle
 
 import numpy as np
 import pytest
 
 import treeform as tf
-from support import CUBE, MODELS, model, needs_models, same_mesh, truth
+from support import CUBE, MODELS, box, model, needs_models, same_mesh, truth
 
 FORMATS = ["stl", "obj", "ply", "off", "3mf", "glb"]
 
@@ -104,6 +107,112 @@ def test_what_cannot_be_read_is_an_os_error_that_names_it(tmp_path):
     with pytest.raises(tf.FileError):
         tf.write(tmp_path / "m.nothing", CUBE)
     assert os.listdir(tmp_path) == ["bad.obj"]
+
+
+def test_what_the_system_refuses_is_what_python_raises(tmp_path):
+    (tmp_path / "no").write_text("")
+    gone, folder, below = tmp_path / "gone.ply", tmp_path, tmp_path / "no" / "m.ply"
+    for verb, path, kind in (
+            (tf.read, gone, FileNotFoundError), (tf.read, folder, IsADirectoryError),
+            (tf.read, below, NotADirectoryError),
+            (lambda p: tf.write(p, CUBE), tmp_path / "nowhere" / "m.ply", FileNotFoundError),
+            (lambda p: tf.write(p, CUBE, format="ply"), folder, IsADirectoryError),
+            (lambda p: tf.write(p, CUBE), below, NotADirectoryError),
+            (lambda p: tf.weld_stream(p, tmp_path / "o.ply", 1), gone, FileNotFoundError),
+            (tf.self_intersections_of_file, gone, FileNotFoundError),
+            (tf.read_urdf, tmp_path / "gone.urdf", FileNotFoundError)):
+        with pytest.raises(kind) as caught:
+            verb(path)
+        error = caught.value
+        assert isinstance(error, tf.FileError) and error.filename == str(path)
+        assert error.errno == kind_of(kind) and error.strerror == os.strerror(error.errno)
+        assert str(path) in str(error)
+        again = pickle.loads(pickle.dumps(error))
+        assert type(again) is type(error) and str(again) == str(error)
+        assert (again.errno, again.filename) == (error.errno, error.filename)
+    (tmp_path / "bad.off").write_text("OFF 1")
+    with pytest.raises(tf.FileError, match="bad.off") as caught:
+        tf.read(tmp_path / "bad.off")
+    assert caught.value.errno is None and not isinstance(caught.value, FileNotFoundError)
+    assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
+
+
+def kind_of(kind):
+    return {FileNotFoundError: errno.ENOENT, IsADirectoryError: errno.EISDIR,
+            NotADirectoryError: errno.ENOTDIR, PermissionError: errno.EACCES}[kind]
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may do anything")
+def test_what_may_not_be_opened_is_a_permission_error(tmp_path):
+    path = tmp_path / "m.ply"
+    tf.write(path, CUBE)
+    path.chmod(0)
+    with pytest.raises(PermissionError) as caught:
+        tf.read(path)
+    assert caught.value.errno == errno.EACCES
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_files_that_are_open_are_read_and_written(tmp_path, format):
+    memory = io.BytesIO()
+    written = tf.write(memory, CUBE, format=format)
+    tf.write(tmp_path / f"m.{format}", CUBE)
+    assert memory.getvalue() == (tmp_path / f"m.{format}").read_bytes()
+    assert written.format.startswith(format)
+    memory.seek(0)
+    assert tf.read(memory, format=format).volume == 1
+    with open(tmp_path / f"o.{format}", "wb") as file:
+        tf.write(file, CUBE)  # its name says the format
+    with open(tmp_path / f"o.{format}", "rb") as file:
+        assert tf.read(file).volume == 1
+
+
+def test_what_is_no_file_for_bytes_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="format: it has to be said"):
+        tf.write(io.BytesIO(), CUBE)
+    with pytest.raises(ValueError, match="open for text"):
+        tf.read(io.StringIO("OFF"), format="off")
+    for wrong in (3, None, object()):
+        with pytest.raises(ValueError, match="path: a path or a file is needed"):
+            tf.read(wrong)
+        with pytest.raises(ValueError, match="path: a path or a file is needed"):
+            tf.write(wrong, CUBE, format="stl")
+    with pytest.raises(tf.FileError):
+        tf.read(io.BytesIO(b"OFF 1"), format="off")
+    memory = io.BytesIO()
+    with pytest.raises(tf.FileError, match="round=True"):
+        tf.write(memory, tf.union(CUBE, (CUBE.vertices / 3 + 0.9, CUBE.faces)), format="stl")
+    assert memory.getvalue() == b""
+
+
+def test_several_meshes_are_parts(tmp_path):
+    lid = box([0, 0, 2], [1, 1, 3])
+    for format in ("3mf", "obj"):
+        path = tmp_path / f"m.{format}"
+        assert tf.write(path, [CUBE, lid, tf.union(lid)]).warnings == []
+        assert [part[0] for part in tf.read(path).attributes.parts] == ["1", "2", "3"]
+        tf.write(path, {"base": CUBE, "lid": lid})
+        again = tf.read(path)
+        assert [(p[0], p[3]) for p in again.attributes.parts] == [("base", 0), ("lid", 12)]
+        assert again.volume == 2 and len(again.faces) == 24
+    assert "does not hold them" in tf.write(tmp_path / "m.ply", (m for m in (CUBE, lid))).warnings[0]
+    assert len(tf.read(tmp_path / "m.ply").faces) == 24
+    with pytest.raises(ValueError, match="mesh: there is none in the list"):
+        tf.write(tmp_path / "m.3mf", [])
+    with pytest.raises(ValueError, match="mesh"):
+        tf.write(tmp_path / "m.3mf", [CUBE, 3])
+
+
+def test_what_is_certified_and_has_columns_is_not_rounded_either(tmp_path):
+    extra = tf.Attributes()
+    extra.set_face("label", np.arange(12))
+    made = tf.union(tf.Mesh(CUBE.vertices, CUBE.faces, extra), (CUBE.vertices / 3 + 0.9, CUBE.faces))
+    assert made.mesh.attributes is not None
+    for mesh in (made, [made, CUBE]):
+        with pytest.raises(tf.FileError, match="round=True"):
+            tf.write(tmp_path / "m.stl", mesh)
+        assert os.listdir(tmp_path) == []
+    assert tf.write(tmp_path / "m.stl", made, round=True).max_displacement > 0
 
 
 def test_a_cloud_has_no_faces(tmp_path):

@@ -217,6 +217,51 @@ tf.repair(soup, max_loss=1, check=False, progress=lambda share: None)
     assert done.returncode == -signal.SIGINT and "KeyboardInterrupt" in done.stderr, done.stderr
 
 
+@pytest.mark.parametrize("verb", ["tf.read(pipe, 'ply')", "tf.check_solid(tf.read(pipe, 'ply'))",
+                                  "boxes.pairs()"])
+@pytest.mark.parametrize("end", ["raise", "print('ended'); sys.exit(7)"])
+def test_a_process_ends_though_its_job_goes_on(tmp_path, verb, end):
+    """Nobody will ever write into the pipe, and the pairs would take minutes."""
+    pipe = str(tmp_path / "pipe.ply")
+    os.mkfifo(pipe)
+    program = f"""
+import atexit, os, signal, sys, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
+import numpy as np
+import treeform as tf
+pipe = {pipe!r}
+boxes = tf.BoxTree(np.zeros((200_000, 3)), np.ones((200_000, 3))) if "boxes" in {verb!r} else None
+threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    {verb}
+except KeyboardInterrupt:
+    {end}
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                          timeout=100)
+    if end == "raise":
+        assert done.returncode == -signal.SIGINT and "KeyboardInterrupt" in done.stderr, done.stderr
+    else:
+        assert (done.returncode, done.stdout, done.stderr) == (7, "ended\n", "")
+
+
+@pytest.mark.parametrize("name", ["m.obj", "m.ply", "m.3mf"])
+def test_ctrl_c_leaves_no_part_of_a_file(tmp_path, name):
+    program = f"""
+import os, signal, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
+import numpy as np
+import treeform as tf
+soup = tf.Mesh(np.random.default_rng(1).random((900_000, 3)), np.arange(900_000).reshape(-1, 3))
+threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+while True:
+    tf.write({str(tmp_path / name)!r}, soup)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                          timeout=300)
+    assert done.returncode == -signal.SIGINT and set(os.listdir(tmp_path)) <= {name}
+
+
 @pytest.mark.parametrize("verb", ["tf.self_intersections(soup)", "tf.union(ball)", "tree.query(x)",
                                   "tf.check_solid(small)"])
 def test_a_process_ends_while_daemon_threads_work(verb):

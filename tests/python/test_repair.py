@@ -134,3 +134,20 @@ def test_defects_and_topology():
                    np.vstack([CUBE.faces, CUBE.faces + 8]))
     assert tf.face_components(both).tolist() == [0] * 12 + [1] * 12
     assert tf.count_topology(both).components_by_edge == 2
+
+
+def test_what_is_not_finite_or_no_face_is_a_defect():
+    nan = np.array([[np.nan, 0, 0]])
+    inf = np.array([[0, np.inf, 0]])
+    unused = tf.find_solid_defects((np.vstack([CUBE.vertices, nan, inf]), CUBE.faces))
+    assert unused and unused.nonfinite_vertices == 2 and unused.unusable_faces == 0
+    assert "2 vertices that are not finite" in unused.message
+    used = tf.find_solid_defects((np.vstack([CUBE.vertices, nan]), np.vstack([CUBE.faces, [0, 1, 8]])))
+    assert used.unusable_faces == 1 and used.open_edges == used.degenerate == 0
+    beyond = tf.find_solid_defects((CUBE.vertices, np.vstack([CUBE.faces, [0, 1, 99]])))
+    assert beyond and beyond.unusable_faces == 1 and beyond.nonfinite_vertices == 0
+    for vertices in (CUBE.vertices, nan, np.full((8, 3), np.nan)):
+        cloud = tf.find_solid_defects((vertices, []))
+        assert cloud and cloud.without_faces
+    assert tf.find_solid_defects((np.full((8, 3), np.nan), CUBE.faces)).without_faces
+    assert not tf.find_solid_defects(([], []))

@@ -134,6 +134,9 @@ void give_defects(const tf::solid_defects& found, treeform_solid_defects** out) 
     treeform_solid_defects& d = made->value;
     d.any = found.any();
     d.message = made->keep(found.message()).c_str();
+    d.nonfinite_vertices = found.nonfinite_vertices;
+    d.unusable_faces = found.unusable_faces;
+    d.without_faces = found.without_faces;
     d.tetrahedra = found.tetrahedra;
     d.degenerate = found.degenerate;
     d.repeated = found.repeated;
@@ -363,9 +366,10 @@ treeform_code treeform_find_solid_defects_of_file(const treeform_file* file,
     return glue::guard([&] {
         glue::start(defects);
         const glue::usable_input input(glue::need(file, "file").content);
-        give_defects(tf::find_solid_defects(input.source(), scope_of(scope),
-                                            glue::progress(progress, progress_data)),
-                     defects);
+        tf::solid_defects found = tf::find_solid_defects(input.source(), scope_of(scope),
+                                                         glue::progress(progress, progress_data));
+        found.unusable_faces += input.dropped();
+        give_defects(found, defects);
     });
 }
 

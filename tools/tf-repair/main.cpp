@@ -172,12 +172,13 @@ tools::dirty_mesh read_mesh(tools::job& work) {
 
 exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
     const auto timing = work.time("check");
-    const tf::solid_defects found =
+    tf::solid_defects found =
         tf::find_solid_defects(input.source(), tf::repair_scope::each_part, work.progress("check"));
+    found.unusable_faces += input.left_out;
     work.call_ended(found.cancelled);
     tools::say_defects(work, input, found);
     tools::write_page(work, input, found.message(), !found.any());
-    return found.any() || input.left_out > 0 ? tools::found : tools::done;
+    return found.any() ? tools::found : tools::done;
 }
 
 /// Where the output has no objects, overlapping ones become one solid.

@@ -172,18 +172,14 @@ def open3d_beside():
     v, f = sphere(6)
     rng = np.random.default_rng(4)
     points = rng.random((50_000, 3)) * 3 - 1.5
-    directions = rng.standard_normal((50_000, 3))
     mesh = tf.Mesh(v, f)
     scene = o3d.t.geometry.RaycastingScene()
     scene.add_triangles(core.Tensor(v.astype(np.float32)), core.Tensor(f))
     as_float = core.Tensor(points.astype(np.float32))
-    rays = core.Tensor(np.hstack([points, directions]).astype(np.float32))
-    tf.closest_point(mesh, points[:1]), tf.raycast(mesh, points[:1], directions[:1])
+    tf.closest_point(mesh, points[:1])
     row(f"closest points on {len(f):,} faces, of 50,000", {
         "treeform": lambda: tf.closest_point(mesh, points),
         "Open3D, float32": lambda: scene.compute_closest_points(as_float)})
-    row("50,000 rays", {"treeform": lambda: tf.raycast(mesh, points, directions),
-                         "Open3D, float32": lambda: scene.cast_rays(rays)})
 
     search = o3d.core.nns.NearestNeighborSearch(core.Tensor(v))
     search.knn_index()

@@ -13,6 +13,8 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <utility>
 
 namespace {
 
@@ -330,6 +332,46 @@ std::string content(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+TEST_CASE("write: stopped while it writes, nothing appears") {
+    const auto folder = written_folder();
+    tf::mesh_file file = tetrahedron(1);
+    file.mesh.points.resize(200000, {0.1, 0.2, 0.3});
+    for (const char* name : {"m.ply", "m.obj", "m.3mf"}) {
+        CAPTURE(name);
+        const std::size_t before = files_in(folder);
+        int calls = 0;
+        const auto done =
+            tf::write(folder / name, file, {.progress = [&](double) { return ++calls < 3; }});
+        CHECK(done.cancelled);
+        CHECK(calls == 3);
+        CHECK(files_in(folder) == before);
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("read and write: what the system refuses is told with its reason") {
+    const auto folder = written_folder();
+    const auto reason_of = [](const auto& verb) {
+        try {
+            verb();
+        } catch (const tf::io_error& error) {
+            return std::pair{error.reason(), std::string(error.path())};
+        }
+        return std::pair{std::error_code(), std::string()};
+    };
+    const auto gone = folder / "gone" / "m.ply";
+    for (const auto& [reason, path] : {reason_of([&] { (void)tf::read(gone); }),
+                                       reason_of([&] { tf::write(gone, tetrahedron(1)); })}) {
+        CHECK(reason == std::errc::no_such_file_or_directory);
+        CHECK(path == gone.string());
+    }
+    CHECK(reason_of([&] { (void)tf::read(folder); }).first == std::errc::is_a_directory);
+    const auto [reason, path] = reason_of([] { (void)read_again("OFF 1", "m.off"); });
+    CHECK(!reason);
+    CHECK(path.empty());
+    std::filesystem::remove_all(folder);
+}
 
 TEST_CASE("curves: written as lines of an OBJ or as edges of a PLY") {
     // Two triangles that cross in a segment, and a third that touches the first in a point.

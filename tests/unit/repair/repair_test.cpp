@@ -326,7 +326,7 @@ TEST_CASE("repair: defects are found as they are") {
     CHECK(tf::find_solid_defects(test::box(1, 1, 1)).message() == "none");
     tf::mesh unused = test::box(1, 1, 1);
     unused.points.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
-    CHECK(!tf::find_solid_defects(unused).any());
+    CHECK(tf::find_solid_defects(unused).message() == "1 vertex that is not finite");
     tf::mesh open = test::box(1, 1, 1);
     open.faces.pop_back();
     turn(open.faces[0]);
@@ -355,6 +355,27 @@ TEST_CASE("repair: defects are found as they are") {
     CHECK(found.degenerate == 1);
     CHECK(found.nonmanifold_edges == 3);
     CHECK(tf::find_solid_defects(ball, [](double) { return false; }).cancelled);
+}
+
+TEST_CASE("repair: what cannot be used is a defect, and no error") {
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    tf::mesh broken = test::box(1, 1, 1);
+    broken.points.push_back({0, std::numeric_limits<double>::infinity(), 0});
+    broken.points.push_back({nothing, 0, 0});
+    broken.faces.insert(broken.faces.begin() + 3, {0, 1, 8});
+    broken.faces.push_back({0, 1, 10});
+    tf::solid_defects found = tf::find_solid_defects(broken);
+    CHECK(found.nonfinite_vertices == 2);
+    CHECK(found.unusable_faces == 2);
+    CHECK(found.any());
+    CHECK(found.open_edges + found.degenerate + found.meeting_pairs == 0);
+    CHECK(found.message() ==
+          "2 vertices that are not finite, 2 faces with a corner that is not finite or no vertex");
+    CHECK(!tf::find_solid_defects(tf::mesh{}).any());
+    found = tf::find_solid_defects(tf::mesh{{{0, 0, 0}}, {}});
+    CHECK(found.without_faces);
+    CHECK(found.message() == "there are points, but no faces");
+    CHECK(tf::find_solid_defects(tf::mesh{{{0, 0, nothing}}, {{0, 0, 0}}}).without_faces);
 }
 
 TEST_CASE("repair: bad arguments") {

@@ -13,10 +13,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -88,11 +91,11 @@ std::vector<tf::named_column> columns_of(const name_pairs& pairs) {
     return columns;
 }
 
-py::tuple read(const std::filesystem::path& path, const std::string& format, bool join,
-               const name_pairs& columns, bool drop_nan) {
+/// What `take` has read.
+template <class Take>
+py::tuple read_by(bool join, const Take& take) {
     tf::mesh_file file = run([&](const tf::progress_callback&) {
-        tf::mesh_file read =
-            tf::read(path, format, {.columns = columns_of(columns), .drop_nan = drop_nan});
+        tf::mesh_file read = take();
         if (join && !read.indexed) {
             for (tf::element& e : read.attributes.elements)
                 if (e.name == "vertex")
@@ -108,27 +111,61 @@ py::tuple read(const std::filesystem::path& path, const std::string& format, boo
     return py::make_tuple(points, faces, file_data{std::move(file)});
 }
 
-/// A mesh with its certificate, as `tf::write` takes what must not be rounded.
-struct certified_mesh {
-    tf::mesh mesh;
-    tf::certificate certificate{};
-    [[nodiscard]] const tf::mesh& value() const { return mesh; }
-};
+py::tuple read(const std::filesystem::path& path, const std::string& format, bool join,
+               const name_pairs& columns, bool drop_nan) {
+    return read_by(join, [&] {
+        return tf::read(path, format, {.columns = columns_of(columns), .drop_nan = drop_nan});
+    });
+}
+
+/// `name` stands for the file in errors, and its extension counts.
+py::tuple read_bytes(const py::bytes& bytes, const std::string& name, const std::string& format,
+                     bool join, const name_pairs& columns, bool drop_nan) {
+    const auto content = static_cast<std::string_view>(bytes);
+    return read_by(join, [&] {
+        return tf::read(std::as_bytes(std::span(content)), name, format,
+                        {.columns = columns_of(columns), .drop_nan = drop_nan});
+    });
+}
+
+/// Meshes as the parts of one file: its points, faces and all else.
+py::tuple scene(const held_meshes& meshes, const std::vector<const file_data*>& data,
+                const std::vector<std::string>& names) {
+    std::vector<tf::mesh_file> files;
+    std::vector<std::optional<file_data>> kept;
+    for (const file_data* one : data)
+        kept.push_back(one == nullptr ? std::nullopt : std::optional(*one));
+    tf::mesh_file made = run([&](const tf::progress_callback&) {
+        std::vector<tf::scene_member> members;
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            const auto [points, faces] = meshes[i]->view();
+            tf::mesh_file one = kept[i] ? kept[i]->file() : tf::mesh_file{};
+            one.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
+            if (one.stored_face.empty()) one.stored_faces = faces.size();
+            files.push_back(std::move(one));
+        }
+        for (std::size_t i = 0; i < files.size(); ++i)
+            members.push_back({.file = &files[i], .name = names[i], .label = names[i]});
+        return tf::scene_of(members);
+    });
+    py::array points = as_array(std::move(made.mesh.points));
+    py::array faces = as_array(std::move(made.mesh.faces));
+    made.mesh = {};
+    return py::make_tuple(points, faces, file_data{std::move(made)});
+}
 
 tf::write_result write_to(const std::filesystem::path& path, const held_mesh& mesh,
                           const file_data* data, bool certified, const tf::write_options& options) {
     const auto [points, faces] = mesh.view();
     tf::mesh copy{{points.begin(), points.end()}, {faces.begin(), faces.end()}};
     certified = certified && !options.round && !tf::fits_single(points);
-    if (data == nullptr && certified)
-        return tf::write(path, certified_mesh{std::move(copy)}, options);
-    if (data == nullptr) return tf::write(path, std::move(copy), options);
-    tf::mesh_file file = data->file();
+    tf::mesh_file file = data == nullptr ? tf::mesh_file{} : data->file();
     file.mesh = std::move(copy);
     if (file.stored_face.empty()) file.stored_faces = file.mesh.faces.size();
     tf::write_options as = options;
-    if (certified && !as.precision) as.precision = tf::precision::float64;
-    return tf::write(path, file, as);
+    if (!certified) return tf::write(path, file, as);
+    if (data != nullptr && !as.precision) as.precision = tf::precision::float64;
+    return tf::detail::io::write_certified(path, file, as);
 }
 
 py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
@@ -265,6 +302,8 @@ void add_files(py::module_& module) {
         .def("columns", &columns)
         .def("set_column", &set_column);
     module.def("read", &read);
+    module.def("read_bytes", &read_bytes);
+    module.def("scene", &scene);
     module.def("write", &write);
 }
 

@@ -10,6 +10,8 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -29,6 +31,8 @@ constexpr std::size_t little = 4096;
 
 /// Threads that are out of the interpreter and want to come back, or soon will be.
 std::atomic<int> outside{0};
+/// Jobs that write.
+std::atomic<int> writing{0};
 /// The thread that ends the process, from then on.
 std::atomic<std::thread::id> ender{};
 
@@ -88,6 +92,7 @@ struct job {
     bool committed = false;  ///< it can no longer be called back
     std::condition_variable ended_now;
     bool ended = false;
+    bool writes = false;
 
     /// Where nobody has taken the result: with the interpreter's lock, or not at all.
     ~job() {
@@ -156,6 +161,7 @@ std::atomic<helpers*> all_helpers = [] {
     pthread_atfork(nullptr, nullptr, [] {
         all_helpers = new helpers;
         outside = 0;
+        writing = 0;
     });
     return new helpers;
 }();
@@ -169,6 +175,7 @@ class helper {
 
     void start(const std::shared_ptr<job>& next) {
         ++outside;
+        if (next->writes) ++writing;
         all_helpers.load()->begins(next);
         {
             const std::lock_guard lock(mutex_);
@@ -211,6 +218,7 @@ class helper {
         } catch (...) {
             mine.failure = std::current_exception();
         }
+        if (mine.writes) --writing;
         mine.function = mine.arguments = py::object();
         if (!mine.stop) return;
         mine.result = py::object();
@@ -294,20 +302,21 @@ std::size_t elements_of(py::handle argument) {
 }
 
 py::object run_job(const py::object& function, const py::args& arguments,
-                   const py::object& progress, bool long_work) {
+                   const py::object& progress, job_kind kind) {
     if (ender.load() == std::this_thread::get_id()) return function(*arguments);
-    if (progress.is_none() && !long_work && elements_of(arguments) < little)
-        return function(*arguments);
+    const bool may_be_little = progress.is_none() && kind == job_kind::by_elements;
+    if (may_be_little && elements_of(arguments) < little) return function(*arguments);
     const auto mine = std::make_shared<job>();
     mine->function = function;
     mine->arguments = arguments;
+    mine->writes = kind == job_kind::writes;
     return watch(mine, progress).result();
 }
 
 py::object call(const py::object& function, const py::args& arguments, const py::object& progress,
-                bool long_work) {
+                job_kind kind) {
     try {
-        return run_job(function, arguments, progress, long_work);
+        return run_job(function, arguments, progress, kind);
     } catch (const py::error_already_set& error) {
         if (error.matches(PyExc_TypeError))
             py::module_::import("treeform._errors").attr("name_argument")(error.value());
@@ -317,14 +326,14 @@ py::object call(const py::object& function, const py::args& arguments, const py:
 
 }  // namespace
 
-void make_job(const py::object& scope, const char* name, bool long_work) {
+void make_job(const py::object& scope, const char* name, job_kind kind) {
     const py::object function = scope.attr(name);
     const auto job_of = [=](const py::args& arguments, const py::kwargs& named) {
         py::object progress =
             named.contains("progress") ? py::object(named["progress"]) : py::none();
         if (py::hasattr(progress, "update"))
             progress = py::module_::import("treeform._progress").attr("of_bar")(progress);
-        return call(function, arguments, progress, long_work);
+        return call(function, arguments, progress, kind);
     };
     const auto doc = function.attr("__doc__").cast<std::string>();  // has the arguments
     if (py::isinstance<py::module_>(scope))
@@ -371,10 +380,25 @@ void run_pieces(std::size_t count, const std::function<void(std::size_t, std::si
 
 py::object build(const py::object& type, const py::args& arguments) { return type(*arguments); }
 
-bool end() {
+int end() {
     ender = std::this_thread::get_id();
     all_helpers.load()->stop_all();
-    return outside == 0;
+    return static_cast<int>(writing > 0   ? still::writes
+                            : outside > 0 ? still::works
+                                          : still::nothing);
+}
+
+void leave_jobs_at_the_end() {
+#ifdef __GLIBC__
+    // What is registered before, and what libraries have that are older than this, is left out then.
+    (void)::on_exit(
+        [](int status, void*) {
+            if (outside == 0) return;
+            (void)std::fflush(nullptr);
+            ::_exit(status);
+        },
+        nullptr);
+#endif
 }
 
 }  // namespace binding

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <type_traits>
@@ -18,15 +19,19 @@ namespace binding {
 
 namespace py = pybind11;
 
+/// Few elements: done at once. `writes`: long work, too, that leaves a file of its own behind where it
+/// is not ended in its turn.
+enum class job_kind : std::uint8_t { by_elements, long_work, writes };
+
 /// Makes the function or method `name` of `scope` a job. It then also takes `progress`: None, or a
 /// function that is called with the share of the work that is done.
 ///
-/// A job runs on a helper thread, unless its arguments are few elements and it is not `long_work`:
+/// A job runs on a helper thread, unless its arguments are few elements and it is `by_elements`:
 /// handing it over would take longer. It is asked to stop when `progress` returns False or raises, or
 /// when a signal's handler raises, as that of Ctrl-C does; a result that is there is returned all the
 /// same where `progress` returns False. The caller then gets what was raised: at
 /// once, even where the job takes some time to notice.
-void make_job(const py::object& scope, const char* name, bool long_work = false);
+void make_job(const py::object& scope, const char* name, job_kind kind = job_kind::by_elements);
 
 /// The job that runs on this thread: `progress_callback` for it; empty where there is none.
 treeform::progress_callback report_of_job();
@@ -61,9 +66,13 @@ void run_pieces(std::size_t count, const std::function<void(std::size_t, std::si
 /// For jobs: makes objects that take long to make, as `build(type, arguments...)`.
 py::object build(const py::object& type, const py::args& arguments);
 
-/// Ends all jobs, for this thread to end the process. Again until it is true: then no other thread will
-/// want the interpreter's lock.
-bool end();
+/// Ends all jobs, for this thread to end the process. From then on no other thread gets the
+/// interpreter's lock. Again until no job writes, and for a while as long as there are others.
+enum class still : int { nothing, works, writes };
+int end();
+
+/// Where jobs still work when the process ends, it ends without what they may use being freed.
+void leave_jobs_at_the_end();
 
 /// `progress` has returned False.
 class cancelled {};

@@ -17,10 +17,17 @@
 namespace binding {
 namespace {
 
+py::object of_errors(const char* name) {
+    return py::module_::import("treeform._errors").attr(name);
+}
+
 /// Raises the exception of that name of the package.
-void raise(const char* name, const char* text) {
-    const py::object type = py::module_::import("treeform._errors").attr(name);
-    PyErr_SetString(type.ptr(), text);
+void raise(const char* name, const char* text) { PyErr_SetString(of_errors(name).ptr(), text); }
+
+/// Raises FileError, or what says more, where the system has given a reason.
+void raise_file_error(const std::string& text, std::error_code reason, const std::string& path) {
+    const py::object error = of_errors("file_error")(text, reason.value(), path);
+    PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
 }
 
 /// A message without what only callers of C++ know: the function's name in front, options.
@@ -44,11 +51,11 @@ void translate(std::exception_ptr thrown) {
     } catch (const std::out_of_range& error) {
         PyErr_SetString(PyExc_IndexError, in_python(error.what()).c_str());
     } catch (const tf::io_error& error) {
-        raise("FileError", in_python(error.what()).c_str());
+        raise_file_error(in_python(error.what()), error.reason(), std::string(error.path()));
     } catch (const tf::stream_error& error) {
-        raise("FileError", error.what());
+        raise_file_error(error.what(), {}, error.path().string());
     } catch (const std::filesystem::filesystem_error& error) {
-        raise("FileError", error.what());
+        raise_file_error(error.what(), error.code(), error.path1().string());
     } catch (const std::system_error& error) {
         if (error.code() != std::errc::resource_unavailable_try_again) throw;
         PyErr_SetString(PyExc_MemoryError, "no memory for a thread");
@@ -85,6 +92,7 @@ void add_meshes(py::module_& module) {
     module.def("thread_count", &tf::thread_count);
     module.def("version", &tf::version_string);
     module.def("end", &end);
+    leave_jobs_at_the_end();
 }
 
 constexpr const char* jobs[] = {"self_intersections",
@@ -136,19 +144,20 @@ constexpr const char* jobs[] = {"self_intersections",
                                 "intersects",
                                 "distance",
                                 "closest_points",
+                                "scene",
                                 "build"};
 
 /// All functions of the module but those that only look something up, and what trees are asked.
 void make_jobs(py::module_& module) {
     module.def("build", &build);
-    for (const char* name :
-         {"read", "write", "read_urdf", "self_intersections_of_file", "search_of", "weld_of",
-          "weld_stream", "wrap", "pack", "page", "picture"})
-        make_job(module, name, true);
+    for (const char* name : {"read", "read_bytes", "read_urdf", "self_intersections_of_file",
+                             "search_of", "weld_of", "wrap", "pack", "page", "picture"})
+        make_job(module, name, job_kind::long_work);
+    for (const char* name : {"write", "weld_stream"}) make_job(module, name, job_kind::writes);
     for (const char* name : {"scatter", "search_tile", "finish"})
-        make_job(module.attr("SearchInSteps"), name, true);
+        make_job(module.attr("SearchInSteps"), name, job_kind::writes);
     for (const char* name : {"scatter", "weld_tile", "finish"})
-        make_job(module.attr("WeldInSteps"), name, true);
+        make_job(module.attr("WeldInSteps"), name, job_kind::writes);
     for (const char* name : jobs) make_job(module, name);
     for (const char* type : {"Cloud2", "Cloud3"})
         for (const char* name : {"query", "query_ball", "query_pairs"})

@@ -106,6 +106,9 @@ py::dict find_solid_defects(const held_mesh& mesh) {
         return tf::find_solid_defects(mesh.view(), report);
     });
     py::dict made;
+    made["nonfinite_vertices"] = found.nonfinite_vertices;
+    made["unusable_faces"] = found.unusable_faces;
+    made["without_faces"] = found.without_faces;
     made["tetrahedra"] = found.tetrahedra;
     made["degenerate"] = found.degenerate;
     made["repeated"] = found.repeated;

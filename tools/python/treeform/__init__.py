@@ -14,16 +14,18 @@ from . import _core, _exit
 from ._arrays import NONE
 from ._assembly import (STANDINGS, ClashResult, NearestPoints, PartClash, PoseClashes, check_poses,
                         clash, closest_points, distance, intersects)
+from ._attributes import Attributes
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
                         symmetric_difference, union)
 from ._core import Certificate
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
                       NotSolidError)
 from ._files import Written, read, write
+from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, from_vtk
 from ._intersections import (KINDS, FacePairs, FilePairs, Region, StreamSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
                              self_intersections, self_intersections_of_file)
-from ._mesh import Attributes, Mesh, MeshLike, from_trimesh
+from ._mesh import Mesh, MeshLike
 from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_point, contains,
                         deviation, locate, raycast, raycast_all, raycast_any, signed_distance,
                         winding_number)
@@ -45,4 +47,24 @@ from ._weld import (StreamWeld, WeldResult, WeldStreamResult, count_nearly_equal
 
 __version__: str = _core.version()
 
-__all__ = [name for name in dir() if not name.startswith("_")]
+__all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
+           "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
+           "ConvexHull", "Depth", "Deviation", "Error", "FacePairs", "Feature", "FileError",
+           "FilePairs", "Impact", "Joint", "KINDS", "LaidFlat", "MadeMesh", "Measure", "Mesh",
+           "MeshDefects", "MeshLike", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError",
+           "NotSolidError", "PackedPart", "Packing", "PartClash", "Picture", "Placement",
+           "PointTree", "PoseClashes", "RayHits", "Region", "RepairResult", "ResolveResult",
+           "Robot", "STANDINGS", "SolidDefects", "StreamSearch", "StreamWeld", "Topology", "View",
+           "WeldResult", "WeldStreamResult", "WrapResult", "Written", "align", "boolean",
+           "check_poses", "check_solid", "clash", "clip", "closest_point", "closest_points",
+           "contains", "convex_hull", "count_inside_out", "count_nearly_equal", "count_topology",
+           "deviation", "difference", "distance", "drop", "face_components", "faces_in_box",
+           "find_defects", "find_features", "find_rounding_defects", "find_solid_defects",
+           "from_meshio", "from_open3d", "from_pyvista", "from_trimesh", "from_vtk", "intersection",
+           "intersection_curves", "intersection_regions", "intersects", "join_equal_points",
+           "lay_flat", "locate", "mate", "mate_features", "measure", "mesh_intersections", "pack",
+           "penetration_depth", "plot", "raycast", "raycast_all", "raycast_any", "read",
+           "read_urdf", "repair", "resolve_self_intersections", "rounded", "self_intersections",
+           "self_intersections_of_file", "separate", "show", "signed_distance", "slide", "split",
+           "symmetric_difference", "thread_count", "threads", "time_of_impact", "turn", "union",
+           "weld", "weld_stream", "winding_number", "wrap", "write", "__version__"]

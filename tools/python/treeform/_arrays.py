@@ -7,6 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = ["Floats", "Ids", "NONE", "faces", "floats", "ids", "is_pair", "matrix", "number",
+           "points", "rows", "several", "triangles_of", "vector", "word"]
+
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint32]
 
@@ -94,7 +97,7 @@ def ids(values: ArrayLike, name: str) -> Ids:
 
 
 def faces(values: ArrayLike, name: str = "faces") -> Ids:
-    """`values` as faces: (n, 3), or the flat [3, a, b, c, 3, ...] of PyVista and VTK."""
+    """`values` as faces: (n, 3), or the flat [3, a, b, c, 4, ...] of PyVista and VTK."""
     array = ids(values, name)
     if array.ndim == 2 and array.shape[1] == 3:
         return array
@@ -105,14 +108,34 @@ def faces(values: ArrayLike, name: str = "faces") -> Ids:
     raise ValueError(f"{name}: the shape is {array.shape}, not (n, 3)")
 
 
+def triangles_of(corners: Ids, begin: NDArray[Any], sizes: NDArray[Any], name: str) -> Ids:
+    """Triangles of faces that have `sizes[f]` corners from `corners[begin[f]]` on: a quad is cut in
+    two, along the diagonal from its first corner."""
+    wrong = np.flatnonzero((sizes < 3) | (sizes > 4))
+    if wrong.size:
+        raise ValueError(f"{name}: face {wrong[0]} has {sizes[wrong[0]]} corners; only triangles and "
+                         "quads are taken: triangulate first")
+    face = np.repeat(np.arange(len(sizes)), sizes - 2)
+    first = np.asarray(begin)[face]
+    step = np.zeros(len(face), np.int64)
+    step[1:] = face[1:] == face[:-1]
+    return np.stack([corners[first], corners[first + 1 + step], corners[first + 2 + step]], axis=1)
+
+
 def _flat_faces(array: Ids, name: str) -> Ids:
-    other = np.flatnonzero(array[::4] != 3)
-    if array.size % 4 == 0 and other.size == 0:
-        return np.ascontiguousarray(array.reshape(-1, 4)[:, 1:])
-    if other.size != 0 and 4 * other[0] + array[4 * other[0]] <= array.size:
-        raise ValueError(f"{name}: face {other[0]} has {array[4 * other[0]]} corners; "
-                         "triangulate first")
-    raise ValueError(f"{name}: {array.size} numbers in a row are no [3, a, b, c, 3, ...]")
+    for size in (3, 4):  # all alike
+        if array.size % (size + 1) == 0 and (array[::size + 1] == size).all():
+            begin = np.arange(0, array.size, size + 1) + 1
+            return triangles_of(array, begin, np.full(len(begin), size), name)
+    begins, at = [], 0
+    sizes = array.tolist()
+    while at < len(sizes):
+        begins.append(at + 1)
+        at += 1 + sizes[at]
+    if at != len(sizes):
+        raise ValueError(f"{name}: {array.size} numbers in a row are no [3, a, b, c, 3, ...]")
+    begin = np.array(begins)
+    return triangles_of(array, begin, array[begin - 1].astype(np.int64), name)
 
 
 def _dimensions(values: Any) -> int:

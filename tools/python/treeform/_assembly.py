@@ -15,6 +15,9 @@ from ._mesh import MeshLike, held, held_body
 from ._progress import Progress
 from ._results import Result, tuple_repr
 
+__all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "STANDINGS", "check_poses",
+           "clash", "closest_points", "distance", "intersects"]
+
 #: How two parts lie to each other; a number in `PoseClashes.how` is a place in this list.
 STANDINGS = tuple(_core.STANDINGS)
 
@@ -81,12 +84,17 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
 
 
 class NearestPoints(NamedTuple):
-    """The nearest points of two meshes."""
+    """The nearest points of two meshes.
 
-    #: (3,) rounded, as is `on_b`.
+    on_a: (3,) the point on the surface of `a`, rounded.
+    on_b: (3,) that on the surface of `b`.
+    distance: Exactly 0 if and only if the meshes meet.
+    face_a: The face of `a` that it is on.
+    face_b: That of `b`.
+    """
+
     on_a: Floats
     on_b: Floats
-    #: Exactly 0 if and only if the meshes meet.
     distance: float
     face_a: int
     face_b: int
@@ -112,42 +120,49 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
 
 @dataclass(frozen=True, repr=False)
 class PartClash(Result):
-    """Two parts that are not clear of each other."""
+    """Two parts that are not clear of each other.
 
-    #: Numbers of the parts, the lower one first.
+    a: Number of the first part, the lower one.
+    b: Number of the second part.
+    how: 'penetrating', 'touching' or 'closer_than_clearance'.
+    a_inside_b: A part of `a` is inside `b`, and does not touch it.
+    b_inside_a: The same with `a` and `b` swapped.
+    distance: Of the surfaces; 0 where they meet.
+    nearest: (2, 3) the nearest points of those that are too close; else None.
+    face_pairs: Pairs of faces that meet.
+    volume: Of what two closed parts have in common; else None.
+    depth: Of penetrating parts: the length of `move`; else None.
+    move: (3,) a short translation that takes `a` out of `b`.
+    regions: Where they meet: (box (2, 3), pairs of faces, faces of a, faces of b).
+    """
+
     a: int
     b: int
-    #: 'penetrating', 'touching' or 'closer_than_clearance'.
     how: str
     a_inside_b: bool
     b_inside_a: bool
-    #: Of the surfaces; 0 where they meet.
     distance: float
-    #: (2, 3) the nearest points of those that are too close; else None.
     nearest: Floats | None
-    #: Pairs of faces that meet.
     face_pairs: int
-    #: Of what two closed parts have in common; else None.
     volume: float | None
-    #: Of penetrating parts: the length of `move`; else None.
     depth: float | None
-    #: (3,) a short translation that takes `a` out of `b`.
     move: Floats
-    #: Where they meet: (box (2, 3), pairs of faces, faces of a, faces of b).
     regions: list[tuple[Floats, int, Ids, Ids]]
 
 
 @dataclass(frozen=True, repr=False)
 class ClashResult(Result):
-    """How all parts lie to each other."""
+    """How all parts lie to each other.
 
-    #: Those that are not clear, ascending.
+    pairs: Those that are not clear, ascending.
+    counts: Pairs that were looked at, by how they lie.
+    clashes: Pairs that penetrate or are too close; with a clearance those that touch, too.
+    boxes_apart: Pairs that their boxes keep apart.
+    """
+
     pairs: list[PartClash]
-    #: Pairs that were looked at, by how they lie.
     counts: dict[str, int]
-    #: Pairs that penetrate or are too close; with a clearance those that touch, too.
     clashes: int
-    #: Pairs that their boxes keep apart.
     boxes_apart: int
 
 
@@ -158,15 +173,29 @@ def _pairs(pairs: Iterable[Sequence[int]]) -> Ids:
     return array.reshape(-1, 2)
 
 
+def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
+    """A body moved, rounded once; where the map is a reflection, its faces are turned over."""
+    x, y, z = body.vertices.T[:, :, None]
+    points = np.ascontiguousarray(x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3])
+    if body.is_cloud:
+        return _core.HeldMesh(points)
+    faces = body.faces
+    if np.linalg.det(pose[:3, :3]) < 0:
+        faces = np.ascontiguousarray(faces[:, [0, 2, 1]])
+    return _core.HeldMesh(points, faces, True)
+
+
 def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *,
-          volumes: bool = True, depths: bool = True, limit: int = 1000,
+          poses: ArrayLike | None = None, volumes: bool = True, depths: bool = True, limit: int = 1000,
           ignored: Iterable[Sequence[int]] = (), vertices: str = "by_coordinates",
           progress: Progress = None) -> ClashResult:
     """Which parts of an assembly penetrate each other, touch, or are nearer than `clearance`; where,
     and how deep. Exact: boxes only say which pairs need not be looked at.
 
-    volumes: of what two closed parts have in common. depths: of those that penetrate. limit: faces
-    listed for each region. ignored: pairs of numbers that are not looked at.
+    poses: (N, 4, 4) an affine map for each of the N parts: where it is. Corners are rounded to
+    float64 after it, and then exact; what is returned is where the parts are. `check_poses` is for
+    many poses of all. volumes: of what two closed parts have in common. depths: of those that
+    penetrate. limit: faces listed for each region. ignored: pairs of numbers that are not looked at.
 
     Raises ValueError naming the part and face.
 
@@ -176,8 +205,18 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
     ...                         (cube.vertices + [0, 0, 9], cube.faces)])
     >>> [(one.a, one.b, one.how, one.volume) for one in found.pairs]
     [(0, 1, 'penetrating', 0.125)]
+    >>> import numpy as np
+    >>> poses = np.stack([np.eye(4), np.eye(4)])
+    >>> poses[1, :3, 3] = 0.5, 0, 0
+    >>> treeform.clash([cube, cube], poses=poses).pairs[0].volume
+    0.5
     """
     bodies = [held_body(part) for part in _arrays.several(parts, "parts")]
+    if poses is not None:
+        maps = _poses(poses, "poses")
+        if np.ndim(poses) != 3 or len(maps) != len(bodies):
+            raise ValueError(f"poses: the shape is {np.shape(poses)}, not ({len(bodies)}, 4, 4)")
+        bodies = [_at(body, pose) for body, pose in zip(bodies, maps)]
     made = _core.clash(bodies, clearance, volumes, depths, limit, _pairs(ignored), vertices,
                        progress=progress)
     made["pairs"] = [PartClash(**one) for one in made["pairs"]]
@@ -186,17 +225,19 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
 
 @dataclass(frozen=True, repr=False)
 class PoseClashes(Result):
-    """What is not clear in each of many poses: n pairs of parts, pose after pose."""
+    """What is not clear in each of many poses: n pairs of parts, pose after pose.
 
-    #: (n,) the pose, ascending.
+    pose: (n,) the pose, ascending.
+    parts: (n, 2) the parts, the lower number first.
+    how: (n,) uint8: how they lie, a place in `STANDINGS`.
+    distance: (n,) of those that are closer than the clearance; else 0.
+    clashing: Poses with a pair that penetrates or is too close.
+    """
+
     pose: Ids
-    #: (n, 2) the parts, the lower number first.
     parts: Ids
-    #: (n,) uint8: how they lie, a place in `STANDINGS`.
     how: NDArray[np.uint8]
-    #: (n,) of those that are closer than the clearance; else 0.
     distance: Floats
-    #: Poses with a pair that penetrates or is too close.
     clashing: int
 
     def in_collision(self, poses: int) -> NDArray[np.bool_]:

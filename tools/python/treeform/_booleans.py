@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable
+from typing import Any, Iterable, Union
 
 import numpy as np
 
@@ -11,26 +11,32 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
 from ._errors import require
-from ._mesh import Mesh, MeshLike, MeshResult, held
+from ._mesh import Mesh, MeshLike, MeshResult, held, listed
 from ._progress import Progress
+
+__all__ = ["BooleanResult", "MeshesLike", "boolean", "check_solid", "clip", "difference",
+           "intersection", "split", "symmetric_difference", "union"]
 
 
 @dataclass(frozen=True, repr=False)
 class BooleanResult(MeshResult):
     """The surface of a solid, and what was checked about it. Every function that takes a mesh takes
-    a result; `vertices, faces = result.mesh`."""
+    a result; `vertices, faces = result.mesh`.
 
-    #: Faces are counter-clockwise from outside.
+    mesh: Faces are counter-clockwise from outside.
+    certificate: What was checked about its coordinates.
+    face_source: (F, 2): the lowest operand, and its face, that each face lies in.
+    vertex_source: (V, 2): the lowest operand, and its vertex, that each vertex is; 4294967295 for
+        new ones.
+    volumes: With `volumes`: of the first, the second, either and both.
+    statistics: Counts of what was done.
+    """
+
     mesh: Mesh
-    #: What was checked about its coordinates.
     certificate: Certificate
-    #: (F, 2): the lowest operand, and its face, that each face lies in.
     face_source: Ids
-    #: (V, 2): the lowest operand, and its vertex, that each vertex is; 4294967295 for new ones.
     vertex_source: Ids
-    #: With `volumes`: of the first, the second, either and both.
     volumes: tuple[float, float, float, float] | None
-    #: Counts of what was done.
     statistics: dict[str, int]
 
 
@@ -42,14 +48,17 @@ def _result(made: dict[str, Any], check: bool, *also: str) -> BooleanResult:
     return BooleanResult(mesh=mesh, **made)
 
 
-def _operands(meshes: tuple[Any, ...]) -> list[_core.HeldMesh]:
-    """Those of `union(a, b, c)`, or of `union([a, b, c])`, of whatever can be gone through."""
-    if len(meshes) == 1 and isinstance(meshes[0], Iterable) and not any(
-            hasattr(meshes[0], name) for name in ("vertices", "points", "__array__")):
-        listed = tuple(meshes[0])
-        if not _arrays.is_pair(listed):
-            meshes = listed
-    return [held(mesh) for mesh in meshes]
+#: What set operations take: a mesh, or several in whatever can be gone through.
+MeshesLike = Union[MeshLike, Iterable[MeshLike]]
+
+
+def _operands(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
+    """Those of `union(a, b, c)`, `union([a, b, c])` or `difference(a, [b, c])`."""
+    all: list[_core.HeldMesh] = []
+    for one in meshes:
+        several = listed(one)
+        all += [held(one)] if several is None else [held(mesh) for mesh in several]
+    return all
 
 
 def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: str, keep_cuts: bool,
@@ -60,7 +69,7 @@ def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: st
                                  progress=progress), check)
 
 
-def union(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
+def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
           keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
           max_displacement: float = np.inf, check: bool = True,
           progress: Progress = None) -> BooleanResult:
@@ -77,7 +86,7 @@ def union(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64"
                     max_displacement, check, progress)
 
 
-def intersection(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
+def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
                  keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
           max_displacement: float = np.inf, check: bool = True,
                  progress: Progress = None) -> BooleanResult:
@@ -92,22 +101,24 @@ def intersection(*meshes: MeshLike, inside: str = "nonzero", precision: str = "f
                     max_displacement, check, progress)
 
 
-def difference(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
+def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
                keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
           max_displacement: float = np.inf, check: bool = True,
                progress: Progress = None) -> BooleanResult:
-    """The first solid without all others. See `boolean`.
+    """The first solid without all others: `difference(a, b, c)`, or `difference(a, [b, c])`. See
+    `boolean`.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
-    >>> treeform.difference(a, (a.vertices + 0.5, a.faces)).mesh.volume
-    0.875
+    >>> cutters = [(a.vertices + 0.5, a.faces), (a.vertices - 0.5, a.faces)]
+    >>> treeform.difference(a, cutters).mesh.volume
+    0.75
     """
     return _combine("difference", meshes, inside, precision, keep_cuts, simplify, volumes,
                     max_displacement, check, progress)
 
 
-def symmetric_difference(*meshes: MeshLike, inside: str = "nonzero", precision: str = "float64",
+def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
                          keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
                          max_displacement: float = np.inf, check: bool = True,
                          progress: Progress = None) -> BooleanResult:
@@ -163,10 +174,11 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
                                  max_displacement, progress=progress), check)
 
 
-def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str = "nonzero",
+def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: str = "nonzero",
          precision: str = "float64", keep_cuts: bool = False, max_displacement: float = np.inf,
          check: bool = True, progress: Progress = None) -> BooleanResult:
-    """An open surface cut by solids: the pieces of `sheet` outside all of them, or inside all.
+    """An open surface cut by solids, one by one or in a list: the pieces of `sheet` outside all of
+    them, or inside all.
 
     keep: 'outside' or 'inside'. A piece on the surface of a solid is inside it, so both together
     are the sheet. Edges are not checked, since the result is open.
@@ -182,11 +194,11 @@ def clip(sheet: MeshLike, *solids: MeshLike, keep: str = "outside", inside: str 
     if keep not in ("outside", "inside"):
         raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
     operation = "difference" if keep == "outside" else "intersection"
-    return _result(_core.clip([held(sheet), *map(held, solids)], 0, operation, "", [], inside,
+    return _result(_core.clip([held(sheet), *_operands(solids)], 0, operation, "", [], inside,
                               precision, keep_cuts, max_displacement, progress=progress), check)
 
 
-def split(*meshes: MeshLike, precision: str = "float64", max_displacement: float = np.inf,
+def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: float = np.inf,
           check: bool = True, progress: Progress = None) -> BooleanResult:
     """All faces of the meshes, cut along each other and along themselves, each piece once. They
     need not bound solids.

@@ -3,6 +3,7 @@ not enough is a MemoryError."""
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from numbers import Real
@@ -14,6 +15,9 @@ from numpy.typing import NDArray
 
 from ._core import Certificate
 
+__all__ = ["Cancelled", "CertificateError", "Error", "FileError", "file_error", "NotCertifiedError",
+           "NotSolidError", "name_argument", "need", "require", "settings"]
+
 _Made = TypeVar("_Made")
 
 
@@ -23,7 +27,38 @@ class Error(Exception):
 
 class FileError(Error, OSError):
     """A file that cannot be read or written. The message names the path, the line or byte, and the
-    reason."""
+    reason.
+
+    Where the system gives the reason, `errno`, `strerror` and `filename` say it, and the error is
+    also what Python raises for it: FileNotFoundError, PermissionError, IsADirectoryError, ... They
+    are None where the reason is in the file.
+    """
+
+    _message: str
+
+    def __str__(self) -> str:
+        return str(self._message) if hasattr(self, "_message") else super().__str__()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return file_error, (str(self), self.errno or 0, self.filename or "")
+
+
+#: By the classes of Python.
+_FILE_ERRORS: dict[type[OSError], type[FileError]] = {}
+
+
+def file_error(message: str, errno: int = 0, filename: str = "") -> FileError:
+    """The FileError for what the system says, which is also what Python raises for that."""
+    if errno == 0:
+        return FileError(message)
+    kind = type(OSError(errno, ""))
+    if kind not in _FILE_ERRORS:
+        _FILE_ERRORS[kind] = FileError if kind is OSError else type(
+            "FileError", (FileError, kind), {"__module__": FileError.__module__,
+                                             "__doc__": FileError.__doc__})
+    error = _FILE_ERRORS[kind](errno, os.strerror(errno), filename)
+    error._message = message
+    return error
 
 
 class Cancelled(Error):

@@ -17,6 +17,10 @@ from ._progress import Progress
 from ._results import Result
 from ._steps import InSteps, Team, in_team
 
+__all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "StreamSearch", "faces_in_box",
+           "intersection_curves", "intersection_regions", "mesh_intersections",
+           "self_intersections", "self_intersections_of_file"]
+
 #: How two faces meet; a number in `kinds` is a place in this list.
 KINDS = tuple(_core.KINDS)
 _ALL = list(KINDS)
@@ -31,13 +35,15 @@ def _kinds(kinds: Iterable[str] | None) -> list[str]:
 
 @dataclass(frozen=True, repr=False)
 class FacePairs(Result):
-    """Pairs of faces that meet."""
+    """Pairs of faces that meet.
 
-    #: (n, 2) uint32, ascending; of one mesh, the lower face first.
+    pairs: (n, 2) uint32, ascending; of one mesh, the lower face first.
+    kinds: (n,) uint8: how they meet, a place in `KINDS`.
+    counts: How many of each kind there are, listed or not.
+    """
+
     pairs: Ids
-    #: (n,) uint8: how they meet, a place in `KINDS`.
     kinds: NDArray[np.uint8]
-    #: How many of each kind there are, listed or not.
     counts: dict[str, int]
 
     def __len__(self) -> int:
@@ -104,17 +110,19 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
 
 @dataclass(frozen=True, repr=False)
 class FilePairs(FacePairs):
-    """Pairs of faces of a file that meet; they are numbers of faces of `mesh`."""
+    """Pairs of faces of a file that meet; they are numbers of faces of `mesh`.
 
-    #: Only the faces that meet others, in the order of the file.
+    mesh: Only the faces that meet others, in the order of the file.
+    face_in_file: (F,) the number in the file of each face of `mesh`.
+    stored_faces: Faces of the file.
+    dropped: Triangles with a coordinate that is not finite, left out.
+    tiles: Parts that space was cut into.
+    """
+
     mesh: Mesh
-    #: (F,) the number in the file of each face of `mesh`.
     face_in_file: Ids
-    #: Faces of the file.
     stored_faces: int
-    #: Triangles with a coordinate that is not finite, left out.
     dropped: int
-    #: Parts that space was cut into.
     tiles: int
 
     @property
@@ -229,13 +237,15 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
 
 @dataclass(frozen=True, repr=False)
 class Region(Result):
-    """Faces that meet, in one place of a mesh."""
+    """Faces that meet, in one place of a mesh.
 
-    #: (n,) ascending.
+    faces: (n,) ascending.
+    bounds: (2, 3): the box around them.
+    pairs: Pairs here.
+    """
+
     faces: Ids
-    #: (2, 3): the box around them.
     bounds: Floats
-    #: Pairs here.
     pairs: int
 
 

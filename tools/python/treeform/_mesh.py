@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any, Iterator, Protocol, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, Protocol, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arrays, _core
+from . import _arrays, _core, _others
 from ._arrays import Floats, Ids
+from ._attributes import Attributes
 from ._core import Certificate
 from ._errors import require
+from ._others import arrays_of
 from ._results import Result
 
 if TYPE_CHECKING:
     from ._show import View
+
+__all__ = ["HasCells", "HasFaces", "HasMesh", "HasPolys", "HasTensors", "HasTriangles", "Mesh",
+           "MeshLike", "MeshResult", "as_mesh", "cloud_of", "held", "held_body", "listed"]
 
 
 class HasFaces(Protocol):
@@ -34,106 +38,36 @@ class HasTriangles(Protocol):
     def triangles(self) -> Any: ...
 
 
+class HasCells(Protocol):
+    """A mesh as meshio has it, and grids of PyVista."""
+
+    @property
+    def points(self) -> Any: ...
+    @property
+    def cells_dict(self) -> Any: ...
+
+
+class HasTensors(Protocol):
+    """A mesh as `open3d.t.geometry` has it."""
+
+    @property
+    def vertex(self) -> Any: ...
+    @property
+    def triangle(self) -> Any: ...
+
+
+class HasPolys(Protocol):
+    """A mesh as VTK has it."""
+
+    def GetPoints(self) -> Any: ...
+    def GetPolys(self) -> Any: ...
+
+
 class HasMesh(Protocol):
     """A result of treeform."""
 
     @property
     def mesh(self) -> "Mesh": ...
-
-
-class Attributes:
-    """All that a file has besides points and faces.
-
-    Columns of numbers for vertices and faces (colors, normals, qualities), names of parts, texture
-    coordinates and normals of corners, comments, and the format that the file had. `write` puts
-    back what the format of the output can hold. What operations make of a mesh has its columns,
-    corners and parts, too; lists and other kinds of rows are left out.
-
-    >>> import numpy as np
-    >>> import treeform
-    >>> extra = treeform.Attributes()
-    >>> extra.set_vertex("quality", np.array([0.5, 1.0, 2.0]))
-    >>> extra.vertex
-    {'quality': array([0.5, 1. , 2. ])}
-    """
-
-    __slots__ = ("_data",)
-
-    def __init__(self, data: _core.FileData | None = None) -> None:
-        self._data = _core.FileData() if data is None else data
-
-    def __reduce__(self) -> Any:
-        return Attributes, (self._data,)
-
-    def __copy__(self) -> Attributes:
-        return Attributes(_core.FileData(self._data))
-
-    @property
-    def format(self) -> str:
-        """Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty."""
-        return self._data.format
-
-    @property
-    def precision(self) -> str:
-        """Of the coordinates in the file: 'float32' or 'float64'."""
-        return self._data.precision
-
-    @property
-    def warnings(self) -> list[tuple[str, str]]:
-        """What a person should know of the file: (code, text)."""
-        return self._data.warnings
-
-    @property
-    def comments(self) -> list[str]:
-        """Lines of comment of a PLY."""
-        return self._data.comments
-
-    @property
-    def elements(self) -> list[str]:
-        """Kinds of rows that the file has: 'vertex', 'face', ..."""
-        return self._data.elements
-
-    @property
-    def parts(self) -> list[tuple[str, str, str, int]]:
-        """Names in the file: (object, group, material, first face)."""
-        return self._data.parts
-
-    @property
-    def corners(self) -> dict[str, NDArray[Any]]:
-        """Values of corners: `texture` (n, 3), `texture_of_corner` (F, 3) numbers in it, and the
-        same for `normals`; 4294967295 where a corner has none."""
-        return self._data.corners
-
-    @property
-    def stored_face(self) -> Ids | None:
-        """(F,) the file's face that each triangle is a part of; None where all are triangles."""
-        return self._data.stored_face
-
-    @property
-    def vertex(self) -> dict[str, Any]:
-        """A copy of each column of vertices, (V,)."""
-        return self._data.columns("vertex")
-
-    @property
-    def face(self) -> dict[str, Any]:
-        """A copy of each column of faces as stored in the file."""
-        return self._data.columns("face")
-
-    def columns(self, element: str) -> dict[str, Any]:
-        """A copy of each column of `element`; lists as (begin, values)."""
-        return self._data.columns(element)
-
-    def set_vertex(self, name: str, values: ArrayLike) -> None:
-        """Sets a column of vertices, (V,), in the type of `values`."""
-        self._data.set_column("vertex", name, np.asarray(values))
-
-    def set_face(self, name: str, values: ArrayLike) -> None:
-        """Sets a column of faces, (F,), in the type of `values`."""
-        self._data.set_column("face", name, np.asarray(values))
-
-    def __repr__(self) -> str:
-        rows = {name: list(self.columns(name)) for name in self.elements}
-        return f"Attributes(format={self.format!r}, columns={rows})"
 
 
 class Mesh:
@@ -264,10 +198,29 @@ class Mesh:
         return show(self, *others, **look)
 
     def to_trimesh(self) -> Any:
-        """A `trimesh.Trimesh` with copies of the arrays; trimesh has to be installed."""
+        """A `trimesh.Trimesh` with copies of the arrays, as all that follow; the library has to be
+        installed. A cloud becomes a cloud there."""
+        return _others.to_trimesh(*self._own())
+
+    def to_open3d(self, *, tensor: bool = False) -> Any:
+        """An `open3d.geometry.TriangleMesh`; with `tensor`, one of `open3d.t.geometry`."""
+        return _others.to_open3d(*self._own(), tensor)
+
+    def to_pyvista(self) -> Any:
+        """A `pyvista.PolyData`."""
+        return _others.to_pyvista(*self._own())
+
+    def to_vtk(self) -> Any:
+        """A `vtkPolyData`."""
+        return _others.to_vtk(*self._own())
+
+    def to_meshio(self) -> Any:
+        """A `meshio.Mesh`."""
+        return _others.to_meshio(*self._own())
+
+    def _own(self) -> tuple[Floats, Ids]:
         mesh = self._ready()
-        return importlib.import_module("trimesh").Trimesh(
-            vertices=mesh._vertices.copy(), faces=mesh._faces.astype(np.int64), process=False)
+        return mesh._vertices, mesh._faces
 
     def __or__(self, other: MeshLike) -> Mesh:
         return _operation("|", self, other)
@@ -314,68 +267,29 @@ class Mesh:
         return f"Mesh({len(self._vertices):,} vertices, {len(self._faces):,} faces)"
 
 
-MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, Tuple[ArrayLike, ArrayLike]]
+MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, HasCells, HasTensors, HasPolys,
+                 Tuple[ArrayLike, ArrayLike]]
 
 
 _Array = TypeVar("_Array", Floats, Ids)
 
 
 def _read_only(array: _Array) -> _Array:
-    view = array.view()
-    view.flags.writeable = False
-    return view
+    """The same memory, through a buffer that NumPy cannot be told to write to."""
+    memory: Any = array
+    locked: Any = memoryview(memory).toreadonly()
+    return np.asarray(locked)
 
 
-def from_trimesh(mesh: HasFaces) -> Mesh:
-    """A Mesh of the arrays of a `trimesh.Trimesh`, or of anything with `vertices` and `faces`.
-
-    >>> import treeform
-    >>> class Trimesh:
-    ...     vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-    ...     faces = [[0, 1, 2]]
-    >>> treeform.from_trimesh(Trimesh())
-    Mesh(3 vertices, 1 faces)
-    """
-    return as_mesh(mesh)
-
-
-def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
-    """Vertices and faces of whatever is taken for a mesh."""
-    if isinstance(mesh, (tuple, list)):
-        if len(mesh) != 2:
-            raise ValueError("mesh: a pair (vertices, faces) is needed, "
-                             f"not {len(mesh)} elements")
-        return mesh[0], mesh[1]
-    if hasattr(mesh, "vertices"):
-        for name in ("faces", "triangles"):
-            if hasattr(mesh, name):
-                return np.asarray(mesh.vertices), np.asarray(getattr(mesh, name))
-    if hasattr(mesh, "points"):
-        if hasattr(mesh, "cells_dict"):
-            return np.asarray(mesh.points), _faces_of_cells(mesh.cells_dict)
-        if hasattr(mesh, "faces"):
-            return np.asarray(mesh.points), np.asarray(mesh.faces)
-    raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces")
-
-
-#: By the names of meshio and the numbers of VTK.
-_NO_FACES = ("vertex", "line", 1, 3)
-_TRIANGLES = ("triangle", 5)
-_QUADS = ("quad", 9)
-
-
-def _faces_of_cells(cells: Any) -> NDArray[Any]:
-    """Triangles, and two of each quad, in the order of `cells`."""
-    faces = [np.empty((0, 3), np.uint32)]
-    for kind, corners in cells.items():
-        if kind in _TRIANGLES:
-            faces.append(np.asarray(corners))
-        elif kind in _QUADS:
-            faces.append(np.asarray(corners)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
-        elif kind not in _NO_FACES and len(corners):
-            raise ValueError(f"mesh: {len(corners)} cells of the kind {kind!r}; only triangles and "
-                             "quads are taken")
-    return np.concatenate([_arrays.faces(part) for part in faces])
+def listed(meshes: Any) -> tuple[Any, ...] | None:
+    """What is in a list of meshes, or in anything else that can be gone through; None for what is no
+    list, but a mesh."""
+    if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes)) or any(
+            hasattr(meshes, name) for name in ("mesh", "vertices", "points", "__array__")):
+        return None
+    several = tuple(meshes)
+    is_pair = len(several) == 2 and isinstance(several[0], np.ndarray)
+    return None if is_pair or _arrays.is_pair(several) else several
 
 
 def as_mesh(mesh: Any) -> Mesh:
@@ -400,8 +314,11 @@ def cloud_of(body: Any) -> Floats | None:
     a mesh."""
     if isinstance(body, np.ndarray) or isinstance(body, (list, tuple)) and not _arrays.is_pair(body):
         return _arrays.points(body, "points")
-    if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict")):
+    if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict", "triangle",
+                                          "GetPolys")):
         return None
+    if hasattr(body, "point"):  # of open3d.t.geometry
+        return _arrays.points(np.asarray(body.point["positions"].cpu().numpy()), "points")
     for name in ("points", "vertices"):
         if hasattr(body, name):
             return _arrays.points(np.asarray(getattr(body, name)), "points")

@@ -15,16 +15,22 @@ from ._mesh import MeshLike, as_mesh, held, held_body
 from ._progress import Progress
 from ._results import Result, tuple_repr
 
+__all__ = ["AllRayHits", "ClosestPoints", "Deviation", "RayHits", "closest_point", "contains",
+           "deviation", "locate", "raycast", "raycast_all", "raycast_any", "signed_distance",
+           "winding_number"]
+
 
 class ClosestPoints(NamedTuple):
     """The nearest point of a mesh for each query, in the order that trimesh has:
-    `closest, distance, triangle_id = closest_point(mesh, points)`."""
+    `closest, distance, triangle_id = closest_point(mesh, points)`.
 
-    #: (n, 3) points on the mesh, rounded; NaN where none is within the radius.
+    closest: (n, 3) points on the mesh, rounded; NaN where none is within the radius.
+    distance: (n,) not squared; infinite where there is none.
+    triangle_id: (n,) uint32 the face; 4294967295 where there is none.
+    """
+
     closest: Floats
-    #: (n,) not squared; infinite where there is none.
     distance: Floats
-    #: (n,) uint32 the face; 4294967295 where there is none.
     triangle_id: Ids
 
     def __repr__(self) -> str:
@@ -130,13 +136,15 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
 
 
 class RayHits(NamedTuple):
-    """The first face that each ray hits."""
+    """The first face that each ray hits.
 
-    #: (n,) the point hit is origin + t direction; infinite where nothing is hit.
+    t: (n,) the point hit is origin + t direction; infinite where nothing is hit.
+    face: (n,) uint32 the face; 4294967295 where nothing is hit.
+    at: (n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) or in the interior (6) of the face.
+    """
+
     t: Floats
-    #: (n,) uint32 the face; 4294967295 where nothing is hit.
     face: Ids
-    #: (n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) or in the interior (6) of the face.
     at: NDArray[np.uint8]
 
     def __repr__(self) -> str:
@@ -171,13 +179,15 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
 
 class AllRayHits(NamedTuple):
     """All faces that rays hit, in the order that trimesh's `intersects_location` has:
-    `locations, index_ray, index_tri = raycast_all(...)`."""
+    `locations, index_ray, index_tri = raycast_all(...)`.
 
-    #: (n, 3) the points hit, rounded.
+    locations: (n, 3) the points hit, rounded.
+    index_ray: (n,) uint32 the ray, ascending.
+    index_tri: (n,) uint32 the face.
+    """
+
     locations: Floats
-    #: (n,) uint32 the ray, ascending.
     index_ray: Ids
-    #: (n,) uint32 the face.
     index_tri: Ids
 
     def __repr__(self) -> str:
@@ -215,43 +225,50 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
 
 @dataclass(frozen=True, repr=False)
 class Deviation(Result):
-    """How far points are from a surface."""
+    """How far points are from a surface.
 
-    #: (V,) of each point of the first: negative inside the solid that the second bounds, exactly 0
-    #: on its surface; not negative where that bounds none.
+    distances: (V,) of each point of the first: negative inside the solid that the second bounds,
+        exactly 0 on its surface; not negative where that bounds none.
+    faces: (V,) the nearest face of the second.
+    is_signed: Whether distances have a sign.
+    side_counts: Where they have: how many points are inside, on, outside; exact. Else None.
+    mean: Of the signed distances.
+    mean_absolute: Of their magnitudes, as are the six below.
+    rms: Root mean square.
+    p50: The median.
+    p95: 95 % are not above it.
+    p99: 99 % are not above it.
+    max: The largest magnitude.
+    worst: The lowest point with that distance.
+    lowest: The least signed distance.
+    highest: The greatest signed distance.
+    there: (over the points of the first, a bound that no point of its surface exceeds); of the
+        distances from the first to the second.
+    back: The same from the second to the first; the larger one is the Hausdorff distance. None
+        unless `both_ways`.
+    histogram: (bins,) how many signed distances are in intervals of equal length.
+    histogram_range: From where to where these go.
+    band_counts: With `band`: how many are below, within, above.
+    """
+
     distances: Floats
-    #: (V,) the nearest face of the second.
     faces: Ids
-    #: Whether distances have a sign.
     is_signed: bool
-    #: Where they have: how many points are inside, on, outside; exact. Else None.
     side_counts: tuple[int, int, int] | None
-    #: Of the signed distances.
     mean: float
-    #: Of their magnitudes, as are the six below.
     mean_absolute: float
     rms: float
     p50: float
     p95: float
     p99: float
     max: float
-    #: The lowest point with that distance.
     worst: int
-    #: The least signed distance.
     lowest: float
-    #: The greatest signed distance.
     highest: float
-    #: (over the points of the first, a bound that no point of its surface exceeds); of the
-    #: distances from the first to the second.
     there: tuple[float, float]
-    #: The same from the second to the first; the larger one is the Hausdorff distance. None unless
-    #: `both_ways`.
     back: tuple[float, float] | None
-    #: (bins,) how many signed distances are in intervals of equal length.
     histogram: NDArray[np.uint64]
-    #: From where to where these go.
     histogram_range: tuple[float, float]
-    #: With `band`: how many are below, within, above.
     band_counts: tuple[int, int, int] | None
 
 

@@ -17,22 +17,28 @@ from ._progress import Progress
 from ._properties import Feature
 from ._results import Result, tuple_repr
 
+__all__ = ["Alignment", "Body", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "PackedPart",
+           "Packing", "Placement", "align", "drop", "lay_flat", "mate", "mate_features", "measure",
+           "pack", "penetration_depth", "separate", "slide", "time_of_impact", "turn"]
+
 #: A mesh, or a cloud (n, 3).
 Body = Union[MeshLike, ArrayLike]
 
 
 class Contacts(NamedTuple):
-    """Pairs of faces that meet at a place, or keep the clearance there."""
+    """Pairs of faces that meet at a place, or keep the clearance there.
 
-    #: (n, 3)
+    points: (n, 3)
+    normals: (n, 3) of length 1, from the fixed to the moving mesh; 0 where there is none.
+    moving: (n,) faces of the moving mesh.
+    fixed_face: (n,) faces of the fixed mesh; 4294967295 for the bed.
+    fixed: (n,) which fixed mesh.
+    """
+
     points: Floats
-    #: (n, 3) of length 1, from the fixed to the moving mesh; 0 where there is none.
     normals: Floats
-    #: (n,) faces of the moving mesh.
     moving: Ids
-    #: (n,) faces of the fixed mesh; 4294967295 for the bed.
     fixed_face: Ids
-    #: (n,) which fixed mesh.
     fixed: Ids
 
     def __repr__(self) -> str:
@@ -41,58 +47,67 @@ class Contacts(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Measure(Result):
-    """How two bodies lie to each other."""
+    """How two bodies lie to each other.
 
-    #: 'separate', 'touching' or 'penetrating'. Exact.
+    relation: 'separate', 'touching' or 'penetrating'. Exact.
+    distance: 0 if and only if they touch or penetrate.
+    surface_distance: 0 if and only if a face of one meets a face of the other.
+    on_a: (3,) the nearest point on the surface of `a`; where they meet, a common one.
+    on_b: (3,) likewise of `b`.
+    face_a: The face of `a` that `on_a` is on.
+    face_b: The face of `b` that `on_b` is on.
+    a_inside_b: A part of `a` is inside `b`, and does not touch it.
+    b_inside_a: The same with `a` and `b` swapped.
+    """
+
     relation: str
-    #: 0 if and only if they touch or penetrate.
     distance: float
-    #: 0 if and only if a face of one meets a face of the other.
     surface_distance: float
-    #: (3,) the nearest point on the surface of `a`; where they meet, a common one.
     on_a: Floats
-    #: (3,) likewise of `b`.
     on_b: Floats
     face_a: int
     face_b: int
-    #: A part of `a` is inside `b`, and does not touch it.
     a_inside_b: bool
     b_inside_a: bool
 
 
 @dataclass(frozen=True, repr=False)
 class Placement(MeshResult):
-    """Where a mesh goes. True where it has a place; else `message` says why not."""
+    """Where a mesh goes. True where it has a place; else `message` says why not.
 
-    #: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
+    mesh: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
+    matrix: (4, 4) new = M old; coordinates are rounded once after it.
+    end: Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', 'nothing_met', 'too_far',
+        'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
+        'no_coordinates', 'too_many_steps', 'out_of_range'.
+    message: Half a sentence; empty where there is a place.
+    direction: (3,) of length 1; 0 where it does not travel.
+    travel: How far it went.
+    at_start: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'. Exact.
+    at_place: The same at the place.
+    contacts: Pairs of faces that meet there, or keep the clearance.
+    contact_count: All, listed or not.
+    nearest: The fixed mesh that matters most, and how the mesh lies to it; None where all are far.
+    certificate: What was checked about the coordinates.
+    angle: Of `turn` and `mate_features`: in degrees.
+    tolerance: Of `turn`: the gap beyond the clearance that counts as contact.
+    offset: Of `mate_features`: how far the center of the moving feature ended from the fixed one.
+    """
+
     mesh: Mesh
-    #: (4, 4) new = M old; coordinates are rounded once after it.
     matrix: Floats
-    #: Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', 'nothing_met', 'too_far',
-    #: 'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
-    #: 'no_coordinates', 'too_many_steps', 'out_of_range'.
     end: str
-    #: Half a sentence; empty where there is a place.
     message: str
-    #: (3,) of length 1; 0 where it does not travel.
     direction: Floats
-    #: How far it went.
     travel: float
-    #: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'. Exact.
     at_start: str
-    #: The same at the place.
     at_place: str
     contacts: Contacts
-    #: All, listed or not.
     contact_count: int
-    #: The fixed mesh that matters most, and how the mesh lies to it; None where all are far.
     nearest: tuple[int, Measure] | None
     certificate: Certificate
-    #: Of `turn` and `mate_features`: in degrees.
     angle: float = 0.0
-    #: Of `turn`: the gap beyond the clearance that counts as contact.
     tolerance: float = 0.0
-    #: Of `mate_features`: how far the center of the moving feature ended from the fixed one.
     offset: float = 0.0
 
     def __bool__(self) -> bool:
@@ -246,28 +261,32 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
 
 @dataclass(frozen=True, repr=False)
 class LaidFlat(MeshResult):
-    """A mesh on the bed."""
+    """A mesh on the bed.
+
+    mesh: The mesh on the bed.
+    matrix: (4, 4) new = M old.
+    chosen: The side that is down, a number of the lists below.
+    message: 'on side 0 of 6, of area 24'
+    areas: (S,) of the flat sides of the convex hull, largest first.
+    normals: (S, 3) outward, before the turn.
+    tip_angles: (S,) degrees of tilt at which it tips over; negative: by itself.
+    overhangs: (S,) area of the faces that would need support; NaN where it was not computed.
+    center_of_mass: (3,) before the turn.
+    mass: What that is of: 'solid', 'surface' or 'points'.
+    on_bed: (n,) vertices of the side, ascending.
+    certificate: What was checked about the coordinates.
+    """
 
     mesh: Mesh
-    #: (4, 4) new = M old.
     matrix: Floats
-    #: The side that is down, a number of the lists below.
     chosen: int
-    #: 'on side 0 of 6, of area 24'
     message: str
-    #: (S,) of the flat sides of the convex hull, largest first.
     areas: Floats
-    #: (S, 3) outward, before the turn.
     normals: Floats
-    #: (S,) degrees of tilt at which it tips over; negative: by itself.
     tip_angles: Floats
-    #: (S,) area of the faces that would need support; NaN where it was not computed.
     overhangs: Floats
-    #: (3,) before the turn.
     center_of_mass: Floats
-    #: What that is of: 'solid', 'surface' or 'points'.
     mass: str
-    #: (n,) vertices of the side, ascending.
     on_bed: Ids
     certificate: Certificate
 
@@ -300,32 +319,38 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
 
 @dataclass(frozen=True, repr=False)
 class Alignment(MeshResult):
-    """The motion that `align` has found."""
+    """The motion that `align` has found.
 
-    #: (4, 4) new = M old, with `start` included.
+    matrix: (4, 4) new = M old, with `start` included.
+    mesh: The moved mesh; of a cloud, one without faces.
+    rms: Root mean square of the distances that count, after.
+    rms_at_start: The same before.
+    overlap: Share of the moving points with a partner within `max_distance`, after.
+    inliers: Moving points within 4.5 medians of the distances that count.
+    correlation: Of the signed distances of neighbors: near 0 for noise, near 1 where regions are
+        off.
+    scale: Found in addition to that of `start`.
+    end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
+    converged: Whether it has, and nothing speaks against the place.
+    iterations: Steps that were made.
+    start: Which start was best; 0 is the present position.
+    undetermined: How many independent motions nothing holds, as where a plane slides on a plane.
+    message: 'after 12 steps; rms 0.01, from 0.3; overlap 1'
+    """
+
     matrix: Floats
-    #: The moved mesh; of a cloud, one without faces.
     mesh: Mesh
-    #: Root mean square of the distances that count, after.
     rms: float
     rms_at_start: float
-    #: Share of the moving points with a partner within `max_distance`, after.
     overlap: float
-    #: Moving points within 4.5 medians of the distances that count.
     inliers: int
-    #: Of the signed distances of neighbors: near 0 for noise, near 1 where regions are off.
     correlation: float
-    #: Found in addition to that of `start`.
     scale: float
-    #: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
     end: str
     converged: bool
     iterations: int
-    #: Which start was best; 0 is the present position.
     start: int
-    #: How many independent motions nothing holds, as where a plane slides on a plane.
     undetermined: int
-    #: 'after 12 steps; rms 0.01, from 0.3; overlap 1'
     message: str
 
     def __bool__(self) -> bool:
@@ -363,30 +388,37 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
 
 
 class PackedPart(NamedTuple):
-    """A part on a plate."""
+    """A part on a plate.
+
+    placed: Whether it has a place.
+    plate: Number of its plate, from 0.
+    matrix: (4, 4) new = M old.
+    mesh: The part where it goes; where it was, if it is not placed.
+    """
 
     placed: bool
-    #: Number of its plate, from 0.
     plate: int
-    #: (4, 4) new = M old.
     matrix: Floats
-    #: The part where it goes; where it was, if it is not placed.
     mesh: Mesh
 
 
 @dataclass(frozen=True, repr=False)
 class Packing(Result):
-    """Filled plates. True where every part has a place."""
+    """Filled plates. True where every part has a place.
 
-    #: In the order of the input.
+    parts: In the order of the input.
+    not_placed: (n,) numbers of parts without a place.
+    plates_used: Plates with a part.
+    tries: Orders of the parts that were tried.
+    density: Share of the plates that the parts cover.
+    message: '9 of 9 parts placed'
+    """
+
     parts: list[PackedPart]
-    #: (n,) numbers of parts without a place.
     not_placed: Ids
     plates_used: int
     tries: int
-    #: Share of the plates that the parts cover.
     density: float
-    #: '9 of 9 parts placed'
     message: str
 
     def __bool__(self) -> bool:
@@ -441,11 +473,13 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
 
 
 class Depth(NamedTuple):
-    """A way out."""
+    """A way out.
 
-    #: The length of `move`.
+    depth: The length of `move`.
+    move: (3,) added to each vertex of `a`, it takes `a` out of `b`. Verified exactly.
+    """
+
     depth: float
-    #: (3,) added to each vertex of `a`, it takes `a` out of `b`. Verified exactly.
     move: Floats
 
     def __repr__(self) -> str:
@@ -467,15 +501,17 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256,
 
 
 class Impact(NamedTuple):
-    """The first contact of two meshes in motion."""
+    """The first contact of two meshes in motion.
 
-    #: 'free', 'contact' or 'at_start'.
+    end: 'free', 'contact' or 'at_start'.
+    time: The greatest number not beyond the exact time; 0 where they meet at the start.
+    faces: (n, 2) the faces of `a` and `b` that meet at that time.
+    points: (n, 3) a common point of each pair, rounded.
+    """
+
     end: str
-    #: The greatest number not beyond the exact time; 0 where they meet at the start.
     time: float
-    #: (n, 2) the faces of `a` and `b` that meet at that time.
     faces: Ids
-    #: (n, 3) a common point of each pair, rounded.
     points: Floats
 
     def __repr__(self) -> str:

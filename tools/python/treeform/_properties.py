@@ -10,32 +10,45 @@ from ._mesh import MeshLike, held
 from ._progress import Progress
 from ._results import Result
 
+__all__ = ["Feature", "MeshDefects", "SolidDefects", "Topology", "count_inside_out",
+           "count_topology", "face_components", "find_defects", "find_features",
+           "find_solid_defects"]
+
 
 @dataclass(frozen=True, repr=False)
 class SolidDefects(Result):
-    """What keeps a mesh from being a solid; `bool()` says whether there is anything."""
+    """What keeps a mesh from being a solid; `bool()` says whether there is anything.
 
-    #: Tetrahedra that the faces are, as of a volume mesh.
+    nonfinite_vertices: Vertices with a NaN or infinite coordinate, used or not.
+    unusable_faces: Faces with such a corner, or one that is no vertex; all that follows is of the
+        others.
+    without_faces: There are points, but no face that can be used.
+    tetrahedra: Tetrahedra that the faces are, as of a volume mesh.
+    degenerate: Faces without area.
+    repeated: Faces with the corners of another one.
+    open_edges: Edges of one face.
+    nonmanifold_edges: Edges of more than two faces.
+    misoriented_edges: Edges of two faces that disagree.
+    nonmanifold_vertices: Vertices with more than one fan of faces.
+    meeting_pairs: Pairs of faces that meet beyond their common corners.
+    inverted: Closed components that are inside out, and in no other one.
+    wrongly_nested: Components do not lie in each other as a solid and its cavities do.
+    message: 'open at 37 edges, 2 pairs of faces meet'; 'none'.
+    """
+
+    nonfinite_vertices: int
+    unusable_faces: int
+    without_faces: bool
     tetrahedra: int
-    #: Faces without area.
     degenerate: int
-    #: Faces with the corners of another one.
     repeated: int
-    #: Edges of one face.
     open_edges: int
-    #: Edges of more than two faces.
     nonmanifold_edges: int
-    #: Edges of two faces that disagree.
     misoriented_edges: int
-    #: Vertices with more than one fan of faces.
     nonmanifold_vertices: int
-    #: Pairs of faces that meet beyond their common corners.
     meeting_pairs: int
-    #: Closed components that are inside out, and in no other one.
     inverted: int
-    #: Components do not lie in each other as a solid and its cavities do.
     wrongly_nested: bool
-    #: 'open at 37 edges, 2 pairs of faces meet'; 'none'.
     message: str
 
     def __bool__(self) -> bool:
@@ -43,28 +56,33 @@ class SolidDefects(Result):
 
 
 def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDefects:
-    """What `repair` would have to mend. Vertices with equal coordinates are one. Exact.
+    """What keeps a mesh from being a solid: what `repair` would have to mend, and what it does not
+    take, such as NaN. Vertices with equal coordinates are one. Exact.
 
     >>> import treeform
     >>> bool(treeform.find_solid_defects(treeform.read("data/cube.stl")))
     False
     >>> treeform.find_solid_defects(treeform.read("data/two_spheres.stl")).meeting_pairs
     78
+    >>> treeform.find_solid_defects(([[0, 0, float("nan")]], [])).message
+    '1 vertex that is not finite, there are points, but no faces'
     """
     return SolidDefects(**_core.find_solid_defects(held(mesh), progress=progress))
 
 
 @dataclass(frozen=True, repr=False)
 class MeshDefects(Result):
-    """Elements with defects, ascending. A face is in at most one list."""
+    """Elements with defects, ascending. A face is in at most one list.
 
-    #: (n,) vertices with a NaN or infinite coordinate.
+    nonfinite_points: (n,) vertices with a NaN or infinite coordinate.
+    nonfinite_faces: (n,) faces with such a corner.
+    degenerate_faces: (n,) faces with exactly collinear corners.
+    out_of_range_faces: (n,) faces with a corner that is no vertex.
+    """
+
     nonfinite_points: Ids
-    #: (n,) faces with such a corner.
     nonfinite_faces: Ids
-    #: (n,) faces with exactly collinear corners.
     degenerate_faces: Ids
-    #: (n,) faces with a corner that is no vertex.
     out_of_range_faces: Ids
 
 
@@ -82,29 +100,33 @@ def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
 @dataclass(frozen=True, repr=False)
 class Topology(Result):
     """Counts over the faces with three different corners. The Euler characteristic is points_used -
-    edges + faces."""
+    edges + faces.
+
+    edges: Undirected.
+    boundary_edges: Used by one face.
+    nonmanifold_edges: Used by three or more.
+    misoriented_edges: Used by two in the same direction.
+    nonmanifold_points: Whose faces fall into more than one fan.
+    components_by_point: Faces linked by a shared corner.
+    components_by_edge: Faces linked by a shared edge.
+    points_used: Corners of at least one such face.
+    faces: With three different corners.
+    repeated_corner_faces: The others.
+    duplicate_faces: Beyond the first with the same corners.
+    closed: At least one face, no boundary edge, no non-manifold edge.
+    """
 
     edges: int
-    #: Used by one face.
     boundary_edges: int
-    #: Used by three or more.
     nonmanifold_edges: int
-    #: Used by two in the same direction.
     misoriented_edges: int
-    #: Whose faces fall into more than one fan.
     nonmanifold_points: int
-    #: Faces linked by a shared corner.
     components_by_point: int
-    #: Faces linked by a shared edge.
     components_by_edge: int
     points_used: int
-    #: With three different corners.
     faces: int
-    #: The others.
     repeated_corner_faces: int
-    #: Beyond the first with the same corners.
     duplicate_faces: int
-    #: At least one face, no boundary edge, no non-manifold edge.
     closed: bool
 
 
@@ -145,23 +167,25 @@ def face_components(mesh: MeshLike, *, progress: Progress = None) -> Ids:
 
 @dataclass(frozen=True, repr=False)
 class Feature(Result):
-    """A plane or an axis, fitted to faces by least squares."""
+    """A plane or an axis, fitted to faces by least squares.
 
-    #: 'plane' or 'axis'.
+    kind: 'plane' or 'axis'.
+    origin: (3,) on the plane or the axis: the center of the faces.
+    direction: (3,) of length 1: the normal, outward; along the axis, either way.
+    radius: Of the cylinder.
+    hollow: Of a cylinder: its faces look at the axis, as those of a hole.
+    area: Of the faces.
+    deviation: Largest distance of a corner from the plane or cylinder.
+    faces: (n,) ascending.
+    """
+
     kind: str
-    #: (3,) on the plane or the axis: the center of the faces.
     origin: Floats
-    #: (3,) of length 1: the normal, outward; along the axis, either way.
     direction: Floats
-    #: Of the cylinder.
     radius: float
-    #: Of a cylinder: its faces look at the axis, as those of a hole.
     hollow: bool
-    #: Of the faces.
     area: float
-    #: Largest distance of a corner from the plane or cylinder.
     deviation: float
-    #: (n,) ascending.
     faces: Ids
 
 

@@ -16,10 +16,18 @@ from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of, held
 from ._progress import Progress
 from ._results import Result
 
+__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "WrapResult", "convex_hull",
+           "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",
+           "rounded", "wrap"]
+
 
 @dataclass(frozen=True, repr=False)
 class MadeMesh(MeshResult):
-    """A mesh that an operation has made, and what was checked about it."""
+    """A mesh that an operation has made, and what was checked about it.
+
+    mesh: Faces are counter-clockwise from outside.
+    certificate: What was checked about the coordinates.
+    """
 
     mesh: Mesh
     certificate: Certificate
@@ -27,33 +35,39 @@ class MadeMesh(MeshResult):
 
 @dataclass(frozen=True, repr=False)
 class ResolveResult(MadeMesh):
-    """A mesh without self-intersections."""
+    """A mesh without self-intersections.
 
-    #: (F,) the input's face that each face lies in; 4294967295 where it fills a hole.
+    face_source: (F,) the input's face that each face lies in; 4294967295 where it fills a hole.
+    vertex_source: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
+    statistics: Counts of what was done.
+    """
+
     face_source: Ids
-    #: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
     vertex_source: Ids
-    #: Counts of what was done.
     statistics: dict[str, int]
 
 
 @dataclass(frozen=True, repr=False)
 class RepairResult(MadeMesh):
-    """A mended mesh."""
+    """A mended mesh.
 
-    #: (F,) the input's face that each face lies in; 4294967295 where it fills a hole.
+    face_source: (F,) the input's face that each face lies in; 4294967295 where it fills a hole.
+    vertex_source: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
+    steps: What each step has done: faces flipped, holes filled, ...
+    """
+
     face_source: Ids
-    #: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
     vertex_source: Ids
-    #: What each step has done: faces flipped, holes filled, ...
     steps: dict[str, Any]
 
 
 @dataclass(frozen=True, repr=False)
 class WrapResult(MadeMesh):
-    """A closed surface around a mesh."""
+    """A closed surface around a mesh.
 
-    #: What it took.
+    statistics: What it took.
+    """
+
     statistics: dict[str, Any]
 
 
@@ -149,17 +163,20 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
 
 @dataclass(frozen=True, repr=False)
 class ConvexHull(Result):
-    """The convex hull of points: triangles, grouped by flat sides."""
+    """The convex hull of points: triangles, grouped by flat sides.
 
-    #: 3 for points that span space, 2 in a plane, 1 on a line, 0 for one point, -1 for none.
+    dimension: 3 for points that span space, 2 in a plane, 1 on a line, 0 for one point, -1 for
+        none.
+    faces: (F, 3) numbers of the points, outward.
+    first_face: (S,) the first face of each flat side; its faces follow one another.
+    areas: (S,) the area of each side.
+    normals: (S, 3) the outward normal of each side, of length 1.
+    """
+
     dimension: int
-    #: (F, 3) numbers of the points, outward.
     faces: Ids
-    #: (S,) the first face of each flat side; its faces follow one another.
     first_face: Ids
-    #: (S,) the area of each side.
     areas: Floats
-    #: (S, 3) the outward normal of each side, of length 1.
     normals: Floats
 
 

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+__all__ = ["Result", "brief", "tuple_repr"]
+
 
 def brief(value: Any) -> str:
     """`value` in a few words: of arrays, the type and shape."""

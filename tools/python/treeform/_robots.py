@@ -15,17 +15,23 @@ from ._mesh import Mesh
 from ._progress import Progress
 from ._results import Result
 
+__all__ = ["Joint", "Robot", "read_urdf"]
+
 
 class Joint(NamedTuple):
-    """What connects two links."""
+    """What connects two links.
+
+    name: As in the file.
+    kind: 'fixed', 'revolute', 'continuous' or 'prismatic'.
+    parent: Name of the link that it is on.
+    child: Name of the link that it moves.
+    limits: Least and greatest value, in radians or meters; None where there are none.
+    """
 
     name: str
-    #: 'fixed', 'revolute', 'continuous' or 'prismatic'.
     kind: str
-    #: Names of links.
     parent: str
     child: str
-    #: Least and greatest value, in radians or meters; None where there are none.
     limits: tuple[float, float] | None
 
 
@@ -35,22 +41,24 @@ class Robot(Result):
 
     `clash(robot.parts, ...)` and `check_poses(robot.parts, robot.poses(values),
     ignored=robot.adjacent)` take its parts.
+
+    name: As in the file.
+    links: Names, in the order of the file.
+    joints: Parents ahead of their children.
+    parts: The meshes of a link as one, in the frame of the link.
+    link_of_part: (N,) the link of each part.
+    adjacent: (n, 2) parts that a joint connects, the lower number first: they always touch.
+    approximated: Cylinders and spheres, for which triangles around them stand, a sentence each.
+    skipped: What else is no mesh, a sentence each.
     """
 
     name: str
-    #: Names, in the order of the file.
     links: list[str]
-    #: Parents ahead of their children.
     joints: list[Joint]
-    #: The meshes of a link as one, in the frame of the link.
     parts: list[Mesh]
-    #: (N,) the link of each part.
     link_of_part: Ids
-    #: (n, 2) parts that a joint connects, the lower number first: they always touch.
     adjacent: Ids
-    #: Cylinders and spheres, for which triangles around them stand, a sentence each.
     approximated: list[str]
-    #: What else is no mesh, a sentence each.
     skipped: list[str]
     _data: _core.RobotData
 

@@ -14,6 +14,8 @@ from . import _arrays, _core
 from ._files import Path
 from ._mesh import Mesh, MeshLike, held_body
 
+__all__ = ["Picture", "View", "plot", "show"]
+
 #: A mesh, or the points of a cloud.
 _Shown = Union[MeshLike, ArrayLike]
 

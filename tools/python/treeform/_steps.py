@@ -11,6 +11,8 @@ from ._errors import Cancelled, Error
 if TYPE_CHECKING:
     from typing_extensions import Self
 
+__all__ = ["InSteps", "Team", "in_team"]
+
 
 class Team(Protocol):
     """Processes that work together, such as `mpi4py.MPI.COMM_WORLD`."""

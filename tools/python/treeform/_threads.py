@@ -6,6 +6,8 @@ from types import TracebackType
 
 from . import _arrays, _core
 
+__all__ = ["thread_count", "threads"]
+
 
 class threads:
     """As long as it is entered, operations of the whole process use at most so many threads; 0 is

@@ -12,6 +12,8 @@ from ._arrays import Floats
 from ._progress import Progress, part
 from ._results import tuple_repr
 
+__all__ = ["BoxTree", "Neighbors", "Numbers", "PointTree"]
+
 Numbers = NDArray[np.int64]
 
 _MOST = 2 ** 62  # more neighbors than there is memory for
@@ -27,13 +29,15 @@ def _table(values: ArrayLike, name: str) -> Floats:
 
 class Neighbors(NamedTuple):
     """Lists of neighbors of many queries, in one array each: those of query q are
-    `ids[begin[q]:begin[q + 1]]`."""
+    `ids[begin[q]:begin[q + 1]]`.
 
-    #: (q + 1,)
+    begin: (q + 1,)
+    ids: (n,)
+    distances: (n,) not squared.
+    """
+
     begin: Numbers
-    #: (n,)
     ids: Numbers
-    #: (n,) not squared.
     distances: Floats
 
     def __repr__(self) -> str:

@@ -18,20 +18,25 @@ from ._progress import Progress
 from ._results import Result
 from ._steps import InSteps, Team, in_team
 
+__all__ = ["StreamWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal", "weld",
+           "weld_stream"]
+
 
 @dataclass(frozen=True, repr=False)
 class WeldResult(MeshResult):
-    """A welded mesh or cloud."""
+    """A welded mesh or cloud.
 
-    #: The welded mesh; of a cloud, one without faces.
+    mesh: The welded mesh; of a cloud, one without faces.
+    index: (n,) the new number of each point.
+    source: (m,) the input point that gave each new one its properties.
+    face_source: (F,) the input face that each face was; empty for a cloud.
+    statistics: Counts of what was done.
+    """
+
     mesh: Mesh
-    #: (n,) the new number of each point.
     index: Ids
-    #: (m,) the input point that gave each new one its properties.
     source: Ids
-    #: (F,) the input face that each face was; empty for a cloud.
     face_source: Ids
-    #: Counts of what was done.
     statistics: dict[str, Any]
 
     @property
@@ -122,29 +127,31 @@ def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress
 
 @dataclass(frozen=True, repr=False)
 class WeldStreamResult(Result):
-    """What `weld_stream` has done."""
+    """What `weld_stream` has done.
 
-    #: Points of the inputs.
+    points: Points of the inputs.
+    kept: Points that are left.
+    groups: Groups of two points or more.
+    max_displacement: The furthest that a point moved.
+    tolerance: As a length.
+    non_finite: Points that are not finite; all are kept.
+    tiles: Parts that space was cut into.
+    continued: Whether the run went on from what an earlier one had left.
+    faces: Of a mesh, faces that are left.
+    statistics: Of a mesh, what became of its faces, as in `WeldResult.statistics`.
+    warnings: What a person should know.
+    """
+
     points: int
-    #: Points that are left.
     kept: int
-    #: Groups of two points or more.
     groups: int
-    #: The furthest that a point moved.
     max_displacement: float
-    #: As a length.
     tolerance: float
-    #: Points that are not finite; all are kept.
     non_finite: int
-    #: Parts that space was cut into.
     tiles: int
-    #: Whether the run went on from what an earlier one had left.
     continued: bool
-    #: Of a mesh, faces that are left.
     faces: int
-    #: Of a mesh, what became of its faces, as in `WeldResult.statistics`.
     statistics: dict[str, int]
-    #: What a person should know.
     warnings: list[str]
 
 

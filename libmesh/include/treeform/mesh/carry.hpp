@@ -136,7 +136,8 @@ struct repaired_file {
                                                      const repair_options& options = {},
                                                      repair_scope scope = repair_scope::each_part);
 
-/// What `repair_file` would have to mend, of all parts together. Nothing is changed.
+/// What keeps the parts from being solids, of all together; faces that the input has left out are not
+/// counted. Nothing is changed.
 ///
 /// \throws std::invalid_argument as `self_intersections`
 /// \cost   as `find_solid_defects` of a mesh

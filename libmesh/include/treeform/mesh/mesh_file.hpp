@@ -14,6 +14,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace treeform {
@@ -23,6 +25,20 @@ namespace treeform {
 class TREEFORM_API io_error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+    /// The system does not let it be opened, read or written.
+    io_error(const std::string& path, std::error_code reason)
+        : std::runtime_error(path + ": " + reason.message()),
+          reason_(reason),
+          path_size_(path.size()) {}
+
+    /// Of the system; none where the reason is in the file.
+    [[nodiscard]] std::error_code reason() const { return reason_; }
+    /// Of the file, where there is a `reason`; else empty.
+    [[nodiscard]] std::string_view path() const { return {what(), path_size_}; }
+
+  private:
+    std::error_code reason_{};
+    std::size_t path_size_ = 0;
 };
 
 /// Something that a person should know about a file that was read or written.

@@ -217,17 +217,19 @@ struct TREEFORM_API repair_result {
 
 /// What keeps a mesh from being a solid. Points with equal coordinates are one.
 struct TREEFORM_API solid_defects {
-    std::uint64_t tetrahedra = 0;            ///< that the faces are, as of a volume mesh
-    std::uint64_t degenerate = 0;            ///< faces without area
-    std::uint64_t repeated = 0;              ///< faces with the corners of another one
-    std::uint64_t open_edges = 0;            ///< of one face
-    std::uint64_t nonmanifold_edges = 0;     ///< of more than two faces
-    std::uint64_t misoriented_edges = 0;     ///< of two faces that disagree
+    std::uint64_t nonfinite_vertices = 0;  ///< with a NaN or infinite coordinate, used or not
+    std::uint64_t unusable_faces = 0;      ///< with such a corner, or no vertex: not counted below
+    bool without_faces = false;            ///< there are points, but no face that can be used
+    std::uint64_t tetrahedra = 0;          ///< that the faces are, as of a volume mesh
+    std::uint64_t degenerate = 0;          ///< faces without area
+    std::uint64_t repeated = 0;            ///< faces with the corners of another one
+    std::uint64_t open_edges = 0;          ///< of one face
+    std::uint64_t nonmanifold_edges = 0;   ///< of more than two faces
+    std::uint64_t misoriented_edges = 0;   ///< of two faces that disagree
     std::uint64_t nonmanifold_vertices = 0;  ///< with more than one fan of faces
     std::uint64_t meeting_pairs = 0;         ///< of faces that meet beyond their common corners
     std::uint64_t inverted = 0;  ///< closed components that are inside out, and in no other one
-    /// Of what is closed and meets nowhere else: components do not lie in each other as a solid and
-    /// its cavities do.
+    /// Closed components that meet nowhere lie in each other, but not as a solid and its cavities.
     bool wrongly_nested = false;
     bool cancelled = false;  ///< `progress` asked to stop: nothing is known
 
@@ -237,9 +239,9 @@ struct TREEFORM_API solid_defects {
     [[nodiscard]] std::string message() const;
 };
 
-/// What `repair` would have to mend. Nothing is changed.
+/// What `repair` would have to mend, and what it does not take. Nothing without points is a solid.
 ///
-/// \throws std::invalid_argument as `self_intersections`
+/// \throws std::invalid_argument as `self_intersections`, but not for corners
 /// \cost   O(V log V + F log F), and as `self_intersections`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API solid_defects find_solid_defects(mesh_view mesh,

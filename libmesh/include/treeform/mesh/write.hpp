@@ -39,7 +39,7 @@ struct write_options {
     /// Allow further rounding of certified coordinates, which can undo what was certified.
     /// Coordinates without a certificate are always rounded to the precision.
     bool round = false;
-    /// Told 0 when the writing begins, and 1 before the file appears. Where it returns false, nothing
+    /// Told 0 when the writing begins and while it goes on, and 1 before the file appears. Where it returns false, nothing
     /// appears: what was at the path stays as it was.
     progress_callback progress{};
 };
@@ -129,7 +129,9 @@ concept certified_result = requires(const Result& result) {
 namespace detail::io {
 TREEFORM_API write_result write_certified(const std::filesystem::path& path, mesh surface,
                                           const write_options& options);
-}
+TREEFORM_API write_result write_certified(const std::filesystem::path& path, const mesh_file& file,
+                                          const write_options& options);
+}  // namespace detail::io
 
 /// Writes the mesh of a result in the coordinates that were certified. Binary STL and GLB hold
 /// `precision::float32` only.

@@ -257,7 +257,10 @@ TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
 typedef struct treeform_solid_defects {
     void* owner;
     int32_t any;
-    const char* message;  ///< "open at 37 edges, 2 pairs of faces meet"; "none"
+    const char* message;          ///< "open at 37 edges, 2 pairs of faces meet"; "none"
+    uint64_t nonfinite_vertices;  ///< with a NaN or infinite coordinate, used or not
+    uint64_t unusable_faces;      ///< with such a corner, or one that is no vertex
+    int32_t without_faces;        ///< there are points, but no face that can be used
     uint64_t tetrahedra;
     uint64_t degenerate;
     uint64_t repeated;
@@ -270,7 +273,8 @@ typedef struct treeform_solid_defects {
     int32_t wrongly_nested;
 } treeform_solid_defects;
 
-/// What `treeform_repair` would have to mend. Nothing is changed. `progress` may be null.
+/// What `treeform_repair` would have to mend, and what it does not take. Nothing is changed.
+/// `progress` may be null.
 TREEFORM_C_API treeform_code treeform_find_solid_defects(const treeform_mesh* mesh,
                                                          treeform_progress progress,
                                                          void* progress_data,

@@ -1,0 +1,77 @@
+"""What editors and type checkers know of the package: a user's file passes them, and help says what
+fields are."""
+
+import dataclasses
+import inspect
+import os
+import pathlib
+import pydoc
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+import treeform as tf
+
+USER = pathlib.Path(__file__).parent / "typed" / "user.py"
+#: Where the package is.
+FOLDER = pathlib.Path(tf.__file__).parents[1]
+IS_INSTALLED = FOLDER.name.endswith("-packages")
+RESULTS = [one for one in vars(tf).values() if inspect.isclass(one)
+           and (dataclasses.is_dataclass(one) or hasattr(one, "_fields"))]
+
+
+def test_a_users_file_passes_mypy():
+    where = {} if IS_INSTALLED else {"MYPYPATH": str(FOLDER)}
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", os.devnull,
+                           str(USER)], capture_output=True, text=True, env={**os.environ, **where})
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_a_users_file_passes_pyright(tmp_path):
+    npm = shutil.which("npm")
+    if npm is None:
+        pytest.skip("pyright comes by npm, which is not there")
+    if shutil.which("pyright") is None:
+        got = subprocess.run([npm, "install", "--silent", "--prefix", str(tmp_path), "pyright"],
+                             capture_output=True, text=True, timeout=300)
+        if got.returncode != 0:
+            pytest.skip("npm has no pyright here")
+    pyright = shutil.which("pyright", path=f"{tmp_path}/node_modules/.bin") or "pyright"
+    paths = [] if IS_INSTALLED else [str(FOLDER)]
+    (tmp_path / "pyrightconfig.json").write_text(
+        f'{{"extraPaths": {paths}, "include": ["user.py"]}}'.replace("'", '"'))
+    shutil.copy(USER, tmp_path)
+    done = subprocess.run([pyright, "--pythonpath", sys.executable, "-p", str(tmp_path)],
+                          capture_output=True, text=True)
+    assert done.returncode == 0 and "0 errors" in done.stdout, done.stdout + done.stderr
+
+
+def test_a_name_that_is_not_there_fails(tmp_path):
+    wrong = tmp_path / "wrong.py"
+    wrong.write_text("import treeform\ntreeform.no_such_verb()\ntreeform.union(3)\n")
+    where = {} if IS_INSTALLED else {"MYPYPATH": str(FOLDER)}
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", os.devnull,
+                           str(wrong)], capture_output=True, text=True, env={**os.environ, **where})
+    assert "no_such_verb" in done.stdout and "union" in done.stdout and "Found 2 errors" in done.stdout
+
+
+def test_all_names_are_said_in_the_text():
+    """Type checkers read no comprehension."""
+    for path in pathlib.Path(tf.__file__).parent.glob("*.py"):
+        text = path.read_text()
+        assert "__all__ = [\"" in text or path.name == "_exit.py", path.name
+    assert set(tf.__all__) == {name for name in dir(tf) if not name.startswith("_")} | {"__version__"}
+
+
+@pytest.mark.parametrize("result", RESULTS, ids=lambda one: one.__name__)
+def test_help_says_what_fields_are(result):
+    text = pydoc.plain(pydoc.render_doc(result))
+    own = [base for base in result.__mro__ if "__annotations__" in vars(base)]
+    for base in own:
+        for field in vars(base)["__annotations__"]:
+            if not field.startswith("_") and base.__name__ != "MeshResult":
+                assert f"{field}: " in (base.__doc__ or ""), field
+                if base is result:
+                    assert f"{field}: " in text

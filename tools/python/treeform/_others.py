@@ -1,0 +1,144 @@
+"""Meshes of other libraries: trimesh, Open3D, PyVista, VTK, meshio. None of them has to be there
+unless it is asked for by name."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays
+from ._arrays import Floats, Ids
+
+__all__ = ["arrays_of", "to_meshio", "to_open3d", "to_pyvista", "to_trimesh", "to_vtk"]
+
+
+def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
+    """Vertices and faces of whatever is taken for a mesh."""
+    if isinstance(mesh, (tuple, list)):
+        if len(mesh) != 2:
+            raise ValueError("mesh: a pair (vertices, faces) is needed, "
+                             f"not {len(mesh)} elements")
+        return mesh[0], mesh[1]
+    if hasattr(mesh, "vertices"):
+        for name in ("faces", "triangles"):
+            if hasattr(mesh, name):
+                return np.asarray(mesh.vertices), np.asarray(getattr(mesh, name))
+    if hasattr(mesh, "points"):
+        if hasattr(mesh, "cells_dict"):
+            return np.asarray(mesh.points), _faces_of_cells(mesh.cells_dict)
+        if hasattr(mesh, "faces"):
+            return np.asarray(mesh.points), np.asarray(mesh.faces)
+    if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):
+        return _numbers_of(mesh.vertex["positions"]), _numbers_of(mesh.triangle["indices"])
+    if hasattr(mesh, "GetPolys"):
+        return _arrays_of_vtk(mesh)
+    raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces")
+
+
+#: By the names of meshio and the numbers of VTK.
+_NO_FACES = ("vertex", "line", 1, 3)
+_TRIANGLES = ("triangle", 5)
+_QUADS = ("quad", 9)
+
+
+def _faces_of_cells(cells: Any) -> NDArray[Any]:
+    """Triangles, and two of each quad, in the order of `cells`."""
+    faces = [np.empty((0, 3), np.uint32)]
+    for kind, corners in cells.items():
+        if kind in _TRIANGLES:
+            faces.append(np.asarray(corners))
+        elif kind in _QUADS:
+            faces.append(np.asarray(corners)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
+        elif kind not in _NO_FACES and len(corners):
+            raise ValueError(f"mesh: {len(corners)} cells of the kind {kind!r}; only triangles and "
+                             "quads are taken")
+    return np.concatenate([_arrays.faces(part) for part in faces])
+
+
+def _numbers_of(tensor: Any) -> NDArray[Any]:
+    """Of a tensor of Open3D, which may be in the memory of a graphics card."""
+    return np.asarray(tensor.cpu().numpy())
+
+
+def _arrays_of_vtk(mesh: Any) -> tuple[Floats, Ids]:
+    """Of a vtkPolyData."""
+    if mesh.GetStrips() is not None and mesh.GetStrips().GetNumberOfCells():
+        raise ValueError("mesh: there are strips of triangles; vtkTriangleFilter makes triangles")
+    numbers = importlib.import_module("vtkmodules.util.numpy_support").vtk_to_numpy
+    points = mesh.GetPoints()
+    vertices = np.empty((0, 3)) if points is None else numbers(points.GetData())
+    if not mesh.GetPolys().GetNumberOfCells():
+        return vertices, np.empty((0, 3), np.uint32)
+    begin = numbers(mesh.GetPolys().GetOffsetsArray())
+    corners = _arrays.ids(numbers(mesh.GetPolys().GetConnectivityArray()), "faces")
+    return vertices, _arrays.triangles_of(corners, begin[:-1], np.diff(begin), "faces")
+
+
+def to_trimesh(vertices: Floats, faces: Ids) -> Any:
+    """A trimesh.Trimesh, or a PointCloud."""
+    trimesh = importlib.import_module("trimesh")
+    if _is_cloud(vertices, faces):
+        return trimesh.PointCloud(vertices.copy())
+    return trimesh.Trimesh(vertices=vertices.copy(), faces=faces.astype(np.int64), process=False)
+
+
+def to_open3d(vertices: Floats, faces: Ids, tensor: bool) -> Any:
+    """A TriangleMesh of open3d.geometry, or of open3d.t.geometry; or a PointCloud."""
+    open3d = importlib.import_module("open3d")
+    if tensor:
+        points = open3d.core.Tensor(vertices.copy())
+        if _is_cloud(vertices, faces):
+            return open3d.t.geometry.PointCloud(points)
+        return open3d.t.geometry.TriangleMesh(points, open3d.core.Tensor(faces.astype(np.int64)))
+    points = open3d.utility.Vector3dVector(vertices)
+    if _is_cloud(vertices, faces):
+        return open3d.geometry.PointCloud(points)
+    return open3d.geometry.TriangleMesh(points,
+                                        open3d.utility.Vector3iVector(faces.astype(np.int32)))
+
+
+def to_pyvista(vertices: Floats, faces: Ids) -> Any:
+    """A pyvista.PolyData."""
+    pyvista = importlib.import_module("pyvista")
+    if _is_cloud(vertices, faces):
+        return pyvista.PolyData(vertices.copy())
+    flat = np.insert(faces.astype(np.int64), 0, 3, axis=1).ravel()
+    return pyvista.PolyData(vertices.copy(), flat)
+
+
+def to_vtk(vertices: Floats, faces: Ids) -> Any:
+    """A vtkPolyData."""
+    core = importlib.import_module("vtkmodules.vtkCommonCore")
+    model = importlib.import_module("vtkmodules.vtkCommonDataModel")
+    support = importlib.import_module("vtkmodules.util.numpy_support")
+    points = core.vtkPoints()
+    points.SetData(support.numpy_to_vtk(vertices.copy(), deep=True))
+    is_cloud = _is_cloud(vertices, faces)
+    corners = np.arange(len(vertices))[:, None] if is_cloud else faces
+    begin = np.arange(len(corners) + 1, dtype=np.int64) * corners.shape[1]
+    cells = model.vtkCellArray()
+    cells.SetData(support.numpy_to_vtkIdTypeArray(begin, deep=True),
+                  support.numpy_to_vtkIdTypeArray(corners.astype(np.int64).ravel(), deep=True))
+    made = model.vtkPolyData()
+    made.SetPoints(points)
+    if is_cloud:
+        made.SetVerts(cells)
+    else:
+        made.SetPolys(cells)
+    return made
+
+
+def to_meshio(vertices: Floats, faces: Ids) -> Any:
+    """A meshio.Mesh."""
+    if _is_cloud(vertices, faces):
+        cells = [("vertex", np.arange(len(vertices))[:, None])]
+    else:
+        cells = [("triangle", faces.astype(np.int64))]
+    return importlib.import_module("meshio").Mesh(vertices.copy(), cells)
+
+
+def _is_cloud(vertices: Floats, faces: Ids) -> bool:
+    return len(faces) == 0 and len(vertices) != 0
