@@ -51,6 +51,15 @@ tf::precision written_precision(const job& work, const std::vector<solid>& solid
     return written_precision(work.options, form, files_of(solids));
 }
 
+namespace {
+
+std::uint64_t nonmanifold_when_joined(const tf::mesh& mesh) {
+    const tf::mesh joined = tf::join_equal_points(tf::mesh(mesh));
+    return tf::count_topology(joined.points.size(), joined.faces).nonmanifold_edges;
+}
+
+}  // namespace
+
 void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid) {
     json& entry = work.entry;
     const tf::boolean_statistics& did = result.statistics;
@@ -73,6 +82,11 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
                         {"faces_not_cut", triangles - std::min(triangles, did.cut_faces)},
                         {"faces_not_looked_at", did.skipped_faces}};
     const auto topology = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
+    // STL has no vertex numbers: who reads it joins equal corners.
+    const bool joins =
+        !work.options.output.empty() && mesh_format(work.options, work.options.output) == "stl";
+    const std::uint64_t nonmanifold =
+        joins ? nonmanifold_when_joined(result.mesh) : topology.nonmanifold_edges;
     entry["output"] = {
         {"file", nullptr},
         {"format", nullptr},
@@ -81,7 +95,7 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
         {"cut_vertices", std::ranges::count(result.vertex_source, tf::operand_element{})},
         {"faces", result.mesh.faces.size()},
         {"components", topology.components_by_point},
-        {"nonmanifold_edges", topology.nonmanifold_edges},
+        {"nonmanifold_edges", nonmanifold},
         {"volume", or_null(bounds_solid, bounds_solid ? tf::signed_volume(result.mesh) : 0.0)},
         {"closed", bounds_solid || topology.boundary_edges == 0},
         {"oriented", or_null(bounds_solid, true)},
