@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._mesh import MeshLike, held, held_body
+from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
 
@@ -133,6 +134,8 @@ class PartClash(Result):
     depth: float | None
     #: (3,) a short translation that takes `a` out of `b`.
     move: Floats
+    #: What the search for `move` took.
+    depth_effort: SearchEffort
     #: Where they meet: (box (2, 3), pairs of faces, faces of a, faces of b).
     regions: list[tuple[Floats, int, Ids, Ids]]
 
@@ -180,7 +183,8 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
     bodies = [held_body(part) for part in _arrays.several(parts, "parts")]
     made = _core.clash(bodies, clearance, volumes, depths, limit, _pairs(ignored), vertices,
                        progress=progress)
-    made["pairs"] = [PartClash(**one) for one in made["pairs"]]
+    made["pairs"] = [PartClash(**{**one, "depth_effort": SearchEffort(*one["depth_effort"])})
+                     for one in made["pairs"]]
     return ClashResult(**made)
 
 
