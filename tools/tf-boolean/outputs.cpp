@@ -51,15 +51,6 @@ tf::precision written_precision(const job& work, const std::vector<solid>& solid
     return written_precision(work.options, form, files_of(solids));
 }
 
-namespace {
-
-std::uint64_t nonmanifold_when_joined(const tf::mesh& mesh) {
-    const tf::mesh joined = tf::join_equal_points(tf::mesh(mesh));
-    return tf::count_topology(joined.points.size(), joined.faces).nonmanifold_edges;
-}
-
-}  // namespace
-
 void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid) {
     json& entry = work.entry;
     const tf::boolean_statistics& did = result.statistics;
@@ -83,10 +74,11 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
                         {"faces_not_looked_at", did.skipped_faces}};
     const auto topology = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     // STL has no vertex numbers: who reads it joins equal corners.
-    const bool joins =
-        !work.options.output.empty() && mesh_format(work.options, work.options.output) == "stl";
-    const std::uint64_t nonmanifold =
-        joins ? nonmanifold_when_joined(result.mesh) : topology.nonmanifold_edges;
+    std::uint64_t nonmanifold = topology.nonmanifold_edges;
+    if (is_stl(work.options)) {
+        const tf::mesh seen = tf::join_equal_points(tf::mesh(result.mesh));
+        nonmanifold = tf::count_topology(seen.points.size(), seen.faces).nonmanifold_edges;
+    }
     entry["output"] = {
         {"file", nullptr},
         {"format", nullptr},

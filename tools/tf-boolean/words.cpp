@@ -47,12 +47,11 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
                                     " without an area left out; nothing changes by that");
     const json& output = work.entry["output"];
     const auto nonmanifold = output["nonmanifold_edges"].get<std::uint64_t>();
-    const bool joins = result.statistics.split_vertices > 0 && !work.options.output.empty() &&
-                       mesh_format(work.options, work.options.output) == "stl";
     if (result.certificate && !output["volume"].is_null() && nonmanifold > 0)
-        work.warn("nonmanifold", counted(nonmanifold, "edge", "edges") +
-                                     " of more than two faces, where the result touches itself" +
-                                     (joins ? "; STL has no vertex numbers: other formats keep "
+        work.warn("nonmanifold",
+                  counted(nonmanifold, "edge", "edges") +
+                      " of more than two faces, where the result touches itself" +
+                      (is_stl(work.options) ? "; STL has no vertex numbers: other formats keep "
                                               "apart what touches, tf-repair sets it apart"
                                             : ""));
     if (!settings.splits() && !output["closed"].get<bool>())
