@@ -84,11 +84,13 @@ class pair_inspection {
             if (common.volumes) found.volume = common.volumes->both;
         }
         if (!options_.depths || work_.cancelled()) return;
-        const auto deep = penetration_depth(a.whose(), b.whose(),
-                                            {.vertices = options_.vertices, .progress = asking_});
+        const auto deep = penetration_depth(
+            a.whose(), b.whose(),
+            {.effort = options_.effort, .vertices = options_.vertices, .progress = asking_});
         if (!deep || deep->status != status::ok) return;
         found.depth = deep->depth;
         found.move = deep->move;
+        found.depth_effort = deep->effort;
     }
 
     std::span<const prepared_mesh> parts_;

@@ -37,6 +37,8 @@ void add(repair_statistics& sum, const repair_statistics& part) {
     sum.detached += part.detached;
     sum.touching += part.touching;
     sum.vanished_components += part.vanished_components;
+    sum.dropped_shells += part.dropped_shells;
+    sum.sheets += part.sheets;
     sum.volume_before += part.volume_before;
     sum.volume_after += part.volume_after;
     sum.area_before += part.area_before;

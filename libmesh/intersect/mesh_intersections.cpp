@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/effort.hpp>
 #include <libmesh/intersect/block_candidates.hpp>
 #include <libmesh/intersect/face_candidates.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
@@ -13,9 +14,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace treeform {
 namespace {
@@ -43,12 +46,42 @@ void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces&
     bad.in_b = std::min(bad.in_b, more.in_b);
 }
 
+/// Pairs that the chunks of a search have looked at, of which there may be too many: those up to
+/// the first chunk that found enough count, which is the same on any number of threads.
+class pairs_looked_at {
+  public:
+    pairs_looked_at(std::size_t chunks, std::uint64_t most)
+        : of_chunk_(most == unlimited ? 0 : chunks), most_(most) {}
+
+    static constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+    /// False when the chunks up to this one have too many: what comes after them does not matter.
+    bool add(std::size_t chunk, std::uint64_t pairs) {
+        if (of_chunk_.empty()) return true;
+        const std::uint64_t before = of_chunk_[chunk].fetch_add(pairs, std::memory_order_relaxed);
+        const std::uint64_t step = most_ / 256 + 1;  // all chunks are asked now and then
+        return before / step == (before + pairs) / step || up_to(chunk) <= most_;
+    }
+    [[nodiscard]] std::uint64_t up_to(std::size_t chunk) const {
+        std::uint64_t sum = 0;
+        for (std::size_t i = 0; i <= chunk && i < of_chunk_.size(); ++i)
+            sum += of_chunk_[i].load(std::memory_order_relaxed);
+        return sum;
+    }
+
+  private:
+    std::vector<std::atomic<std::uint64_t>> of_chunk_;
+    std::uint64_t most_;
+};
+
 /// What the chunks of a search give, in a narrow phase each.
 template <class Source>
 mesh_intersection_result classified(const pair_search<3>& search,
                                     const typename Source::input& meshes,
-                                    const mesh_intersection_options& options) {
+                                    const mesh_intersection_options& options,
+                                    detail::base::effort* effort = nullptr) {
     const std::size_t chunks = search.chunks();
+    pairs_looked_at looked(chunks, effort ? effort->allowance() : pairs_looked_at::unlimited);
     std::vector<detail::intersect::narrow_phase_output> found(chunks);
     std::vector<detail::intersect::bad_faces> bad(chunks);
     std::vector<search_statistics> searched(chunks);
@@ -57,17 +90,24 @@ mesh_intersection_result classified(const pair_search<3>& search,
     for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t, std::size_t) {
         const auto not_needed = [&] { return progress.cancelled() || chunk > last.load(); };
         detail::intersect::narrow_phase_output mine;  // outputs of neighbors share cache lines
+        bool too_many = false;
         const auto satisfied = [&] { return options.first_only && !mine.pairs.empty(); };
         detail::intersect::narrow_phase<Source> phase(options.kinds, mine, meshes, bad[chunk]);
         searched[chunk] = search.visit(chunk, [&](const candidate_block& block) {
             if (not_needed()) return false;
             phase.add(block);
-            return !satisfied();
+            too_many = !looked.add(chunk, block.first.size());
+            return !satisfied() && !too_many;
         });
-        if (satisfied()) detail::lower(last, chunk);
+        if (satisfied() || too_many) detail::lower(last, chunk);
         found[chunk] = std::move(mine);
         progress.chunk_done();
     });
+    if (effort && !effort->spend(looked.up_to(last.load()))) {
+        mesh_intersection_result nothing;
+        nothing.cancelled = true;
+        return nothing;
+    }
     detail::intersect::bad_faces met;
     mesh_intersection_result result;
     for (std::size_t chunk = 0; chunk < std::min(last.load() + 1, chunks); ++chunk) {
@@ -85,11 +125,12 @@ mesh_intersection_result classified(const pair_search<3>& search,
 mesh_intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                              const tree<3>& tree_b,
                                              const mesh_intersection_options& options,
-                                             const mesh_positions& moves) {
+                                             const mesh_positions& moves,
+                                             detail::base::effort* effort = nullptr) {
     const pair_search<3> search(transformed(tree_a, moves.move_a),
                                 transformed(tree_b, moves.move_b), turned_boxes::both_ways);
     return classified<detail::intersect::face_candidates>(
-        search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options);
+        search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options, effort);
 }
 
 /// \param moves what is still to be done to the trees
@@ -123,10 +164,11 @@ bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tr
 
 mesh_intersection_result detail::intersect::mesh_intersections(
     mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-    const mesh_intersection_options& options) {
+    const mesh_intersection_options& options, base::effort* effort) {
     check_tree("treeform::mesh_intersections", "first", a, tree_a);
     check_tree("treeform::mesh_intersections", "second", b, tree_b);
-    return classified_by_faces(a, tree_a, b, tree_b, options, {options.move_a, options.move_b});
+    return classified_by_faces(a, tree_a, b, tree_b, options, {options.move_a, options.move_b},
+                               effort);
 }
 
 mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,

@@ -1,8 +1,10 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/effort.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/intersect/point_locator.hpp>
+#include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/length_of.hpp>
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
@@ -46,9 +48,11 @@ std::vector<point3> corner_of_each_part(mesh_view mesh) {
 /// and by a corner of each part; the last one is judged exactly.
 class way_out_search {
   public:
-    way_out_search(const shape& a, const shape& b, detail::base::work_progress& work)
+    way_out_search(const shape& a, const shape& b, detail::base::effort& effort,
+                   detail::base::work_progress& work)
         : a_(a),
           b_(b),
+          effort_(effort),
           work_(work),
           box_a_(bounding_box(a.mesh().points).value()),
           box_b_(bounding_box(b.mesh().points).value()) {
@@ -71,7 +75,7 @@ class way_out_search {
             const double n = static_cast<double>(i) + 0.5;
             const double z = 1.0 - 2.0 * n / static_cast<double>(directions);
             const double r = std::sqrt(1.0 - z * z), at = turn * n;
-            if (!work_.reach(0.4 + 0.2 * n / static_cast<double>(directions))) return;
+            if (!go_on(0.4 + 0.2 * n / static_cast<double>(directions))) return;
             look({r * std::cos(at), r * std::sin(at), z});
         }
         refine();
@@ -79,7 +83,7 @@ class way_out_search {
 
     /// The shortest offset found that stands the exact judgment, stepped out a little where
     /// rounding asks for it; `verified`, which has stood it, where none does.
-    [[nodiscard]] point3 settled(const point3& verified) const {
+    [[nodiscard]] point3 settled(const point3& verified) {
         const double limit = length_of(verified);
         for (auto found = ways_.rbegin(); found != ways_.rend() && !work_.cancelled(); ++found)
             for (const double stretch : stretches) {
@@ -89,18 +93,20 @@ class way_out_search {
         return verified;
     }
 
-    /// Exactly, on the coordinates as moved.
-    [[nodiscard]] bool is_out(const point3& offset) const {
+    /// Exactly, on the coordinates as moved; false, too, where that takes too much effort.
+    [[nodiscard]] bool is_out(const point3& offset) {
         std::vector<point3> points(a_.mesh().points.begin(), a_.mesh().points.end());
         for (point3& p : points) p = plus(p, offset);
         const mesh_view there{points, a_.mesh().faces};
         const tree<3> faces = build_face_tree(there);
-        const auto how =
-            detail::place::relation_of(shape(a_.whose(), points, faces, a_.vertices()), b_);
-        return how.relation != mesh_relation::penetrating;
+        const auto how = detail::place::relation_of(shape(a_.whose(), points, faces, a_.vertices()),
+                                                    b_, {}, &effort_);
+        return how.status == status::ok && how.relation != mesh_relation::penetrating;
     }
 
   private:
+    [[nodiscard]] bool go_on(double done) { return work_.reach(done) && !effort_.spent(); }
+
     [[nodiscard]] static bool any_inside(const std::vector<point3>& corners, const point3& by,
                                          const shape& solid, const box3& box) {
         const detail::intersect::point_locator in(solid.joined(), solid.faces());
@@ -114,7 +120,7 @@ class way_out_search {
         return false;
     }
 
-    [[nodiscard]] bool seems_out(const point3& offset) const {
+    [[nodiscard]] bool seems_out(const point3& offset) {
         bool apart = false;
         for (std::size_t k = 0; k < 3; ++k)
             apart = apart || box_a_.min[k] + offset[k] > box_b_.max[k] ||
@@ -124,10 +130,9 @@ class way_out_search {
         options.move_a = translation<3>(offset);
         options.first_only = true;
         options.kinds = pair_kind::crossing;
-        if (!detail::intersect::mesh_intersections(a_.mesh(), a_.faces(), b_.mesh(), b_.faces(),
-                                                   options)
-                 .pairs.empty())
-            return false;
+        const auto found = detail::intersect::mesh_intersections(a_.mesh(), a_.faces(), b_.mesh(),
+                                                                 b_.faces(), options, &effort_);
+        if (!found.pairs.empty() || found.cancelled) return false;
         return !any_inside(parts_a_, offset, b_, box_b_) &&
                !any_inside(parts_b_, scaled(offset, -1.0), a_, box_a_);
     }
@@ -142,8 +147,9 @@ class way_out_search {
         options.move_a = translation<3>(offset);
         options.latest = out;
         options.limit = 1;
-        const impact back =
-            time_of_impact(a_.whose(), b_.whose(), scaled(direction, -1.0), options);
+        const impact back = detail::place::impact_of(a_.mesh(), a_.faces(), b_.mesh(), b_.faces(),
+                                                     scaled(direction, -1.0), options, &effort_);
+        if (back.status == status::cancelled) return false;
         const double time =
             std::max(back.end == motion_end::contact ? out - back.time : out, least_);
         if (!(time < length_)) return false;
@@ -157,7 +163,7 @@ class way_out_search {
     void refine() {
         int step = 0;
         for (double tilt = 0.5; tilt > 1e-6; tilt *= 0.6) {
-            if (!work_.reach(0.6 + 0.3 * static_cast<double>(++step) / 26.0)) return;
+            if (!go_on(0.6 + 0.3 * static_cast<double>(++step) / 26.0)) return;
             for (int again = 0; again < 8 && look_around(tilt); ++again) continue;
         }
     }
@@ -181,6 +187,7 @@ class way_out_search {
 
     const shape& a_;
     const shape& b_;
+    detail::base::effort& effort_;
     detail::base::work_progress& work_;
     box3 box_a_, box_b_;
     std::vector<point3> parts_a_, parts_b_;
@@ -205,10 +212,13 @@ std::optional<penetration_depth_result> penetration_depth(const prepared_mesh& a
     const auto how = detail::place::relation_of(of_a, of_b, work.part(0.0, 0.1));
     if (how.status == status::cancelled) return stopped;
     if (how.relation != mesh_relation::penetrating) return std::nullopt;
-    const auto found =
-        detail::place::find_moves_apart(of_a, {&of_b, 1}, {.progress = work.part(0.1, 0.4)});
+    detail::base::effort effort(options.effort, a.view().faces.size() + b.view().faces.size());
+    effort.hold(0.5);  // for the judgments, and for what shortens the way
+    const auto found = detail::place::find_moves_apart(
+        of_a, {&of_b, 1}, {.effort = &effort, .progress = work.part(0.1, 0.4)});
     if (work.cancelled()) return stopped;
-    way_out_search search(of_a, of_b, work);
+    way_out_search search(of_a, of_b, effort, work);
+    effort.hold(0.375);
     // The first that is out exactly: rounding may have put one back in.
     std::optional<point3> verified;
     for (const auto& move : found.moves)
@@ -216,12 +226,16 @@ std::optional<penetration_depth_result> penetration_depth(const prepared_mesh& a
             const point3 offset = scaled(move.direction, move.time * stretch);
             if (!verified && search.is_out(offset)) verified = offset;
         }
-    if (!verified) return penetration_depth_result{.status = status::no_place};
+    if (!verified)
+        return penetration_depth_result{.effort = effort.so_far(), .status = status::no_place};
+    effort.hold(0.125);
     search.improve(*verified, options.directions);
+    effort.hold(0.0);
     const point3 move = search.settled(*verified);
     if (work.cancelled()) return stopped;
     work.reach(1.0);
-    return penetration_depth_result{.depth = length_of(move), .move = move};
+    return penetration_depth_result{
+        .depth = length_of(move), .move = move, .effort = effort.so_far()};
 }
 
 std::optional<penetration_depth_result> penetration_depth(mesh_view a, mesh_view b,

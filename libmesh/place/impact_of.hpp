@@ -2,21 +2,28 @@
 /// \file
 /// When a mesh in motion meets another, or comes near it, with the trees of both.
 
+#include <libmesh/base/effort.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tree/tree.hpp>
 
 namespace treeform::detail::place {
 
-/// As `time_of_impact`. \pre the trees are those of the meshes
+/// As `time_of_impact`; `cancelled`, too, where the effort does not suffice.
+///
+/// \pre the trees are those of the meshes
 [[nodiscard]] TREEFORM_API impact impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                             const tree<3>& tree_b, const point3& motion,
-                                            const impact_options& options = {});
+                                            const impact_options& options = {},
+                                            base::effort* effort = nullptr);
 
-/// As `time_to_distance`. \pre the trees are those of the meshes
+/// As `time_to_distance`, with an effort likewise, which looking where it starts does not spend.
+///
+/// \pre the trees are those of the meshes
 [[nodiscard]] TREEFORM_API approach approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                                 const tree<3>& tree_b, const point3& motion,
                                                 double distance,
-                                                const approach_options& options = {});
+                                                const approach_options& options = {},
+                                                base::effort* effort = nullptr);
 
 }  // namespace treeform::detail::place

@@ -91,6 +91,9 @@ std::string placement::message(std::span<const std::string> names) const {
         case placement_end::too_far:
             return too_far(*this);
         case placement_end::no_coordinates:
+            if (effort.cut > 0)
+                return "no way out was found within " + counted(effort.bound, "pair", "pairs") +
+                       " of faces";
             return floats ? "rounded to float32 there is no such place"
                           : "there is no such place in coordinates that can be written";
         case placement_end::too_many_steps:

@@ -13,9 +13,11 @@
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -92,11 +94,19 @@ class clearing {
         for (const double tilt : {0.5, 0.25, 0.125, 0.0625})
             for (const point3& aside : around(best.direction))
                 look(direction_of(plus(best.direction, scaled(aside, tilt))));
+        if (!options_.effort) return found;
+        for (const point3& axis : axes())
+            if (const double out = past_all(axis) * (1.0 + 0x1p-10); std::isfinite(out))
+                found.push_back({axis, out});
         return found;
     }
 
     /// Asked of each place: the share is that of the directions, of which some fifty are looked at.
     bool go_on() { return work_.step(0.0, 0.95, looked_, 25.0); }
+
+    [[nodiscard]] static std::array<point3, 6> axes() {
+        return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+    }
 
     /// Six directions at right angles to one.
     [[nodiscard]] static std::vector<point3> around(const point3& d) {
@@ -166,17 +176,18 @@ class clearing {
         mesh_intersection_options crossing{.move_a = translation<3>(offset), .first_only = true};
         crossing.progress = asking_;
         crossing.kinds = pair_kind::crossing;
-        for (const std::size_t i : close)
-            if (!intersect::mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(),
-                                               crossing)
-                     .pairs.empty())
-                return false;
+        for (const std::size_t i : close) {
+            const auto found = intersect::mesh_intersections(
+                a_, tree_, parts_[i].mesh(), parts_[i].faces(), crossing, options_.effort);
+            if (!found.pairs.empty() || found.cancelled) return false;
+        }
         const tree<3> faces = build_face_tree(there);
-        for (const std::size_t i : close)
-            if (relation_of(shape(shape_.whose(), points, faces, parts_[i].vertices()), parts_[i],
-                            asking_)
-                    .relation == mesh_relation::penetrating)
+        for (const std::size_t i : close) {
+            const auto how = relation_of(shape(shape_.whose(), points, faces, parts_[i].vertices()),
+                                         parts_[i], asking_, options_.effort);
+            if (how.relation == mesh_relation::penetrating || how.status == status::cancelled)
                 return false;
+        }
         return !work_.cancelled();
     }
 
@@ -192,16 +203,20 @@ class clearing {
         return std::max(least, 0.0);
     }
 
+    [[nodiscard]] double past_all(const point3& direction) const {
+        double out = 0.0;
+        for (const box3& other : boxes_)
+            out = std::max(out, beyond_box(other, direction) * (1.0 + 0x1p-20));
+        return out;
+    }
+
     /// The length of a free way back from the first free place along `direction`.
     [[nodiscard]] std::optional<double> way_out(const point3& direction, double lacking,
                                                 double best) {
         std::vector<double> times;
-        double out = 0.0;
-        for (std::size_t i = 0; i < boxes_.size(); ++i) {
-            const double beyond = beyond_box(boxes_[i], direction);
-            if (boxes_within(i, {})) times.push_back(beyond);
-            out = std::max(out, beyond * (1.0 + 0x1p-20));
-        }
+        for (std::size_t i = 0; i < boxes_.size(); ++i)
+            if (boxes_within(i, {})) times.push_back(beyond_box(boxes_[i], direction));
+        const double out = past_all(direction);
         if (!std::isfinite(out)) return std::nullopt;
         for (int k = 12; k >= 0; --k) times.push_back(std::ldexp(out, -k));
         if (lacking > 0.0) times.push_back(lacking * (1.0 + 0x1p-40));
@@ -224,6 +239,7 @@ class clearing {
                         {.clearance = options_.clearance,
                          .latest = time - occupied,
                          .limit = 1,
+                         .effort = options_.effort,
                          .progress = asking_});
         return back.end == motion_end::contact ? time - back.time : time;
     }
@@ -236,12 +252,7 @@ class clearing {
                 if (dot(known, *d) > 1.0 - 0x1p-30) return;
             found.push_back(*d);
         };
-        for (std::size_t k = 0; k < 3; ++k)
-            for (const double sign : {1.0, -1.0}) {
-                point3 axis{};
-                axis[k] = sign;
-                offer(axis);
-            }
+        for (const point3& axis : axes()) offer(axis);
         offer_nearest(offer);
         const std::size_t most = found.size() + options_.normals;
         point3 all{};
@@ -264,7 +275,8 @@ class clearing {
     [[nodiscard]] std::vector<face_pair> touching_pairs(std::size_t i) {
         if (!boxes_within(i, {})) return {};
         return intersect::mesh_intersections(a_, tree_, parts_[i].mesh(), parts_[i].faces(),
-                                             {.limit = options_.face_pairs, .progress = asking_})
+                                             {.limit = options_.face_pairs, .progress = asking_},
+                                             options_.effort)
             .pairs;
     }
 

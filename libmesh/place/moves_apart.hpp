@@ -2,6 +2,7 @@
 /// \file
 /// Short translations that take a mesh out of others, or away from them.
 
+#include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -13,9 +14,10 @@
 namespace treeform::detail::place {
 
 struct apart_options {
-    double clearance = 0.0;       ///< the least distance wanted; 0: not to penetrate
-    std::size_t normals = 24;     ///< normals of faces that are tried as directions, at most
-    std::size_t face_pairs = 64;  ///< pairs of faces whose normals are looked at, for each part
+    double clearance = 0.0;          ///< the least distance wanted; 0: not to penetrate
+    std::size_t normals = 24;        ///< normals of faces that are tried as directions, at most
+    std::size_t face_pairs = 64;     ///< pairs of faces whose normals are looked at, for each part
+    base::effort* effort = nullptr;  ///< that it may spend, if there is a bound
     progress_callback progress{};
 };
 
@@ -39,7 +41,9 @@ struct moves_apart {
 /// from near to far are looked at; from the first free one the mesh slides back, as `sweep_among`
 /// does, until contact or to the clearance. That need not be the least translation in a direction,
 /// nor the best of all directions, which is a boundary point of a set with O(n^2 m^2) faces. At
-/// least one is given: along an axis, past all boxes.
+/// least one is given: along an axis, past all boxes. A place of which it takes too much effort to
+/// say that it is free is passed over, a way back of which it does is not gone. With an
+/// effort, the ways along the axes past all boxes are always among those given.
 ///
 /// The places are those of exact translations except for rounding: `settle_among`, backing off
 /// `forward`, decides in the coordinates that are written.

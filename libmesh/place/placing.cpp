@@ -56,8 +56,11 @@ placing::placing(const prepared_mesh& moving, std::span<const prepared_mesh> fix
       work_(options_.progress) {
     check(options);
     check_operand(options.function, "moving", moving.view());
-    for (std::size_t i = 0; i < fixed.size(); ++i)
+    faces_ = moving.view().faces.size();
+    for (std::size_t i = 0; i < fixed.size(); ++i) {
         check_operand(options.function, "fixed " + std::to_string(i), fixed[i].view());
+        faces_ += fixed[i].view().faces.size();
+    }
     box_ = box_of_faces(moving.view());
     if (options.max_travel) longest_ = *options.max_travel;
     result_.max_travel = options.max_travel;
@@ -153,13 +156,15 @@ void placing::stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, placement_end::stays); 
 
 /// Writes the place down: `end` is what it is then, if it can be written.
 void placing::settle(const chosen_parts& known, const point3& motion, double time,
-                     placement_end end, bool forward, bool close_in) {
+                     placement_end end, bool close_in, base::effort* effort) {
+    const bool forward = effort != nullptr;  // out of something
     const chosen_parts parts =
         known.parts.empty() ? among_.on_the_way(*box_, motion, time, options_.clearance) : known;
     settle_among_options options{.precision = options_.precision,
                                  .clearance = options_.clearance,
                                  .forward = forward,
                                  .close_in = close_in,
+                                 .effort = effort,
                                  .progress = work_.part(0.6, 0.85)};
     if (result_.bed && end != placement_end::stays && !forward) options.floor = result_.bed;
     auto settled = settle_among(whose_, parts.parts, motion, time, options);
@@ -209,7 +214,7 @@ void placing::slide(const point3& direction) {
     if (met.end == motion_end::contact) {
         result_.contacts = contacts_of(moving_, parts, met, motion);
         result_.contact_count = met.contact_count;
-        settle(parts, motion, met.time, placement_end::contact, false, options_.close_in);
+        settle(parts, motion, met.time, placement_end::contact, options_.close_in);
     } else if (std::isfinite(bed_time) && bed_time <= allowed) {
         result_.on_bed = true;
         settle(parts, motion, bed_time, placement_end::bed);
@@ -270,10 +275,12 @@ void placing::separate() {
     if (!near) return stay();
     // The way out of what is near, if nothing else is there; else out of more.
     double reach = options_.clearance;
+    base::effort effort(options_.effort, faces_);
     while (true) {
         const chosen_parts parts = among_.around(*box_, reach);
         result_.statistics.fixed_culled = among_.size() - parts.parts.size();
-        leave(parts);
+        leave(parts, effort);
+        result_.effort = effort.so_far();
         if (!placed()) return;
         const box3 there = *box_of_faces({result_.points, whose_.view().faces});
         if (!among_.others_around(there, options_.clearance, parts)) return;
@@ -284,18 +291,21 @@ void placing::separate() {
 }
 
 /// To the first place that can be written at which the mesh is clear of these.
-void placing::leave(const chosen_parts& parts) {
+void placing::leave(const chosen_parts& parts, base::effort& effort) {
+    effort.hold(0.5);  // for the judgments
     const moves_apart found = find_moves_apart(moving_, parts.parts,
                                                {.clearance = options_.clearance,
                                                 .normals = options_.normals,
                                                 .face_pairs = options_.face_pairs,
+                                                .effort = &effort,
                                                 .progress = work_.part(0.2, 0.6)});
     over();
+    effort.hold(0.0);
     bool tried = false;
     for (const move_apart& move : found.moves) {
         if (move.time > longest_) break;
         tried = true;
-        settle(parts, move.direction, move.time, placement_end::moved_apart, true);
+        settle(parts, move.direction, move.time, placement_end::moved_apart, false, &effort);
         if (placed()) return;
     }
     if (found.moves.empty()) return stay();

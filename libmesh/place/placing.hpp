@@ -28,6 +28,7 @@ struct placing_options {
     bool along_direction = false;  ///< what is met on the way matters, and nothing else
     std::size_t normals = 24;
     std::size_t face_pairs = 64;
+    std::uint64_t effort = 0;  ///< of `separate`
     std::size_t limit = 1000;
     vertex_identity vertices = vertex_identity::by_coordinates;
     progress_callback progress{};
@@ -77,9 +78,9 @@ class placing {
     void on_bed_at_place(mesh_view there);
     [[nodiscard]] bool stuck_at_start();
     void settle(const chosen_parts& known, const point3& motion, double time, placement_end end,
-                bool forward = false, bool close_in = false);
+                bool close_in = false, base::effort* effort = nullptr);
     void lift(const point3& motion, double above);
-    void leave(const chosen_parts& parts);
+    void leave(const chosen_parts& parts, base::effort& effort);
     void forget_place();
 
     const prepared_mesh& whose_;
@@ -89,6 +90,7 @@ class placing {
     base::work_progress work_;
     std::optional<box3> box_;
     double longest_ = std::numeric_limits<double>::infinity();
+    std::size_t faces_ = 0;  ///< of all
     placement result_{};
 };
 

@@ -27,28 +27,40 @@ plane_points plane_of(mesh_view mesh, std::uint32_t f) {
     return {mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
 }
 
+/// Searches for pairs of faces, of which one was stopped, or none.
+struct pair_searches {
+    detail::base::effort* effort = nullptr;
+    bool stopped = false;
+
+    [[nodiscard]] mesh_intersection_result pairs(const shape& a, const shape& b,
+                                                 const mesh_intersection_options& options) {
+        auto found = detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(),
+                                                           options, effort);
+        stopped = stopped || found.cancelled;
+        return found;
+    }
+};
+
 /// The first face that passes through one of the other mesh.
 std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
-                                        const progress_callback& progress) {
+                                        const progress_callback& progress, pair_searches& how) {
     if (a.whose().is_cloud() || b.whose().is_cloud()) return std::nullopt;  // points only touch
     mesh_intersection_options options;
     options.first_only = true;
     options.kinds = pair_kind::crossing;
     options.progress = progress;
-    const auto crossing =
-        detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
+    const auto crossing = how.pairs(a, b, options);
     if (!crossing.pairs.empty()) return crossing.pairs[0];
     return std::nullopt;
 }
 
 /// Faces of closed meshes that lie on each other with what is inside on the same side.
 std::optional<face_pair> faces_on_one_side(const shape& a, const shape& b,
-                                           const progress_callback& progress) {
+                                           const progress_callback& progress, pair_searches& how) {
     mesh_intersection_options options;
     options.kinds = pair_kind::overlap;
     options.progress = progress;
-    const auto found =
-        detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), options);
+    const auto found = how.pairs(a, b, options);
     for (const face_pair& pair : found.pairs) {
         const auto of_a = detail::place::sides_beside(a, pair.a);
         const auto of_b = detail::place::sides_beside(b, pair.b);
@@ -113,8 +125,10 @@ std::optional<std::uint32_t> face_inside(const shape& of, const shape& solid, bo
 }  // namespace
 
 mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
-                                                const progress_callback& progress) {
+                                                const progress_callback& progress,
+                                                base::effort* effort) {
     detail::base::work_progress work(progress);
+    pair_searches search{effort};
     const mesh_relation_result cancelled{.status = status::cancelled};
     mesh_relation_result result;
     const auto penetrating = [&](std::uint32_t face_a, std::uint32_t face_b) {
@@ -124,24 +138,23 @@ mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
         work.reach(1.0);
         return result;
     };
-    const auto crossing = crossing_faces(a, b, work.part(0.0, 0.3));
-    if (work.cancelled()) return cancelled;
+    const auto crossing = crossing_faces(a, b, work.part(0.0, 0.3), search);
+    if (search.stopped) return cancelled;
     if (crossing) return penetrating(crossing->a, crossing->b);
 
     mesh_intersection_options first;
     first.first_only = true;
     first.progress = work.part(0.3, 0.6);
-    const auto touch =
-        detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), first);
-    if (work.cancelled()) return cancelled;
+    const auto touch = search.pairs(a, b, first);
+    if (search.stopped) return cancelled;
     const bool touching = !touch.pairs.empty();
     if (touching) {
         result.relation = mesh_relation::touching;
         result.face_a = touch.pairs[0].a;
         result.face_b = touch.pairs[0].b;
         if (a.closed() && b.closed()) {
-            const auto pair = faces_on_one_side(a, b, work.part(0.6, 0.8));
-            if (work.cancelled()) return cancelled;
+            const auto pair = faces_on_one_side(a, b, work.part(0.6, 0.8), search);
+            if (search.stopped) return cancelled;
             if (pair) return penetrating(pair->a, pair->b);
         }
     }

@@ -103,7 +103,12 @@ class settling {
             if (!go_on(0.0)) return;
             if (!faces) faces = build_face_tree(there);
             const shape moved(whose_, one.points, *faces, part.vertices());
-            const mesh_relation how = relation_of(moved, part, go_on).relation;
+            const auto judged = relation_of(moved, part, go_on, options_.effort);
+            if (judged.status == status::cancelled) {
+                one.good = false;
+                return;
+            }
+            const mesh_relation how = judged.relation;
             const bool near =
                 how == mesh_relation::separate && options_.clearance > 0.0 && nearer(moved, part);
             const bool too_near = how == mesh_relation::penetrating || near ||
@@ -170,7 +175,8 @@ settled_among settle_among(const prepared_mesh& a, std::span<const shape> parts,
     };
     double bad = time;
     double step = unit;
-    while (!best.good && best.backed_off < options.attempts) {
+    const auto may_go_on = [&] { return !options.effort || !options.effort->spent(); };
+    while (!best.good && best.backed_off < options.attempts && may_go_on()) {
         const unsigned count = best.backed_off + 1;
         bad = best.time;
         best = place.at(back(step), false);

@@ -2,6 +2,7 @@
 /// \file
 /// A mesh moved among others in coordinates that can be written, so that it keeps off all of them.
 
+#include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/measure.hpp>
@@ -31,6 +32,7 @@ struct settle_among_options {
     /// place, up to 4, until one more would penetrate, or the meshes touch. Without a clearance and
     /// backing off to earlier times only.
     bool close_in = false;
+    base::effort* effort = nullptr;  ///< a place of which it does not suffice to judge is not good
     progress_callback progress{};
 };
 

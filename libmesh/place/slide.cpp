@@ -107,6 +107,7 @@ placement separate(const prepared_mesh& moving, many fixed, const separate_optio
                   .precision = o.precision,
                   .normals = o.normals,
                   .face_pairs = o.face_pairs,
+                  .effort = o.effort,
                   .limit = o.limit,
                   .vertices = o.vertices,
                   .progress = o.progress});

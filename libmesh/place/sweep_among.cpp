@@ -19,21 +19,23 @@ struct part_end {
     std::uint64_t contact_count = 0;
     std::uint64_t pairs_tested = 0;
     predicate_counters predicates{};
+    treeform::status status = treeform::status::ok;
 };
 
 part_end end_at(const shape& a, const shape& part, const point3& motion, double latest,
                 const sweep_options& options, const progress_callback& progress) {
     if (options.clearance > 0.0) {
-        auto one =
-            approach_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion, options.clearance,
-                        {.latest = latest, .limit = options.limit, .progress = progress});
+        auto one = approach_of(
+            a.mesh(), a.faces(), part.mesh(), part.faces(), motion, options.clearance,
+            {.latest = latest, .limit = options.limit, .progress = progress}, options.effort);
         return {one.end,           one.time,         {}, std::move(one.contacts),
-                one.contact_count, one.pairs_tested, {}};
+                one.contact_count, one.pairs_tested, {}, one.status};
     }
-    auto one = impact_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion,
-                         {.latest = latest, .limit = options.limit, .progress = progress});
-    return {one.end,           one.time,         one.exact,     std::move(one.contacts),
-            one.contact_count, one.pairs_tested, one.predicates};
+    auto one =
+        impact_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion,
+                  {.latest = latest, .limit = options.limit, .progress = progress}, options.effort);
+    return {one.end,           one.time,         one.exact,      std::move(one.contacts),
+            one.contact_count, one.pairs_tested, one.predicates, one.status};
 }
 
 }  // namespace
@@ -51,7 +53,8 @@ sweep_result sweep_among(const shape& a, std::span<const shape> parts, const poi
         const auto before = static_cast<double>(i);
         part_end one = end_at(a, parts[i], motion, latest, options,
                               work.part(before * share, (before + 1.0) * share));
-        if (work.cancelled()) return {.status = status::cancelled};
+        if (work.cancelled() || one.status == status::cancelled)
+            return {.status = status::cancelled};
         result.pairs_tested += one.pairs_tested;
         result.predicates += one.predicates;
         if (one.end == motion_end::free) continue;

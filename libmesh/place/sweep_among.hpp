@@ -2,6 +2,7 @@
 /// \file
 /// How far a mesh can be moved among several others.
 
+#include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -19,7 +20,8 @@ namespace treeform::detail::place {
 struct sweep_options {
     double clearance = 0.0;  ///< the gap to leave; 0: until contact
     double latest = std::numeric_limits<double>::infinity();
-    std::size_t limit = 1000;  ///< contacts listed
+    std::size_t limit = 1000;        ///< contacts listed
+    base::effort* effort = nullptr;  ///< where it does not suffice, the sweep is `cancelled`
     progress_callback progress{};
 };
 

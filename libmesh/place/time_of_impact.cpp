@@ -5,12 +5,17 @@
 #include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/tree/sweep.hpp>
+#include <treeform/tree/detail/bounded_sweep.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace treeform {
 namespace {
@@ -50,6 +55,38 @@ struct earliest {
     std::pair<std::uint32_t, std::uint32_t> lowest_{};
 };
 
+/// The first `limit` pairs of faces that meet at the time of the result.
+template <class FaceA, class FaceB>
+void enter_contacts(std::vector<earliest::pair>& pairs, const point3& motion, std::size_t limit,
+                    const FaceA& face_a, const FaceB& face_b, impact& result) {
+    result.contact_count = pairs.size();
+    std::sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) {
+        return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+    });
+    pairs.resize(std::min(pairs.size(), limit));
+    for (const auto& pair : pairs) {
+        triangle3 t = face_a(pair.a);
+        for (point3& p : t)
+            for (std::size_t k = 0; k < 3; ++k) p[k] += result.time * motion[k];
+        result.contacts.push_back(
+            {pair.a, pair.b, pair.at, closest_points(t, face_b(pair.b)).on_b});
+    }
+}
+
+/// None where the effort does not suffice to say.
+std::optional<bool> meets_at_start(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                   const tree<3>& tree_b, const impact_options& options,
+                                   detail::base::effort* effort) {
+    if (!effort)
+        return detail::intersect::intersects(a, tree_a, b, tree_b,
+                                             {options.move_a, options.move_b});
+    const auto first = detail::intersect::mesh_intersections(
+        a, tree_a, b, tree_b,
+        {.move_a = options.move_a, .move_b = options.move_b, .first_only = true}, effort);
+    if (first.cancelled) return std::nullopt;
+    return !first.pairs.empty();
+}
+
 }  // namespace
 
 double time_not_beyond(const sweep_contact& contact, const point3& motion) {
@@ -71,12 +108,14 @@ double time_not_beyond(const sweep_contact& contact, const point3& motion) {
 
 impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                 const tree<3>& tree_b, const point3& motion,
-                                const impact_options& options) {
+                                const impact_options& options, base::effort* effort) {
     impact result;
     if (!(options.latest >= 0.0))
         throw std::invalid_argument("treeform::time_of_impact: the latest time is negative or NaN");
     detail::base::work_progress work(options.progress);
-    if (detail::intersect::intersects(a, tree_a, b, tree_b, {options.move_a, options.move_b})) {
+    const auto meets = meets_at_start(a, tree_a, b, tree_b, options, effort);
+    if (!meets) return {.status = status::cancelled};
+    if (*meets) {
         result.end = motion_end::at_start;
         work.reach(1.0);
         return result;
@@ -85,6 +124,8 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     const auto go_on = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
         return result.pairs_tested % 1024 != 0 || work.step(0.4, 0.9, result.pairs_tested, usual);
     };
+    const std::uint64_t most = effort ? effort->allowance() / base::effort::in_motion
+                                      : std::numeric_limits<std::uint64_t>::max();
     const transformed<3> moving(tree_a, options.move_a);
     const transformed<3> still(tree_b, options.move_b);
     const auto face_a = [&](std::uint32_t f) {
@@ -95,16 +136,17 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     };
 
     earliest found;
-    visit_swept(
-        moving, still, motion,
+    const std::uint64_t opened = detail::sweep_within<3>(
+        moving, still, {motion.x, motion.y, motion.z}, options.latest, most,
         [&](std::uint32_t i, std::uint32_t j) {
             ++result.pairs_tested;
-            if (!go_on()) return -1.0;
+            if (!go_on() || result.pairs_tested > most) return -1.0;
             if (const auto one = first_contact(face_a(i), face_b(j), motion, &result.predicates))
                 found.offer(motion, i, j, *one, result.predicates);
             return found.first ? found.first->time * (1.0 + 0x1p-38) : options.latest;
-        },
-        options.latest);
+        });
+    if (effort && !effort->spend((result.pairs_tested + opened) * base::effort::in_motion))
+        return {.status = status::cancelled};
     if (work.cancelled() || !work.reach(1.0)) return {.status = status::cancelled};
     if (!found.first) return result;
     if (std::isfinite(options.latest) &&
@@ -114,18 +156,7 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     result.end = motion_end::contact;
     result.exact = *found.first;
     result.time = time_not_beyond(*found.first, motion);
-    result.contact_count = found.pairs.size();
-    std::sort(found.pairs.begin(), found.pairs.end(), [](const auto& x, const auto& y) {
-        return std::pair(x.a, x.b) < std::pair(y.a, y.b);
-    });
-    found.pairs.resize(std::min(found.pairs.size(), options.limit));
-    for (const auto& pair : found.pairs) {
-        triangle3 t = face_a(pair.a);
-        for (point3& p : t)
-            for (std::size_t k = 0; k < 3; ++k) p[k] += result.time * motion[k];
-        result.contacts.push_back(
-            {pair.a, pair.b, pair.at, closest_points(t, face_b(pair.b)).on_b});
-    }
+    enter_contacts(found.pairs, motion, options.limit, face_a, face_b, result);
     return result;
 }
 

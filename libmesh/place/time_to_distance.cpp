@@ -6,10 +6,12 @@
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/sweep.hpp>
+#include <treeform/tree/detail/bounded_sweep.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -78,7 +80,7 @@ using pair_of_faces = std::pair<std::uint32_t, std::uint32_t>;
 
 approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                     const tree<3>& tree_b, const point3& motion, double distance,
-                                    const approach_options& options) {
+                                    const approach_options& options, base::effort* effort) {
     if (!(distance > 0.0) || !std::isfinite(distance))
         throw std::invalid_argument(
             "treeform::time_to_distance: the distance is not positive or infinite");
@@ -97,14 +99,16 @@ approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_vie
     const auto go_on = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
         return result.pairs_tested % 1024 != 0 || work.step(0.4, 0.9, result.pairs_tested, usual);
     };
+    const std::uint64_t most = effort ? effort->allowance() / base::effort::in_motion
+                                      : std::numeric_limits<std::uint64_t>::max();
     double latest = options.latest;
     std::vector<pair_of_faces> pairs;
     const tree<3> wide = widened_tree(a, distance);
-    visit_swept(
-        wide, tree_b, motion,
+    const std::uint64_t opened = detail::sweep_within<3>(
+        wide, tree_b, {motion.x, motion.y, motion.z}, options.latest, most,
         [&](std::uint32_t i, std::uint32_t j) {
             ++result.pairs_tested;
-            if (!go_on()) return -1.0;
+            if (!go_on() || result.pairs_tested > most) return -1.0;
             const moving_pair pair{triangle_of(a, i), triangle_of(b, j), motion};
             const double below = std::max(0.0, distance - pair.slack(distance));
             const auto time = pair.time_within(distance, latest);
@@ -115,8 +119,9 @@ approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_vie
             latest = *time;
             pairs.emplace_back(i, j);
             return latest;
-        },
-        options.latest);
+        });
+    if (effort && !effort->spend((result.pairs_tested + opened) * base::effort::in_motion))
+        return {.status = status::cancelled};
     if (work.cancelled() || !work.reach(1.0)) return {.status = status::cancelled};
     if (pairs.empty()) return result;
 

@@ -11,8 +11,11 @@
 #include <treeform/mesh/repair.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace treeform::detail::repair {
@@ -41,16 +44,70 @@ class part_areas {
             areas_[part_of_[f]] += topology::area({mesh.points, {&mesh.faces[f], 1}});
     }
 
-    /// A sheet has about the area of what closes it, a half of a ball twice as much.
+    /// A sheet has about the area of what closes it, a half of a ball twice as much. A flat solid
+    /// without its top has as much as a sheet, but is all to one side of where that is missing.
     [[nodiscard]] bool is_sheet_without(const working_mesh& mesh, const open_rim& rim,
-                                        const std::vector<face>& filling) const {
+                                        const std::vector<face>& filling) {
         constexpr double most = 0.6;
-        return topology::area({mesh.points, filling}) > most * areas_[part_of_[rim.faces[0]]];
+        const std::uint32_t part = part_of_[rim.faces[0]];
+        return topology::area({mesh.points, filling}) > most * areas_[part] &&
+               !is_all_below(mesh, rim, part);
     }
 
   private:
-    std::vector<std::uint32_t> part_of_;  ///< [F]
-    std::vector<double> areas_;           ///< by part
+    /// Whether the rim is plane but for rounding, of float32 or six digits, and the part lies below it, as seen
+    /// from the side that the filling looks to, by so much that rounding does not make it.
+    [[nodiscard]] bool is_all_below(const working_mesh& mesh, const open_rim& rim,
+                                    std::uint32_t part) {
+        // Scaled, so that products are doubles whatever the unit.
+        const point3 origin = mesh.points[rim.points[0]];
+        double size = 0.0, largest = 0.0;
+        for (const std::uint32_t p : rim.points)
+            for (std::size_t k = 0; k < 3; ++k) {
+                size = std::max(size, std::abs(mesh.points[p][k] - origin[k]));
+                largest = std::max(largest, std::abs(mesh.points[p][k]));
+            }
+        if (!(size > 0.0) || !std::isfinite(size)) return false;
+        const auto at = [&](std::uint32_t p) {
+            const point3& from = mesh.points[p];
+            return point3{(from.x - origin.x) / size, (from.y - origin.y) / size,
+                          (from.z - origin.z) / size};
+        };
+        point3 normal{};
+        for (std::size_t i = 0; i < rim.points.size(); ++i)
+            normal = base::plus(normal, base::cross(at(rim.points[i]),
+                                                    at(rim.points[(i + 1) % rim.points.size()])));
+        const double length = std::sqrt(base::dot(normal, normal));
+        if (!(length > 0.0)) return false;
+        const auto height = [&](std::uint32_t p) { return base::dot(at(p), normal) / length; };
+        const double rounding = 0x1p-21 * std::max(1.0, largest / size);
+        if (std::ranges::any_of(
+                rim.points, [&](std::uint32_t p) { return !(std::abs(height(p)) <= rounding); }))
+            return false;
+        double lowest = 0.0;
+        for (const std::uint32_t f : faces_of(part))
+            for (const std::uint32_t p : mesh.faces[f]) {
+                if (!(height(p) <= rounding)) return false;
+                lowest = std::min(lowest, height(p));
+            }
+        return lowest < -16.0 * rounding;
+    }
+
+    /// Found once for all of them, where it is first asked for.
+    [[nodiscard]] std::span<const std::uint32_t> faces_of(std::uint32_t part) {
+        if (by_part_.empty()) {
+            by_part_.resize(part_of_.size());
+            std::iota(by_part_.begin(), by_part_.end(), 0U);
+            std::ranges::stable_sort(by_part_, {}, [&](std::uint32_t f) { return part_of_[f]; });
+        }
+        const auto own = std::ranges::equal_range(by_part_, part, {},
+                                                  [&](std::uint32_t f) { return part_of_[f]; });
+        return {own.begin(), own.end()};
+    }
+
+    std::vector<std::uint32_t> part_of_;    ///< [F]
+    std::vector<double> areas_;             ///< by part
+    std::vector<std::uint32_t> by_part_{};  ///< faces, part by part
 };
 
 }  // namespace
@@ -60,13 +117,16 @@ filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sh
     filled_holes done;
     const directed_edges edges(mesh.faces);
     std::optional<base::stars> stars;  // of the mesh before the first hole was filled
-    const part_areas parts(mesh);
+    part_areas parts(mesh);
     for (const open_rim& rim : open_rims(mesh, rims)) {
         if (rim.points.size() > largest) continue;
         std::vector<face> faces = triangulate_rim(mesh, rim, edges);
         const bool is_cone = faces.empty();
         if (is_cone) faces = cone_over(mesh, rim);
-        if (sheets == sheets_too::no && parts.is_sheet_without(mesh, rim, faces)) continue;
+        if (sheets == sheets_too::no && parts.is_sheet_without(mesh, rim, faces)) {
+            ++done.sheets;
+            continue;
+        }
         if (!is_cone && is_to_be_fair(mesh, rim, faces)) {
             if (!stars) stars.emplace(mesh.points.size(), mesh.faces);
             const std::size_t first = mesh.points.size();

@@ -94,8 +94,8 @@ double lost_area(mesh_view given, std::span<const std::uint8_t> is_left, mesh_vi
     return sum;
 }
 
-std::uint64_t count_vanished(const working_mesh& mesh, std::span<const std::uint8_t> is_left,
-                             mesh_view made, double largest) {
+vanished_parts count_vanished(const working_mesh& mesh, std::span<const std::uint8_t> is_left,
+                              mesh_view made, double largest) {
     const std::vector<std::uint32_t> part = parts_by_edges(mesh);
     std::vector<std::uint8_t> has_face(part.size(), 0);
     for (std::uint32_t f = 0; f < part.size(); ++f)
@@ -107,8 +107,19 @@ std::uint64_t count_vanished(const working_mesh& mesh, std::span<const std::uint
     const std::vector<double> lost = lost_areas(mesh.view(), gone, made);
     std::vector<double> lost_of(part.size(), 0.0);
     for (std::size_t i = 0; i < gone.size(); ++i) lost_of[part[gone[i]]] += lost[i];
-    return static_cast<std::uint64_t>(
-        std::ranges::count_if(lost_of, [&](double area) { return area > largest; }));
+    std::vector<std::uint8_t> is_whole(part.size(), 1);
+    for (const border_edge& e : border_edges(mesh.points.size(), mesh.faces))
+        is_whole[part[e.face]] = 0;
+    vanished_parts found;
+    std::vector<std::uint8_t> is_known(part.size(), 0);
+    for (const std::uint32_t f : gone) {
+        const std::uint32_t p = part[f];
+        if (is_known[p] != 0) continue;
+        is_known[p] = 1;
+        if (lost_of[p] > largest) ++found.lost;
+        if (lost_of[p] == 0.0 && is_whole[p] != 0) ++found.within;
+    }
+    return found;
 }
 
 bool has_inward_component(mesh_view mesh) {

@@ -46,14 +46,20 @@ struct loss {
 [[nodiscard]] double lost_area(mesh_view given, std::span<const std::uint8_t> is_left,
                                mesh_view made);
 
-/// How many parts of `mesh`, by edges, have nothing left of them, and lost more than that area
-/// (`lost_area`): they bound nothing.
+/// Parts of which nothing is left.
+struct vanished_parts {
+    std::uint64_t lost = 0;    ///< that lost more than some area: they bound nothing
+    std::uint64_t within = 0;  ///< that lost none: they were closed, within the solid
+};
+
+/// How many parts of `mesh`, by edges, have nothing left of them, by whether they lost more than
+/// that area (`lost_area`) or none.
 ///
 /// \param is_left [F] of the input, whether `made` has a part of each face
 /// \pre   `made` is closed
-[[nodiscard]] std::uint64_t count_vanished(const working_mesh& mesh,
-                                           std::span<const std::uint8_t> is_left, mesh_view made,
-                                           double largest);
+[[nodiscard]] vanished_parts count_vanished(const working_mesh& mesh,
+                                            std::span<const std::uint8_t> is_left, mesh_view made,
+                                            double largest);
 
 /// That of faces with the same corners once.
 [[nodiscard]] double area_of_distinct(mesh_view mesh);

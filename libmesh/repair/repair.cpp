@@ -14,6 +14,7 @@
 #include <libmesh/repair/fill_holes.hpp>
 #include <libmesh/repair/loss.hpp>
 #include <libmesh/repair/orient_faces.hpp>
+#include <libmesh/repair/own_vertices.hpp>
 #include <libmesh/repair/tangle.hpp>
 #include <libmesh/repair/tetrahedra.hpp>
 #include <libmesh/repair/working_mesh.hpp>
@@ -222,6 +223,7 @@ class repairer {
         did_.holes += filled.holes;
         did_.hole_edges += filled.edges;
         did_.filled += filled.faces;
+        did_.sheets += filled.sheets;
     }
 
     detail::repair::filled_holes fill_rims(rim_edges along) {
@@ -361,10 +363,6 @@ class repairer {
         result_.vertex_source.reserve(used.size());
         for (const std::uint32_t p : used) result_.vertex_source.push_back(source_of_point(p));
         result_.face_source = std::move(mesh_.source);
-        if (used.size() == mesh_.points.size()) {
-            result_.mesh = {mesh_.points, mesh_.faces};
-            return;
-        }
         std::vector<std::uint32_t> number(mesh_.points.size());
         for (const std::uint32_t p : used) {
             number[p] = static_cast<std::uint32_t>(result_.mesh.points.size());
@@ -372,6 +370,9 @@ class repairer {
         }
         for (const face& f : mesh_.faces)
             result_.mesh.faces.push_back({number[f[0]], number[f[1]], number[f[2]]});
+        if (options_.sheet || !options_.resolve)  // else it is manifold
+            detail::repair::give_own_vertices(given_, result_.mesh, result_.face_source,
+                                              result_.vertex_source);
     }
 
     void finish() {
@@ -410,12 +411,17 @@ class repairer {
         const bool is_solid = known.status == status::ok;
         if (is_solid)
             did_.volume_after = is_as_measured ? did_.volume_before : signed_volume(result_.mesh);
-        if (did_.resolved && is_solid)
-            did_.vanished_components = detail::repair::count_vanished(
-                mesh_, is_left, result_.mesh, options_.strays * did_.area_before);
+        if (is_solid && !is_kept_) count_vanished(is_left);
         did_.area_lost = detail::repair::lost_area(given_, is_left, result_.mesh);
         if (options_.max_loss >= 1.0) return;
         if (did_.vanished_components > 0 || loses_too_much()) known.status = status::excessive_loss;
+    }
+
+    void count_vanished(const std::vector<std::uint8_t>& is_left) {
+        const auto gone = detail::repair::count_vanished(mesh_, is_left, result_.mesh,
+                                                         options_.strays * did_.area_before);
+        if (did_.resolved) did_.vanished_components = gone.lost;
+        did_.dropped_shells = gone.within;
     }
 
     bool loses_too_much() {

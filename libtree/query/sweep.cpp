@@ -1,3 +1,4 @@
+#include <treeform/tree/detail/bounded_sweep.hpp>
 #include <treeform/tree/detail/frame_map.hpp>
 #include <treeform/tree/sweep.hpp>
 
@@ -6,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 // Behind highway.h, which sets the target.
@@ -87,13 +90,17 @@ class sweep_walk {
           map_b_(map_into(b_.frame(), b.by(), frame_)),
           slabs_(motion) {}
 
+    /// Returns how many pairs of nodes were opened or visited: `most`, or one more where it ended
+    /// for that.
     template <class Visit>
-    void run(double latest, const Visit& visit) {
+    std::uint64_t run(double latest, std::uint64_t most, const Visit& visit) {
+        std::uint64_t opened = 0;
         stack_.push_back({0.0, whole(a_, map_a_), whole(b_, map_b_)});
         while (!stack_.empty()) {
             const swept_pair<D> at = stack_.back();
             stack_.pop_back();
             if (!(at.entry <= latest)) continue;
+            if (++opened > most) break;
             const bool last_a = a_.is_leaf_level(at.a.level);
             const bool last_b = b_.is_leaf_level(at.b.level);
             if (last_a && last_b)
@@ -103,6 +110,7 @@ class sweep_walk {
             else
                 open(b_, map_b_, at, &swept_pair<D>::b, latest);
         }
+        return opened;
     }
 
     /// Units of the frame in one of space: times of boxes are those of space when the motion is
@@ -215,6 +223,13 @@ class sweep_walk {
 template <std::size_t D>
 void sweep(const transformed<D>& a, const transformed<D>& b, const std::array<double, D>& motion,
            double latest, function_ref<double(std::uint32_t, std::uint32_t)> visit) {
+    sweep_within<D>(a, b, motion, latest, std::numeric_limits<std::uint64_t>::max(), visit);
+}
+
+template <std::size_t D>
+std::uint64_t sweep_within(const transformed<D>& a, const transformed<D>& b,
+                           const std::array<double, D>& motion, double latest, std::uint64_t most,
+                           function_ref<double(std::uint32_t, std::uint32_t)> visit) {
     double longest = 0.0;
     for (const double component : motion) {
         if (!std::isfinite(component))
@@ -224,7 +239,7 @@ void sweep(const transformed<D>& a, const transformed<D>& b, const std::array<do
     if (longest == 0.0) throw std::invalid_argument("treeform::visit_swept: the motion is zero");
     if (!(latest >= 0.0))
         throw std::invalid_argument("treeform::visit_swept: the latest time is negative or NaN");
-    if (a.original().empty() || b.original().empty()) return;
+    if (a.original().empty() || b.original().empty()) return 0;
 
     // Times are measured in units of 2^exponent, so that the motion has a length near 1 in the
     // frame, and no quotient leaves the range of double before the time itself does.
@@ -237,11 +252,17 @@ void sweep(const transformed<D>& a, const transformed<D>& b, const std::array<do
     }
     sweep_walk<D> walk(a, b, unit);
     const auto in_units = [&](double time) { return std::ldexp(time, -exponent); };
-    walk.run(in_units(latest) * (1.0 + 0x1p-50), [&](std::uint32_t i, std::uint32_t j) {
-        return in_units(visit(i, j)) * (1.0 + 0x1p-50);
-    });
+    return walk.run(
+        in_units(latest) * (1.0 + 0x1p-50), most,
+        [&](std::uint32_t i, std::uint32_t j) { return in_units(visit(i, j)) * (1.0 + 0x1p-50); });
 }
 
+template std::uint64_t sweep_within(const transformed<2>&, const transformed<2>&,
+                                    const std::array<double, 2>&, double, std::uint64_t,
+                                    function_ref<double(std::uint32_t, std::uint32_t)>);
+template std::uint64_t sweep_within(const transformed<3>&, const transformed<3>&,
+                                    const std::array<double, 3>&, double, std::uint64_t,
+                                    function_ref<double(std::uint32_t, std::uint32_t)>);
 template void sweep(const transformed<2>&, const transformed<2>&, const std::array<double, 2>&,
                     double, function_ref<double(std::uint32_t, std::uint32_t)>);
 template void sweep(const transformed<3>&, const transformed<3>&, const std::array<double, 3>&,

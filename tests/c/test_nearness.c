@@ -106,6 +106,7 @@ static void test_relations(void) {
     treeform_relation* relation = NULL;
     treeform_standing how = 9;
     double depth = 0.0, move[3];
+    treeform_search_effort effort;
     int calls = 0;
     OK(treeform_measure(a, apart, NULL, &relation));
     CHECK(relation->how == TREEFORM_SEPARATE && relation->distance == 2.0);
@@ -124,9 +125,10 @@ static void test_relations(void) {
     CHECK(how == TREEFORM_PENETRATING);
     INVALID("vertices", treeform_relate(a, b, 2, &how));
     treeform_depth_options_init(&depth_options, sizeof depth_options);
-    OK(treeform_penetration_depth(a, b, &depth_options, &depth, move));
+    OK(treeform_penetration_depth(a, b, &depth_options, &depth, move, &effort));
+    CHECK(effort.pairs > 0 && effort.pairs < effort.bound && effort.cut == 0);
     CHECK(near(depth, 0.25) && near(move[0], -0.25));
-    OK(treeform_penetration_depth(a, apart, NULL, &depth, move));
+    OK(treeform_penetration_depth(a, apart, NULL, &depth, move, NULL));
     CHECK(depth == 0.0 && move[0] == 0.0);
     treeform_free(a);
     treeform_free(b);

@@ -338,6 +338,19 @@ class Solids(BooleanTest):
         self.assertEqual((entry["output"]["vertices"], entry["output"]["components"]), (16, 2))
         self.assertEqual(len(set(self.solid("out.obj")[0])), 14)
 
+    def test_parts_that_touch_in_an_edge_are_said_where_stl_joins_them(self):
+        self.mesh("d.obj", box((2, 2, 0), (3, 3, 2)))
+        for name, count in (("out.stl", 1), ("out.off", 0)):
+            entry = self.made("union", "a.obj", "d.obj", name=name)
+            self.assertEqual(entry["output"]["nonmanifold_edges"], count)
+            texts = [w["text"] for w in entry["warnings"] if w["code"] == "nonmanifold"]
+            self.assertEqual(len(texts), count)
+            self.assertTrue(all("tf-repair sets it apart" in text for text in texts))
+        done = subprocess.run([MEND, "--check", "out.stl"], cwd=self.folder, capture_output=True)
+        self.assertIn("1 edge of more than two faces", done.stdout.decode())
+        subprocess.run([MEND, "-q", "out.stl", "-o", "apart.stl"], cwd=self.folder, check=True)
+        subprocess.run([MEND, "-q", "--check", "apart.stl"], cwd=self.folder, check=True)
+
     def test_a_dry_run_writes_no_mesh(self):
         entry = self.entry("union", "a.obj", "b.obj", "-o", "out.obj", "-n", status=0)
         self.assertEqual(entry["output"]["volume"], 15)

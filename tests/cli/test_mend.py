@@ -27,6 +27,41 @@ class Mend(ToolTest):
         self.assertEqual(obj_mesh(self.read("out.obj")), obj_mesh(self.read("part.obj")))
         self.assertEqual(run.err, "")
 
+    def test_a_flat_part_without_its_cap_is_closed(self):
+        points, faces = box((0, 0, 0), (100, 100, 2))
+        open_top = [f for f in faces if not all(points[i][2] == 2 for i in f)]
+        part = write(self.path("plate.obj"), (points, open_top))
+        run = self.run_tool(part, "-o", "out.stl", status=0)
+        self.assertIn("volume 20000 ", run.text)
+        self.assertIn("1 hole filled (4 edges)", run.text)
+
+    def test_a_shell_within_another_is_said_to_be_dropped(self):
+        (outer, faces), (inner, more) = box((0, 0, 0), (20, 20, 20)), box((5, 5, 5), (15, 15, 15))
+        part = write(self.path("nested.obj"),
+                     (outer + inner, faces + [tuple(i + len(outer) for i in f) for f in more]))
+        entry = self.mended(part, "-o", "out.obj")
+        self.assertEqual(entry["repair"]["dropped_shells"], 1)
+        text, = (w["text"] for w in entry["warnings"] if w["code"] == "dropped-shells")
+        self.assertIn("1 shell within another was dropped", text)
+        self.assertIn("--inside odd makes a cavity of it", text)
+        run = self.run_tool(part, "--inside", "odd", "-o", "hollow.obj", status=0)
+        self.assertIn("volume 7000 ", run.text)
+        self.assertEqual(run.err, "")
+
+    def test_what_a_refusal_offers_leads_on(self):
+        rim = [(3, 0), (2, 2), (-1, 3), (-3, 0), (-2, -2), (1, -3)]
+        lens = [(0, 0, 1)] + [(x, y, 0.2 * (i % 2)) for i, (x, y) in enumerate(rim)]
+        roof = [(0, 1 + i, 1 + (i + 1) % 6) for i in range(6)]
+        flat = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        for name, mesh in (("lens", (lens, roof)), ("flat", (flat, [(0, 1, 2), (0, 2, 3)]))):
+            part = write(self.path(name + ".obj"), mesh)
+            run = self.run_tool(part, "-o", "out.obj", "--force", status=1)
+            offers = re.findall(r"--(?:sheet|accept-loss|wrap 2%)", run.text)
+            self.assertEqual("--accept-loss" in offers, name == "lens", msg=run.text)
+            self.assertIn("--sheet", offers)
+            for offer in offers:
+                self.run_tool(part, "-o", "out.obj", "--force", *offer.split(), status=0)
+
     def test_rooms_are_one_solid_and_their_labels_are_counted(self):
         lines = [f"v {x} {y} {z}" for x in range(3) for y in range(3) for z in range(2)]
         point = lambda x, y, z: 6 * x + 2 * y + z + 1
@@ -184,7 +219,7 @@ class Mend(ToolTest):
         points, faces = together(self.cube_without(3), (sheet, grid(1)[1]))
         part = write(self.path("part.obj"), (points, faces))
         run = self.run_tool(part, "-o", "out.obj", status=1)
-        self.assertEqual(run.text, part + ": not written: open at 4 edges (--sheet writes it, --wrap 2% wraps it)\n")
+        self.assertEqual(run.text, part + ": not written: open at 4 edges (--sheet writes it, --accept-loss makes a solid, --wrap 2% wraps it)\n")
         entry = self.mended(part, "--strays", "30%", "-o", "out.obj", status=1)
         self.assertEqual(entry["repair"]["loss"], {"of": "area", "before": 6.5, "after": 5.5})
         self.assertNotIn("out.obj", self.listing())

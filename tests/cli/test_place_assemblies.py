@@ -1,5 +1,7 @@
 """tf-place clash, check, and what measure says of depth, points inside and deviation."""
 
+import random
+
 from place_support import *
 from weld_support import xyz_bytes
 
@@ -187,8 +189,40 @@ class Assemblies(PlaceTest):
         run = self.run_tool("measure", "part.obj", "--fixed", "floor.obj")
         self.assertIn("at most 0.25 deep: moved by (0, 0, 0.25) it is out of floor.obj", run.text)
         entry = self.entry("measure", "part.obj", "--fixed", "floor.obj", status=0)
+        effort = entry["depth"].pop("effort")
         self.assertEqual(entry["depth"], {"at_most": 0.25, "move": [0, 0, 0.25]})
+        self.assertTrue(0 < effort["pairs"] < effort["bound"] and effort["cut"] == 0)
         self.assertIsNone(self.entry("measure", "near.obj", "--fixed", "floor.obj")["depth"])
+
+    def test_measure_finds_no_depth_when_told(self):
+        run = self.run_tool("measure", "part.obj", "--fixed", "floor.obj", "--no-depth")
+        self.assertNotIn("deep", run.text)
+        entry = self.entry("measure", "part.obj", "--fixed", "floor.obj", "--no-depth", status=0)
+        self.assertEqual((entry["depth"], entry["status"]), (None, "penetrating"))
+
+    def test_of_crowds_of_long_thin_faces_depth_and_clear_end_and_say_so(self):
+        source = random.Random(1)
+        for name in ("needles.obj", "others.obj"):
+            points, faces = [], []
+            for i in range(4000):
+                middle = [source.uniform(-1, 1) for _ in range(3)]
+                along = [source.uniform(-1, 1) for _ in range(3)]
+                points += [tuple(m - d for m, d in zip(middle, along)),
+                           tuple(m + d for m, d in zip(middle, along)),
+                           tuple(m + d + 1e-3 for m, d in zip(middle, along))]
+                faces.append((3 * i, 3 * i + 1, 3 * i + 2))
+            self.mesh(name, (points, faces))
+        run = self.run_tool("measure", "needles.obj", "--fixed", "others.obj")
+        self.assertRegex(run.text, "deep: .*; the search ended after [0-9,]+ pairs of faces: "
+                                   "a shorter way may exist")
+        entry = self.entry("measure", "needles.obj", "--fixed", "others.obj", status=0)
+        effort = entry["depth"]["effort"]
+        self.assertLessEqual(effort["pairs"], effort["bound"])
+        self.assertGreater(effort["cut"], 0)
+        run = self.run_tool("clear", "needles.obj", "--fixed", "others.obj", "-o", "out.obj",
+                            status=0)
+        self.assertIn("; the search ended after ", run.text)
+        self.run_tool("measure", "out.obj", "--fixed", "others.obj", "--no-depth", status=0)
 
     def test_measure_counts_the_points_of_a_cloud_that_are_inside(self):
         with open(self.path("cloud.xyz"), "wb") as file:

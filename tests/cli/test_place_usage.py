@@ -15,7 +15,8 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "center_of_mass": (dict, NULL), "turn": (dict, NULL), "features": (dict, NULL),
         "tries": (int, NULL), "plates": (int, NULL), "density": (*NUMBER, NULL),
         "fits": (bool, NULL), "parts": list, "not_placed": list, "rounding": (dict, NULL), "matrix_file": (str, NULL),
-        "depth": (dict, NULL), "points": (dict, NULL), "deviation": (dict, NULL),
+        "effort": (dict, NULL), "depth": (dict, NULL), "points": (dict, NULL),
+        "deviation": (dict, NULL),
         "output": (dict, NULL), "warnings": list, "exit": int}
 
 

@@ -1,4 +1,5 @@
 #include "tools/assembly/assembly.hpp"
+#include "tools/assembly/contact_entries.hpp"
 #include "tools/assembly/measured.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
@@ -50,6 +51,7 @@ json clash_entry(const named_assembly& all, const tf::part_clash& one) {
             {"volume", one.volume},
             {"depth", one.depth},
             {"move", or_null(one.depth.has_value(), one.move)},
+            {"effort", or_null(one.depth.has_value(), effort_entry(one.depth_effort))},
             {"face_pairs", one.face_pairs},
             {"regions", regions_entry(all, one)}};
 }
@@ -61,6 +63,7 @@ std::string sentence(const named_assembly& all, const tf::part_clash& one) {
     if (one.b_inside_a) text += ", the second inside";
     if (one.depth) text += ", at most " + brief(*one.depth) + " deep";
     if (one.volume) text += ", volume in common " + brief(*one.volume);
+    if (one.depth) text += cut_in_words(one.depth_effort);
     if (!one.regions.empty())
         text += "; " + counted(one.regions.size(), "place", "places") + ", " +
                 counted(one.face_pairs, "pair", "pairs") + " of faces";

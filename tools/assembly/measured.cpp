@@ -1,5 +1,6 @@
 #include "tools/assembly/measured.hpp"
 
+#include "tools/assembly/contact_entries.hpp"
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/common/parse_value.hpp"
@@ -23,9 +24,11 @@ void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixe
                                              {.progress = work.progress("depth")});
     work.call_ended(found && found->status == tf::status::cancelled);
     if (!found || found->status != tf::status::ok) return;
-    work.entry["depth"] = {{"at_most", found->depth}, {"move", found->move}};
+    work.entry["depth"] = {
+        {"at_most", found->depth}, {"move", found->move}, {"effort", effort_entry(found->effort)}};
     work.out.result(work.name + ": at most " + brief(found->depth) + " deep: moved by " +
-                    in_words(found->move) + " it is out of " + fixed.label(other));
+                    in_words(found->move) + " it is out of " + fixed.label(other) +
+                    cut_in_words(found->effort));
 }
 
 /// `known` of all points, if it is.
@@ -138,6 +141,7 @@ void add_deviation_options(command_line& line, deviation_settings& settings) {
                         refuse("--tolerance-band " + std::string(text) + ": LO is more than HI");
                     settings.band = {v[0], v[1]};
                 });
+    line.flag(settings.no_depth, {"--no-depth", "", "measure: find no depth, which takes longest"});
 }
 
 exit_status enter_measured(job& work, const deviation_settings& settings,
@@ -152,7 +156,7 @@ exit_status enter_measured(job& work, const deviation_settings& settings,
     // Several solids count one by one, their distances as one surface.
     const bool same = found && fixed.shapes.size() == 1;
     enter_points(work, moving, fixed, same ? found->sides : std::nullopt);
-    enter_depth(work, moving, fixed, at);
+    if (!settings.no_depth) enter_depth(work, moving, fixed, at);
     if (!found) return done;
     if (!found->is_signed)
         work.warn("unsigned", "--fixed is open or a cloud: distances have no sign");

@@ -20,6 +20,7 @@ namespace tools {
 struct deviation_settings {
     std::filesystem::path distances{};
     std::optional<std::array<double, 2>> band{};
+    bool no_depth = false;
 
     [[nodiscard]] bool wanted() const { return !distances.empty() || band.has_value(); }
 };

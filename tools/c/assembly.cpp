@@ -35,6 +35,7 @@ treeform_part_clash clash_of(glue::answer<treeform_clashes>& made, const tf::par
     c.volume = from.volume.value_or(glue::not_known);
     c.depth = from.depth.value_or(glue::not_known);
     glue::copy(from.move, c.move);
+    c.depth_effort = glue::copied(from.depth_effort);
     return c;
 }
 
@@ -58,6 +59,7 @@ treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
         how.clearance = o.clearance;
         how.volumes = o.volumes != 0;
         how.depths = o.depths != 0;
+        how.effort = o.effort;
         how.limit = glue::limit(o.limit);
         how.ignored = pairs_of(o.ignored, o.ignored_count);
         how.vertices = glue::vertices(o.vertices);

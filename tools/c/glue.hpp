@@ -251,6 +251,9 @@ inline void copy(const tf::point3& from, double* to) {
 inline void copy(const tf::transform<3>& from, double* to) {
     std::memcpy(to, from.rows.data(), sizeof from.rows);
 }
+[[nodiscard]] inline treeform_search_effort copied(const tf::search_effort& e) {
+    return {e.pairs, e.bound, e.cut};
+}
 [[nodiscard]] inline treeform_box copied(const tf::box3& b) {
     treeform_box result;
     copy(b.min, result.min);

@@ -182,13 +182,14 @@ void treeform_depth_options_init(treeform_depth_options* options, size_t size) {
 
 treeform_code treeform_penetration_depth(const treeform_mesh* a, const treeform_mesh* b,
                                          const treeform_depth_options* options, double* depth,
-                                         double move[3]) {
+                                         double move[3], treeform_search_effort* effort) {
     return glue::guard([&] {
         (void)glue::need(depth, "depth");
         (void)glue::need(move, "move");
         const auto o = glue::chosen(options, treeform_depth_options_init);
         tf::depth_options how;
         how.directions = glue::limit(o.directions);
+        how.effort = o.effort;
         how.vertices = glue::vertices(o.vertices);
         how.progress = glue::progress(o);
         const auto found = glue::asked(
@@ -196,6 +197,7 @@ treeform_code treeform_penetration_depth(const treeform_mesh* a, const treeform_
         if (found) glue::check(found->status);
         *depth = found ? found->depth : 0.0;
         glue::copy(found ? found->move : tf::point3{}, move);
+        if (effort) *effort = found ? glue::copied(found->effort) : treeform_search_effort{};
     });
 }
 

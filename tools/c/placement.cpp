@@ -31,6 +31,7 @@ Options options_of(const treeform_place_options* options) {
     if constexpr (requires { how.normals; }) {
         how.normals = glue::limit(o.normals);
         how.face_pairs = glue::limit(o.face_pairs);
+        how.effort = o.effort;
     }
     if constexpr (requires { how.max_angle; }) {
         how.max_angle = o.max_angle;
@@ -86,6 +87,7 @@ std::unique_ptr<glue::answer<treeform_placement>> answer_of(tf::placement from) 
     p.backed_off = at.statistics.backed_off;
     p.fixed_culled = at.statistics.fixed_culled;
     p.pairs_tested = at.statistics.pairs_tested;
+    p.effort = glue::copied(at.effort);
     return made;
 }
 

@@ -88,6 +88,7 @@ std::string deeds(const tf::repair_statistics& did) {
     add(did.pairs, "pair cut", "pairs cut");
     add(did.labeled_cells, "cell labeled inside or outside", "cells labeled inside or outside",
         did.dropped_area > 0.0 ? " (area " + brief(did.dropped_area) + " dropped)" : "");
+    add(did.dropped_shells, "shell within another dropped", "shells within others dropped");
     add(did.detached, "vertex set apart", "vertices set apart");
     return text.empty() ? "nothing to mend" : text;
 }

@@ -73,6 +73,12 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
                         {"faces_not_cut", triangles - std::min(triangles, did.cut_faces)},
                         {"faces_not_looked_at", did.skipped_faces}};
     const auto topology = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
+    // STL has no vertex numbers: who reads it joins equal corners.
+    std::uint64_t nonmanifold = topology.nonmanifold_edges;
+    if (is_stl(work.options)) {
+        const tf::mesh seen = tf::join_equal_points(tf::mesh(result.mesh));
+        nonmanifold = tf::count_topology(seen.points.size(), seen.faces).nonmanifold_edges;
+    }
     entry["output"] = {
         {"file", nullptr},
         {"format", nullptr},
@@ -81,7 +87,7 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
         {"cut_vertices", std::ranges::count(result.vertex_source, tf::operand_element{})},
         {"faces", result.mesh.faces.size()},
         {"components", topology.components_by_point},
-        {"nonmanifold_edges", topology.nonmanifold_edges},
+        {"nonmanifold_edges", nonmanifold},
         {"volume", or_null(bounds_solid, bounds_solid ? tf::signed_volume(result.mesh) : 0.0)},
         {"closed", bounds_solid || topology.boundary_edges == 0},
         {"oriented", or_null(bounds_solid, true)},

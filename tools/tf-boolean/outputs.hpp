@@ -19,6 +19,10 @@ void enter_blank_report(job& work, const boolean_settings& settings);
 /// The numbers that the result will be written as.
 [[nodiscard]] tf::precision written_precision(const job& work, const std::vector<solid>& solids);
 
+[[nodiscard]] inline bool is_stl(const common_options& o) {
+    return !o.output.empty() && mesh_format(o, o.output) == "stl";
+}
+
 /// The facts of the result; an open one, or one of many pieces, has no volume.
 void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid);
 

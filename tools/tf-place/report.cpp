@@ -23,7 +23,7 @@ constexpr const char* blank_report = R"({
     "chosen": null, "corrected": null, "center_of_mass": null, "fit": null, "turn": null,
     "features": null, "fits": null, "tries": null, "plates": null, "density": null,
     "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
-    "matrix_file": null, "depth": null, "points": null,
+    "matrix_file": null, "effort": null, "depth": null, "points": null,
     "deviation": null, "output": null})";
 
 /// The faces were not looked at: nothing is said of how they lie to each other.
@@ -100,6 +100,7 @@ void enter_place(json& entry, const placing& p) {
     for (const tf::placement_contact& c : at.contacts)
         entry["contacts"].push_back(contact_entry(p.moving, p.fixed, c));
     entry["contact_count"] = at.contact_count;
+    if (at.effort.bound > 0) entry["effort"] = effort_entry(at.effort);
     if (at.nearest) enter_nearest(entry, p.moving, p.fixed, p.settings.fixed, *at.nearest);
     if (p.turned) entry["turn"] = turn_entry(p.settings.turn, *p.turned);
     if (p.mated) entry["features"] = mating_entry(*p.mated);
@@ -140,7 +141,7 @@ std::string sentence(const placing& p) {
                               : drops                                ? "dropped by "
                               : p.settings.mode == place_mode::slide ? "slid by "
                                                                      : "moved by ";
-    return moved + brief(at.travel) + "; " + relation;
+    return moved + brief(at.travel) + "; " + relation + cut_in_words(at.effort);
 }
 
 void say_place(job& work, const placing& p) {

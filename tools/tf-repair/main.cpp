@@ -214,10 +214,15 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     std::optional<tools::written_form> form;
     if (output) form = tools::form_of(work, input.file, *output);
     const tf::mesh_file* const inputs = &input.file;
-    tf::repaired_file made = mend(work, input, s, tools::written_precision(o, form, {&inputs, 1}),
-                                  output ? scope_for(o, *output) : tf::repair_scope::each_part);
+    const tf::precision precision = tools::written_precision(o, form, {&inputs, 1});
+    const auto scope = output ? scope_for(o, *output) : tf::repair_scope::each_part;
+    tf::repaired_file made = mend(work, input, s, precision, scope);
     tools::enter_repair(work, input, s, made);
-    std::string why = tools::objection(s, made);
+    const auto works = [&](const repair_settings& tried) {
+        const tf::certificate known = mend(work, input, tried, precision, scope).certificate;
+        return static_cast<bool>(known) || known.status == tf::status::sheet;
+    };
+    std::string why = tools::objection(s, made, works);
     const std::string too_far = tools::move_objection(work.entry["repair"], s.rails, input.diagonal,
                                                       made.certificate, made.file.mesh.points);
     if (why.empty()) why = too_far;
@@ -229,7 +234,7 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     }
     const std::string verdict = tools::verdict(input, made);
     work.out.result(work.name + ": " + verdict);
-    tools::warn_of_surprises(work, made);
+    tools::warn_of_surprises(work, s, made);
     tools::warn_of_moves(work, made.file.mesh.points, made.certificate);
     tools::write_page(work, input, verdict, true, made.file.mesh, made.face_source);
     if (output && !o.dry_run) tools::write_solid(work, input, s, made, *output);

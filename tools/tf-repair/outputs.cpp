@@ -67,6 +67,7 @@ void enter_repair(job& work, const dirty_mesh& input, const repair_settings& set
           {"lost", or_null(is_made, did.area_lost)}}},
         {"loss", loss_entry(known)},
         {"lost_components", did.vanished_components},
+        {"dropped_shells", did.dropped_shells},
         {"precision_out", name_of(known.precision)},
         {"vertices", made.file.mesh.points.size()},
         {"faces", made.file.mesh.faces.size()},

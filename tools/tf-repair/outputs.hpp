@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,11 +57,16 @@ void enter_repair(job& work, const dirty_mesh& input, const repair_settings& set
 /// "solid, 14,454 faces, volume 12034.5 (was 12034.5): 3 holes filled (41 edges)"
 [[nodiscard]] std::string verdict(const dirty_mesh& input, const tf::repaired_file& made);
 
-/// Why the result is not to be written, with what helps against it; empty when it is.
-[[nodiscard]] std::string objection(const repair_settings& settings, const tf::repaired_file& made);
+/// Whether what these settings make is written.
+using attempt = std::function<bool(const repair_settings&)>;
+
+/// Why the result is not to be written, with what helps against it, tried where it is no wrap; empty
+/// when it is.
+[[nodiscard]] std::string objection(const repair_settings& settings, const tf::repaired_file& made,
+                                    const attempt& works);
 
 /// Says what the user may want to look at.
-void warn_of_surprises(job& work, const tf::repaired_file& made);
+void warn_of_surprises(job& work, const repair_settings& settings, const tf::repaired_file& made);
 
 /// Writes the mesh with the attributes of the input. \throws failure
 void write_solid(job& work, const dirty_mesh& input, const repair_settings& settings,

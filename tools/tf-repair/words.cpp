@@ -16,7 +16,32 @@ std::string faulty_part(const tf::repaired_file& made) {
     return {};
 }
 
-std::string reason(const repair_settings& settings, const tf::repaired_file& made) {
+/// What would lead on where the mesh is open: all but --wrap has been tried.
+std::string offers(const repair_settings& settings, const tf::repaired_file& made,
+                   const attempt& works) {
+    std::string text;
+    const auto offer = [&](const std::string& what) {
+        text += (text.empty() ? " (" : ", ") + what;
+    };
+    repair_settings tried = settings;
+    tried.steps.sheet = true;
+    if (!settings.steps.sheet && works(tried)) offer("--sheet writes it");
+    tried = settings;
+    tried.steps.max_loss = 1.0;
+    if (made.statistics.sheets > 0 && works(tried)) offer("--accept-loss makes a solid");
+    offer("--wrap 2% wraps it");
+    return text + ")";
+}
+
+/// That --accept-loss leads on, where it does.
+std::string accepted(const repair_settings& settings, const attempt& works) {
+    repair_settings tried = settings;
+    tried.steps.max_loss = 1.0;
+    return works(tried) ? " (--accept-loss writes it)" : " (--wrap 2% wraps it)";
+}
+
+std::string reason(const repair_settings& settings, const tf::repaired_file& made,
+                   const attempt& works) {
     const tf::certificate& known = made.certificate;
     std::string text = known.message();
     switch (known.status) {
@@ -25,12 +50,12 @@ std::string reason(const repair_settings& settings, const tf::repaired_file& mad
             return {};
         case tf::status::open_input:
             return "open at " + counted(known.open_count, "edge", "edges") +
-                   (settings.steps.sheet ? "" : " (--sheet writes it, --wrap 2% wraps it)");
+                   offers(settings, made, works);
         case tf::status::excessive_loss:
             if (known.size_before == 0.0)
                 return counted(made.statistics.vanished_components, "part", "parts") +
-                       " would vanish (--accept-loss writes it)";
-            return text + " (--accept-loss writes it)";
+                       " would vanish" + accepted(settings, works);
+            return text + accepted(settings, works);
         case tf::status::not_certified:
         case tf::status::vanished:
             return text + (known.precision == tf::precision::float32
@@ -56,8 +81,9 @@ std::string verdict(const dirty_mesh& input, const tf::repaired_file& made) {
     return text + ": " + deeds(did);
 }
 
-std::string objection(const repair_settings& settings, const tf::repaired_file& made) {
-    const std::string why = reason(settings, made);
+std::string objection(const repair_settings& settings, const tf::repaired_file& made,
+                      const attempt& works) {
+    const std::string why = reason(settings, made, works);
     return why.empty() ? why : faulty_part(made) + why;
 }
 
@@ -81,7 +107,7 @@ void say_defects(job& work, const dirty_mesh& input, const tf::solid_defects& fo
                                ", volume " + brief(input.volume)));
 }
 
-void warn_of_surprises(job& work, const tf::repaired_file& made) {
+void warn_of_surprises(job& work, const repair_settings& settings, const tf::repaired_file& made) {
     const tf::repair_statistics& did = made.statistics;
     if (did.touching > 0)
         work.warn("touching", counted(did.touching, "vertex has", "vertices have") +
@@ -90,6 +116,16 @@ void warn_of_surprises(job& work, const tf::repaired_file& made) {
     if (did.vanished_components > 0)
         work.warn("lost-parts", counted(did.vanished_components, "part has", "parts have") +
                                     " vanished, for they bound nothing");
+    if (did.dropped_shells > 0) {
+        const bool is_one = did.dropped_shells == 1;
+        const bool is_odd = settings.steps.inside == tf::repair_rule::odd;
+        work.warn("dropped-shells", counted(did.dropped_shells, "shell", "shells") +
+                                        " within another " + (is_one ? "was" : "were") +
+                                        " dropped, for what is within a solid is solid" +
+                                        (is_odd   ? ""
+                                         : is_one ? "; --inside odd makes a cavity of it"
+                                                  : "; --inside odd makes cavities of them"));
+    }
 }
 
 }  // namespace tools

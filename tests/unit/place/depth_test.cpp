@@ -1,5 +1,6 @@
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
 
@@ -75,6 +76,27 @@ double depth_of(const tf::mesh& a, const tf::mesh& b) {
 /// Two bars at a right angle.
 tf::mesh l_shape() { return test::together(box(3, 1, 1), moved(box(1, 3, 1), {0, 1, 0})); }
 
+/// Triangles of length 2 and width 0.001 all ways through a cube of side 2.
+tf::mesh needles(unsigned seed, std::uint32_t count) {
+    test::random source(seed);
+    tf::mesh made;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        tf::point3 c, d;
+        double length = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            c[k] = source.in(-1.0, 1.0);
+            d[k] = source.in(-1.0, 1.0);
+            length += d[k] * d[k];
+        }
+        for (std::size_t k = 0; k < 3; ++k) d[k] /= std::sqrt(length);
+        made.points.push_back({c.x - d.x, c.y - d.y, c.z - d.z});
+        made.points.push_back({c.x + d.x, c.y + d.y, c.z + d.z});
+        made.points.push_back({c.x + d.x + 0.001 * d.y, c.y + d.y - 0.001 * d.x, c.z + d.z});
+        made.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return made;
+}
+
 }  // namespace
 
 TEST_CASE("depth: there is none apart, touching, of open sheets side by side, or of a cloud") {
@@ -132,6 +154,43 @@ TEST_CASE("depth: of a flat body on a face the moves that lead out are as small 
     CHECK(found->depth > 0.0);
     CHECK(found->depth < 1e-15);
     CHECK(tf::relation(moved(flat, found->move), cube).relation != tf::mesh_relation::penetrating);
+}
+
+TEST_CASE("depth: of crowds of long thin faces it ends by its effort, with a move that leads out") {
+    const tf::mesh a = needles(1, 1000), b = moved(needles(2, 1000), {0.125, 0, 0});
+    REQUIRE(tf::relation(a, b).relation == tf::mesh_relation::penetrating);
+    tf::depth_options options;
+    for (const std::uint64_t bound : {1U, 1000U, 1'000'000U}) {
+        CAPTURE(bound);
+        options.effort = bound;
+        const auto found = tf::penetration_depth(a, b, options);
+        REQUIRE(found.has_value());
+        REQUIRE(found->status == tf::status::ok);
+        CHECK(found->effort.bound == bound);
+        CHECK(found->effort.pairs <= bound);
+        CHECK(found->effort.cut > 0);
+        CHECK(found->depth < 5.0);  // the boxes are 4 wide
+        CHECK(tf::relation(moved(a, found->move), b).relation != tf::mesh_relation::penetrating);
+        const auto again = tf::penetration_depth(a, b, options);
+        CHECK(again->effort == found->effort);
+        CHECK(again->move == found->move);
+    }
+    const auto whole = tf::penetration_depth(box(1, 1, 1), moved(box(1, 1, 1), {0.5, 0, 0}));
+    CHECK(whole->effort.cut == 0);
+    CHECK(whole->effort.pairs > 0);
+}
+
+TEST_CASE("separate: of crowds of long thin faces it ends by its effort, where it keeps off") {
+    const tf::mesh a = needles(1, 500), b = moved(needles(2, 500), {0.125, 0, 0});
+    for (const std::uint64_t bound : {1U, 100'000U}) {
+        CAPTURE(bound);
+        const auto apart = tf::separate(a, b, {.effort = bound});
+        REQUIRE(apart);
+        CHECK(apart.effort.pairs <= bound);
+        CHECK(apart.effort.cut > 0);
+        CHECK(apart.at_place != tf::standing::penetrating);
+        CHECK(tf::relation({apart.points, a.faces}, b).relation != tf::mesh_relation::penetrating);
+    }
 }
 
 TEST_CASE("depth: it stops when told to, and names a bad face") {

@@ -3,6 +3,7 @@
 
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -170,6 +171,88 @@ TEST_CASE("repair: a hole along an edge of three faces is filled") {
     CHECK(is_manifold_in_coordinates(result.mesh));
     CHECK(result.statistics.filled == 1);
     CHECK(tf::signed_volume(result.mesh) > 1.05);
+}
+
+TEST_CASE("repair: a flat solid without its top is filled, whatever share of it that was") {
+    for (const double height : {40.0, 5.0, 0.5, 0.0625}) {
+        CAPTURE(height);
+        tf::mesh plate = test::box(100, 60, height);
+        std::erase_if(plate.faces, [&](const tf::face& f) {
+            return plate.points[f[0]].z + plate.points[f[1]].z + plate.points[f[2]].z ==
+                   3.0 * height;
+        });
+        REQUIRE(plate.faces.size() == 10);
+        for (const double angle : {0.0, 0.7}) {
+            tf::mesh dirty = test::moved(test::turned(plate, {1, 2, 3}, angle), {1000, 0, 0});
+            dirty.points = tf::rounded(dirty.points, tf::precision::float32);
+            const tf::repair_result made = tf::repair(dirty);
+            REQUIRE_MESSAGE(made.certificate, made.certificate.message());
+            CHECK(made.statistics.holes == 1);
+            CHECK(tf::signed_volume(made.mesh) ==
+                  doctest::Approx(6000.0 * height).epsilon(1e-3 / height));
+        }
+    }
+}
+
+TEST_CASE("repair: what ends in a plane and goes through it, or lies in it, stays a sheet") {
+    tf::mesh wave = test::grid(8);
+    const tf::repair_result flat = tf::repair(wave);
+    CHECK(flat.certificate.status == tf::status::open_input);
+    CHECK(flat.statistics.sheets == 1);
+    const auto box = *tf::bounding_box(wave.points);
+    double side = 0.25;
+    for (tf::point3& p : wave.points) {
+        const bool is_rim =
+            p.x == box.min.x || p.x == box.max.x || p.y == box.min.y || p.y == box.max.y;
+        if (is_rim) continue;
+        p.z += side;
+        side = -side;
+    }
+    const tf::repair_result made = tf::repair(wave);
+    CHECK(made.certificate.status == tf::status::open_input);
+    CHECK(made.statistics.sheets == 1);
+}
+
+TEST_CASE("repair: a shell within another that faces outward, too, is counted, and odd keeps it") {
+    const tf::mesh nested =
+        test::together(test::box(20, 20, 20), test::moved(test::box(10, 10, 10), {5, 5, 5}));
+    const tf::repair_result made = tf::repair(nested);
+    REQUIRE(made.certificate);
+    CHECK(tf::signed_volume(made.mesh) == 8000.0);
+    CHECK(made.statistics.dropped_shells == 1);
+    CHECK(made.statistics.vanished_components == 0);
+    const tf::repair_result hollow = tf::repair(nested, {.inside = tf::repair_rule::odd});
+    REQUIRE(hollow.certificate);
+    CHECK(tf::signed_volume(hollow.mesh) == 7000.0);
+    CHECK(hollow.statistics.dropped_shells == 0);
+    // Overlapping ones leave something of both.
+    CHECK(tf::repair(test::together(test::box(2, 2, 2), test::moved(test::box(2, 2, 2), {1, 1, 1})))
+              .statistics.dropped_shells == 0);
+}
+
+TEST_CASE(
+    "repair: parts that are closed by themselves keep vertices of their own where they touch") {
+    const tf::mesh two =
+        test::together(test::box(1, 1, 1), test::moved(test::box(1, 1, 1), {1, 1, 0}));
+    for (const tf::repair_options& options :
+         {tf::repair_options{.sheet = true}, tf::repair_options{.resolve = false},
+          tf::repair_options{.detach = false}}) {
+        const tf::repair_result made = tf::repair(two, options);
+        CHECK(made.mesh.points.size() == 16);
+        CHECK(made.vertex_source.size() == 16);
+        CHECK(tf::count_topology(made.mesh.points.size(), made.mesh.faces).nonmanifold_edges == 0);
+        for (std::size_t v = 0; v < made.vertex_source.size(); ++v)
+            CHECK(two.points[made.vertex_source[v]] == made.mesh.points[v]);
+    }
+    // Triangles that have nothing but vertices of their own become one surface all the same.
+    tf::mesh soup;
+    for (const tf::face& f : test::box(1, 1, 1).faces) {
+        const auto first = static_cast<std::uint32_t>(soup.points.size());
+        for (const std::uint32_t corner : f)
+            soup.points.push_back(test::box(1, 1, 1).points[corner]);
+        soup.faces.push_back({first, first + 1, first + 2});
+    }
+    CHECK(tf::repair(soup, {.resolve = false}).mesh.points.size() == 8);
 }
 
 TEST_CASE("repair: a sheet is not filled, half of a ball is") {

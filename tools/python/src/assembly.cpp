@@ -42,6 +42,8 @@ py::dict as_dict(tf::part_clash&& one) {
     made["volume"] = of(one.volume);
     made["depth"] = of(one.depth);
     made["move"] = as_array(one.move);
+    made["depth_effort"] =
+        py::make_tuple(one.depth_effort.pairs, one.depth_effort.bound, one.depth_effort.cut);
     py::list regions;
     for (tf::contact_region& region : one.regions)
         regions.append(py::make_tuple(box_of(region.box), region.face_pairs,

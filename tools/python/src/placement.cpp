@@ -59,6 +59,8 @@ py::dict as_dict(const tf::mesh_measure& m) {
     return made;
 }
 
+py::tuple as_tuple(const tf::search_effort& e) { return py::make_tuple(e.pairs, e.bound, e.cut); }
+
 py::dict as_dict(tf::placement&& at) {
     py::dict made;
     made["end"] = word_of(end_words, at.end);
@@ -73,6 +75,7 @@ py::dict as_dict(tf::placement&& at) {
     made["nearest"] = py::none();
     if (at.nearest) made["nearest"] = py::make_tuple(at.nearest->fixed, as_dict(at.nearest->how));
     made["certificate"] = std::move(at.certificate);
+    made["effort"] = as_tuple(at.effort);
     made["points"] = as_array(std::move(at.points));
     return made;
 }
@@ -139,9 +142,12 @@ py::dict mate(const held_mesh& moving, const held_meshes& fixed, double clearanc
 }
 
 py::dict separate(const held_mesh& moving, const held_meshes& fixed, double clearance,
-                  std::optional<double> max_travel, const std::string& precision) {
-    const tf::separate_options options{
-        .clearance = clearance, .max_travel = max_travel, .precision = precision_of(precision)};
+                  std::optional<double> max_travel, std::uint64_t effort,
+                  const std::string& precision) {
+    const tf::separate_options options{.clearance = clearance,
+                                       .max_travel = max_travel,
+                                       .precision = precision_of(precision),
+                                       .effort = effort};
     return as_dict(place(moving, fixed, options,
                          [](const auto& m, const auto& all, const tf::separate_options& o) {
                              return tf::separate(m, all, o);
@@ -209,13 +215,15 @@ py::object measure(const held_mesh& a, const held_mesh& b, double radius,
     return found ? py::object(as_dict(*found)) : py::none();
 }
 
-py::object penetration_depth(const held_mesh& a, const held_mesh& b, std::size_t directions) {
-    tf::depth_options options{.directions = directions};
+py::object penetration_depth(const held_mesh& a, const held_mesh& b, std::size_t directions,
+                             std::uint64_t effort) {
+    tf::depth_options options{.directions = directions, .effort = effort};
     const auto found = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::penetration_depth(a.prepared(), b.prepared(), options);
     });
-    return found ? py::object(py::make_tuple(found->depth, as_array(found->move))) : py::none();
+    if (!found) return py::none();
+    return py::make_tuple(found->depth, as_array(found->move), as_tuple(found->effort));
 }
 
 py::tuple time_of_impact(const held_mesh& a, const held_mesh& b, const array_of<double>& motion,

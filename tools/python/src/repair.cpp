@@ -81,6 +81,7 @@ py::dict steps_of(const tf::repair_statistics& s) {
     made["holes"] = s.holes;
     made["hole_edges"] = s.hole_edges;
     made["filled"] = s.filled;
+    made["sheets"] = s.sheets;
     made["open_edges"] = s.open_edges;
     made["resolved"] = s.resolved;
     made["pairs"] = s.pairs;
@@ -92,6 +93,7 @@ py::dict steps_of(const tf::repair_statistics& s) {
     made["detached"] = s.detached;
     made["touching"] = s.touching;
     made["vanished_components"] = s.vanished_components;
+    made["dropped_shells"] = s.dropped_shells;
     made["volume_before"] = s.volume_before;
     made["volume_after"] = s.volume_after;
     made["area_before"] = s.area_before;

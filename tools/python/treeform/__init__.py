@@ -30,8 +30,9 @@ from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_p
                         deviation, locate, raycast, raycast_all, raycast_any, signed_distance,
                         winding_number)
 from ._placement import (Alignment, Contacts, Depth, Impact, LaidFlat, Measure, PackedPart,
-                         Packing, Placement, align, drop, lay_flat, mate, mate_features, measure,
-                         pack, penetration_depth, separate, slide, time_of_impact, turn)
+                        Packing, Placement, SearchEffort, align, drop, lay_flat, mate,
+                        mate_features, measure, pack, penetration_depth, separate, slide,
+                        time_of_impact, turn)
 from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_inside_out,
                           count_topology, face_components, find_defects, find_features,
                           find_solid_defects)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._mesh import MeshLike, held, held_body
+from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
 
@@ -133,6 +134,7 @@ class PartClash(Result):
     volume: Of what two closed parts have in common; else None.
     depth: Of penetrating parts: the length of `move`; else None.
     move: (3,) a short translation that takes `a` out of `b`.
+    depth_effort: What the search for `move` took.
     regions: Where they meet: (box (2, 3), pairs of faces, faces of a, faces of b).
     """
 
@@ -147,6 +149,7 @@ class PartClash(Result):
     volume: float | None
     depth: float | None
     move: Floats
+    depth_effort: SearchEffort
     regions: list[tuple[Floats, int, Ids, Ids]]
 
 
@@ -219,7 +222,8 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
         bodies = [_at(body, pose) for body, pose in zip(bodies, maps)]
     made = _core.clash(bodies, clearance, volumes, depths, limit, _pairs(ignored), vertices,
                        progress=progress)
-    made["pairs"] = [PartClash(**one) for one in made["pairs"]]
+    made["pairs"] = [PartClash(**{**one, "depth_effort": SearchEffort(*one["depth_effort"])})
+                     for one in made["pairs"]]
     return ClashResult(**made)
 
 

@@ -25,6 +25,19 @@ __all__ = ["Alignment", "Body", "Contacts", "Depth", "Impact", "LaidFlat", "Meas
 Body = Union[MeshLike, ArrayLike]
 
 
+class SearchEffort(NamedTuple):
+    """What a search that could go on took, counted in pairs of faces: the same for the same input.
+
+    pairs: That it looked at, one in motion counting as two.
+    bound: The most that it was to look at.
+    cut: Questions that took too many: where there are some, something better may exist.
+    """
+
+    pairs: int
+    bound: int
+    cut: int
+
+
 class Contacts(NamedTuple):
     """Pairs of faces that meet at a place, or keep the clearance there.
 
@@ -89,6 +102,7 @@ class Placement(MeshResult):
     contact_count: All, listed or not.
     nearest: The fixed mesh that matters most, and how the mesh lies to it; None where all are far.
     certificate: What was checked about the coordinates.
+    effort: Of `separate`: what the search took. Where some of it was cut, a shorter way may exist.
     angle: Of `turn` and `mate_features`: in degrees.
     tolerance: Of `turn`: the gap beyond the clearance that counts as contact.
     offset: Of `mate_features`: how far the center of the moving feature ended from the fixed one.
@@ -106,6 +120,7 @@ class Placement(MeshResult):
     contact_count: int
     nearest: tuple[int, Measure] | None
     certificate: Certificate
+    effort: SearchEffort
     angle: float = 0.0
     tolerance: float = 0.0
     offset: float = 0.0
@@ -137,6 +152,7 @@ def _moved(moving: _core.HeldMesh, made: dict[str, Any]) -> Placement:
     made["mesh"] = _placed(points, moving, made["matrix"],
                            made["certificate"] if made["certificate"] else None)
     made["contacts"] = Contacts(*made["contacts"])
+    made["effort"] = SearchEffort(*made["effort"])
     if made["nearest"] is not None:
         number, how = made["nearest"]
         made["nearest"] = number, Measure(**how)
@@ -199,9 +215,11 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
 
 
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
-             precision: str = "float64", progress: Progress = None) -> Placement:
+             effort: int = 0, precision: str = "float64", progress: Progress = None) -> Placement:
     """Translates a mesh to where it penetrates none of the others and keeps the clearance; it stays
     where it already does. Some fifty directions are tried.
+
+    effort: pairs of faces to look at, at most; 0: 20 million and 200 for each face.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -210,8 +228,8 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     (0.25, 'penetrating', 'touching')
     """
     body = held_body(moving)
-    return _moved(body, _core.separate(body, _bodies(fixed), clearance, max_travel, precision,
-                                       progress=progress))
+    return _moved(body, _core.separate(body, _bodies(fixed), clearance, max_travel, effort,
+                                       precision, progress=progress))
 
 
 def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
@@ -481,23 +499,29 @@ class Depth(NamedTuple):
 
     depth: float
     move: Floats
+    #: What the search took. Where some of it was cut, a shorter way may exist.
+    effort: SearchEffort
 
     def __repr__(self) -> str:
         return tuple_repr(self)
 
 
-def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256,
+def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort: int = 0,
                       progress: Progress = None) -> Depth | None:
     """The length of a short translation that takes `a` out of `b`: an upper bound of the depth of
     penetration. None where they do not penetrate. `directions` are tried beside those of faces.
+
+    effort: pairs of faces to look at, at most; 0: 20 million and 200 for each face.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> treeform.penetration_depth(cube, (cube.vertices + [0.75, 0, 0], cube.faces)).depth
     0.25
     """
-    found = _core.penetration_depth(held(a), held(b), directions, progress=progress)
-    return None if found is None else Depth(*found)
+    found = _core.penetration_depth(held(a), held(b), directions, effort, progress=progress)
+    if found is None:
+        return None
+    return Depth(found[0], found[1], SearchEffort(*found[2]))
 
 
 class Impact(NamedTuple):

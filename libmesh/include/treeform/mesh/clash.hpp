@@ -31,6 +31,7 @@ struct clash_options {
     double clearance = 0.0;                ///< parts that are nearer than this are too close
     bool volumes = true;                   ///< of what two closed parts have in common
     bool depths = true;                    ///< of penetrating parts
+    std::uint64_t effort = 0;              ///< for each depth, as in `depth_options`
     std::size_t limit = 1000;              ///< faces listed for each region and part
     std::span<const part_pair> ignored{};  ///< pairs that are not looked at, in any order
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
@@ -63,6 +64,7 @@ struct part_clash {
     /// Of penetrating parts: `penetration_depth`, the length of `move`, which takes `a` out of `b`.
     std::optional<double> depth{};
     point3 move{};
+    search_effort depth_effort{};  ///< of `depth`, as in `penetration_depth_result`
 };
 
 struct clash_result {

@@ -137,6 +137,9 @@ struct mesh_measure {
 struct depth_options {
     std::size_t directions =
         256;  ///< spread over the sphere, tried beside those of faces that meet
+    /// Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20 million
+    /// and 200 for each face.
+    std::uint64_t effort = 0;
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
 };
@@ -147,6 +150,9 @@ struct penetration_depth_result {
     /// Adding this to every point of `a`, each coordinate rounded, takes `a` out of `b`: then
     /// `relation` does not find them penetrating.
     point3 move{};
+    /// What the search took. Where some of its questions were cut, one more reason why a shorter
+    /// way may exist.
+    search_effort effort{};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
 };
 
@@ -159,9 +165,13 @@ struct penetration_depth_result {
 /// and then turned little by little, by less and less, as long as that makes it shorter. Among
 /// shapes that are not convex, a shorter one may exist.
 ///
+/// The search ends by its effort: a place of which it takes more than a 32nd of that to say whether
+/// it is out is passed over. So faces whose boxes overlap in great numbers, as those of long thin
+/// triangles do, give a longer way, but at least the one along an axis past the box of `b`.
+///
 /// \throws std::invalid_argument as `relation`
 /// \cost   `separate`; an `intersects` for each direction, and a `time_of_impact` for those that
-///         lead out sooner
+///         lead out sooner; not more than `options.effort`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<penetration_depth_result> penetration_depth(
     const prepared_mesh& a, const prepared_mesh& b, const depth_options& options = {});

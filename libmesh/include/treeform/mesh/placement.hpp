@@ -96,6 +96,9 @@ struct placement {
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< of all, listed or not
     std::optional<double> max_travel{};  ///< that was allowed
+    /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way may
+    /// exist; without a place, one that was not found.
+    search_effort effort{};
     placement_statistics statistics{};
 
     explicit operator bool() const { return static_cast<bool>(certificate); }

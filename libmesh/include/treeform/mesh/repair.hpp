@@ -154,6 +154,7 @@ struct repair_statistics {
     std::uint64_t holes = 0;                ///< filled
     std::uint64_t hole_edges = 0;           ///< around them
     std::uint64_t filled = 0;               ///< faces that fill them
+    std::uint64_t sheets = 0;               ///< rims not filled, since they end sheets
     std::uint64_t open_edges = 0;           ///< left after these steps
     bool resolved = false;                  ///< faces met and were cut
     std::uint64_t pairs = 0;                ///< of faces that met
@@ -165,6 +166,7 @@ struct repair_statistics {
     std::uint64_t detached = 0;             ///< vertices moved apart
     std::uint64_t touching = 0;             ///< vertices that still have a twin at their place
     std::uint64_t vanished_components = 0;  ///< larger than `repair_options::strays`
+    std::uint64_t dropped_shells = 0;  ///< closed, within the solid; `odd` makes cavities of them
     /// Of the solid after `join`, `orient` and `fill`, and of the result; 0 where it is no solid.
     double volume_before = 0.0;
     double volume_after = 0.0;
@@ -206,7 +208,7 @@ struct TREEFORM_API repair_result {
 /// Holes are filled by triangles between their vertices; large ones of smooth surfaces are filled
 /// by new points, so that the surface goes on as it does around them. Sheets are not filled, but
 /// said to be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would
-/// close them. Nor is a mesh where at more than a tenth as many edges as it has faces more than
+/// close them, but for those that end in a plane and lie to one side of it. Nor is a mesh where at more than a tenth as many edges as it has faces more than
 /// two faces meet and disagree.
 ///
 /// \throws std::invalid_argument as `boolean`; for a gap or share that is negative or not finite

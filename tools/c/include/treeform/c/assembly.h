@@ -57,6 +57,7 @@ typedef struct treeform_clash_options {
     double clearance;
     int32_t volumes;          ///< of what two closed parts have in common; default 1
     int32_t depths;           ///< of penetrating parts; default 1
+    uint64_t effort;          ///< for each depth, as in `treeform_depth_options`
     uint64_t limit;           ///< faces listed for each region and part; default 1000
     const uint32_t* ignored;  ///< [ignored_count][2] pairs that are not looked at; or null
     size_t ignored_count;
@@ -93,6 +94,7 @@ typedef struct treeform_part_clash {
     double volume;   ///< of what is inside both; NaN where not known
     double depth;    ///< of penetrating parts; NaN where not known
     double move[3];  ///< that takes `a` out of `b`
+    treeform_search_effort depth_effort;
 } treeform_part_clash;
 
 /// All that is not clear.

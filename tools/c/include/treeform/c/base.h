@@ -220,6 +220,15 @@ typedef struct treeform_certificate {
     int32_t size_is_volume;
 } treeform_certificate;
 
+/// What a search that could go on has looked at, in pairs of faces, a pair in motion counting as
+/// two: the same for the same input.
+typedef struct treeform_search_effort {
+    uint64_t pairs;
+    uint64_t bound;  ///< the most that it was to look at
+    uint64_t cut;    ///< questions that took too many: where there are some, something better may
+                     ///< exist
+} treeform_search_effort;
+
 #ifdef __cplusplus
 }
 #endif

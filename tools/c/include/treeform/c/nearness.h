@@ -168,6 +168,7 @@ TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treef
 typedef struct treeform_depth_options {
     size_t size;
     uint64_t directions;  ///< tried beside those of faces that meet; default 256
+    uint64_t effort;      ///< pairs of faces to look at, at most; 0: by the input
     treeform_vertices vertices;
     treeform_progress progress;
     void* progress_data;
@@ -176,11 +177,13 @@ typedef struct treeform_depth_options {
 TREEFORM_C_API void treeform_depth_options_init(treeform_depth_options* options, size_t size);
 
 /// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
-/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
+/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate. What
+/// the search took comes in `effort`, which may be null.
 TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         const treeform_mesh* b,
                                                         const treeform_depth_options* options,
-                                                        double* depth, double move[3]);
+                                                        double* depth, double move[3],
+                                                        treeform_search_effort* effort);
 
 /// The components of a closed mesh that are inside out and in no other one; 0 for an open mesh.
 /// Relations and clashes take them for the solids that they are when turned over.

@@ -71,6 +71,7 @@ typedef struct treeform_placement {
     double tolerance;  ///< of `treeform_turn`
     uint64_t steps;    ///< of `treeform_turn`
     double offset;     ///< of `treeform_mate_features`: distance of the features' centers
+    treeform_search_effort effort;  ///< of `treeform_separate`
 } treeform_placement;
 
 /// How to slide, mate, separate, turn. What an operation does not use is ignored.
@@ -86,6 +87,7 @@ typedef struct treeform_place_options {
     treeform_vertices vertices;
     uint64_t normals;     ///< separate: normals of faces tried as directions; default 24
     uint64_t face_pairs;  ///< separate: from this many pairs of faces; default 64
+    uint64_t effort;      ///< separate: pairs of faces to look at, at most; 0: by the input
     double max_angle;     ///< turn: degrees, up to the default 360
     double tolerance;     ///< turn: the gap that counts as contact; NaN: 2^-32 of the size
     uint64_t max_steps;   ///< turn: default 20000

@@ -208,6 +208,7 @@ typedef struct treeform_repair_statistics {
     uint64_t holes;
     uint64_t hole_edges;
     uint64_t filled;
+    uint64_t sheets;  ///< rims not filled, since they end sheets
     uint64_t open_edges;
     int32_t resolved;
     uint64_t pairs;
@@ -219,6 +220,7 @@ typedef struct treeform_repair_statistics {
     uint64_t detached;
     uint64_t touching;
     uint64_t vanished_components;
+    uint64_t dropped_shells;  ///< closed components within the solid, of which nothing is left
     double volume_before;
     double volume_after;
     double area_before;
