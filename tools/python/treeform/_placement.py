@@ -18,8 +18,9 @@ from ._properties import Feature
 from ._results import Result, tuple_repr
 
 __all__ = ["Alignment", "Body", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "PackedPart",
-           "Packing", "Placement", "align", "drop", "lay_flat", "mate", "mate_features", "measure",
-           "pack", "penetration_depth", "separate", "slide", "time_of_impact", "turn"]
+           "Packing", "Placement", "SearchEffort", "align", "drop", "lay_flat", "mate",
+           "mate_features", "measure", "pack", "penetration_depth", "separate", "slide",
+           "time_of_impact", "turn"]
 
 #: A mesh, or a cloud (n, 3).
 Body = Union[MeshLike, ArrayLike]
@@ -495,11 +496,11 @@ class Depth(NamedTuple):
 
     depth: The length of `move`.
     move: (3,) added to each vertex of `a`, it takes `a` out of `b`. Verified exactly.
+    effort: What the search took. Where some of it was cut, a shorter way may exist.
     """
 
     depth: float
     move: Floats
-    #: What the search took. Where some of it was cut, a shorter way may exist.
     effort: SearchEffort
 
     def __repr__(self) -> str:
