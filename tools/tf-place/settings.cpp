@@ -116,6 +116,7 @@ void check_settings(const command_line& line, place_settings& s, common_options&
         {s.has_bed() && s.direction && !(s.direction->z < 0.0),
          "--direction: does not lead down to the bed"},
         {!is(measure) && s.deviation.wanted(), "--distances and --tolerance-band are for measure"},
+        {!is(measure) && s.deviation.no_depth, "--no-depth is for measure"},
         {is(measure) && s.max_travel, "--max-travel: measure moves nothing"},
         {is(measure) && !s.matrix.empty(), "--matrix: measure moves nothing"},
         {is(measure) && o.in_place, "--in-place: measure moves nothing"},

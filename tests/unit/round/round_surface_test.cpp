@@ -161,9 +161,9 @@ TEST_CASE("round: the middle of a piece that was mended lies in the face that it
         for (tf::point3& p : turned.points)
             p = {p.x - turn * p.y, p.y + turn * (p.x - p.z), p.z + turn * p.y};
         const std::vector<tf::mesh_view> both{whole, turned};
-        const tf::boolean_result result = tf::boolean(both, tf::boolean_expression::union_of(2),
-                                                      {.precision = tf::precision::float32,
-                                                       .keep_cuts = true});
+        const tf::boolean_result result =
+            tf::boolean(both, tf::boolean_expression::union_of(2),
+                        {.precision = tf::precision::float32, .keep_cuts = true});
         REQUIRE(result.certificate);
         CHECK(result.statistics.rounding_steps > 0);
         for (std::size_t f = 0; f < result.mesh.faces.size(); ++f) {

@@ -73,7 +73,6 @@ struct TREEFORM_API resolve_result {
     resolve_statistics statistics{};
 
     /// The mesh.
-    ///
     /// \throws not_certified_error unless the certificate's status is ok
     [[nodiscard]] const treeform::mesh& value() const&;
     [[nodiscard]] treeform::mesh value() &&;
@@ -167,8 +166,8 @@ struct repair_statistics {
     std::uint64_t touching = 0;             ///< vertices that still have a twin at their place
     std::uint64_t vanished_components = 0;  ///< larger than `repair_options::strays`
     std::uint64_t dropped_shells = 0;  ///< closed, within the solid; `odd` makes cavities of them
-    /// Of the solid after `join`, `orient` and `fill`, and of the result; 0 where it is no solid.
-    double volume_before = 0.0;
+    double volume_before =
+        0.0;  ///< after `join`, `orient`, `fill`; as below 0 where it is no solid
     double volume_after = 0.0;
     double area_before = 0.0;
     double area_after = 0.0;
@@ -205,11 +204,11 @@ struct TREEFORM_API repair_result {
 /// boundary. Where faces disagree, the cells that they cut space into are labeled inside or outside
 /// by a minimum cut, as they and generalized winding numbers disagree least, if less is lost then.
 ///
-/// Holes are filled by triangles between their vertices; large ones of smooth surfaces are filled
-/// by new points, so that the surface goes on as it does around them. Sheets are not filled, but
-/// said to be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would
-/// close them, but for those that end in a plane and lie to one side of it. Nor is a mesh where at more than a tenth as many edges as it has faces more than
-/// two faces meet and disagree.
+/// Holes are filled by triangles between their vertices; large ones of smooth surfaces by new points,
+/// so that the surface goes on as it does around them. Sheets are not filled, but said to be open,
+/// unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close them, but for
+/// those that end in a plane and lie to one side of it. Nor is a mesh where at more than a tenth as
+/// many edges as it has faces more than two faces meet and disagree.
 ///
 /// \throws std::invalid_argument as `boolean`; for a gap or share that is negative or not finite
 /// \cost   O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
@@ -235,7 +234,6 @@ struct TREEFORM_API solid_defects {
     bool wrongly_nested = false;
     bool cancelled = false;  ///< `progress` asked to stop: nothing is known
 
-    /// Whether there is any.
     [[nodiscard]] bool any() const;
     /// "open at 37 edges, 2 pairs of faces meet"; "none" where there are none.
     [[nodiscard]] std::string message() const;
