@@ -222,8 +222,9 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
         bodies = [_at(body, pose) for body, pose in zip(bodies, maps)]
     made = _core.clash(bodies, clearance, volumes, depths, limit, _pairs(ignored), vertices,
                        progress=progress)
-    made["pairs"] = [PartClash(**{**one, "depth_effort": SearchEffort(*one["depth_effort"])})
-                     for one in made["pairs"]]
+    for one in made["pairs"]:
+        one["depth_effort"] = SearchEffort(*one["depth_effort"])
+    made["pairs"] = [PartClash(**one) for one in made["pairs"]]
     return ClashResult(**made)
 
 
