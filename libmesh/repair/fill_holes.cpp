@@ -100,9 +100,9 @@ class part_areas {
             std::iota(by_part_.begin(), by_part_.end(), 0U);
             std::ranges::stable_sort(by_part_, {}, [&](std::uint32_t f) { return part_of_[f]; });
         }
-        const auto own = std::ranges::equal_range(by_part_, part, {},
-                                                  [&](std::uint32_t f) { return part_of_[f]; });
-        return {own.begin(), own.end()};
+        const auto part_of = [&](std::uint32_t f) { return part_of_[f]; };
+        return {std::ranges::lower_bound(by_part_, part, {}, part_of),
+                std::ranges::upper_bound(by_part_, part, {}, part_of)};
     }
 
     std::vector<std::uint32_t> part_of_;    ///< [F]
