@@ -124,7 +124,7 @@ TEST_CASE("zip: a wrong count, size or place of ZIP64 is refused") {
 TEST_CASE("zip: a directory that leaves values of ZIP64 out is refused") {
     const std::string whole = test::package_3mf(packed_model, {}, large);
     const std::size_t extra = whole.rfind("PK\x01\x02") + 46 + 16;
-    for (const std::size_t size : {0, 8, 16, 23, 25, 65535})
+    for (const std::size_t size : {0UL, 8UL, 16UL, 23UL, 25UL, 65535UL})
         CHECK_FALSE(
             refusal_of_zip(with_bytes(whole, extra + 2, test::little_endian(size, 2))).empty());
     CHECK_FALSE(refusal_of_zip(with_bytes(whole, extra, test::little_endian(2, 2))).empty());
