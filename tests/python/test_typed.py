@@ -34,9 +34,10 @@ def test_a_users_file_passes_pyright(tmp_path):
     if npm is None:
         pytest.skip("pyright comes by npm, which is not there")
     if shutil.which("pyright") is None:
-        got = subprocess.run([npm, "install", "--silent", "--prefix", str(tmp_path), "pyright"],
-                             capture_output=True, text=True, timeout=300)
-        if got.returncode != 0:
+        words = [npm, "install", "--silent", "--prefix", str(tmp_path), "pyright"]
+        try:
+            subprocess.run(words, capture_output=True, check=True, timeout=60)
+        except (subprocess.TimeoutExpired, subprocess.CalledProcessError):
             pytest.skip("npm has no pyright here")
     pyright = shutil.which("pyright", path=f"{tmp_path}/node_modules/.bin") or "pyright"
     paths = [] if IS_INSTALLED else [str(FOLDER)]
