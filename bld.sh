@@ -1,1 +1,0 @@
-cd /work/e; export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CMAKE_CXX_COMPILER_LAUNCHER=ccache TREEFORM_MODELS_DIR=/work/shared/models TREEFORM_CLOUDS_DIR=/work/shared/clouds; ninja -C build/release -j2 "$@" 2>&1 | grep -E "error|FAILED|warning"
