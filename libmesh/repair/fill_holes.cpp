@@ -55,8 +55,8 @@ class part_areas {
     }
 
   private:
-    /// Whether the rim is plane but for rounding, of float32 or six digits, and the part lies below it, as seen
-    /// from the side that the filling looks to, by so much that rounding does not make it.
+    /// Whether the rim is plane, to the rounding of float32 or six digits, and the part lies below
+    /// it, as seen from the side that the filling looks to, by more than rounding makes.
     [[nodiscard]] bool is_all_below(const working_mesh& mesh, const open_rim& rim,
                                     std::uint32_t part) {
         // Scaled, so that products are doubles whatever the unit.

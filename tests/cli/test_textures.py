@@ -69,7 +69,7 @@ class Read:
 
 class TextureTest(BooleanTest):
     def run_as(self, tool, *arguments):
-        """Its warnings, but for names of parts, which PLY does not hold."""
+        """Its warnings without those of names of parts, which PLY does not hold."""
         self.tool = tool
         report = self.report(*arguments, "--output-format", "ply", "--ascii", "-f", status=0)
         return [w["code"] for w in report["files"][0]["warnings"] if w["code"] != "left-out"]

@@ -9,7 +9,9 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/columns.hpp>
 #include <support/skip.hpp>
+#include <support/solids.hpp>
 
 #include <array>
 #include <cstdint>
@@ -24,25 +26,6 @@
 #endif
 
 namespace {
-
-/// The box from 0 to these sides.
-tf::mesh box_of(double x, double y, double z) {
-    tf::mesh box;
-    for (int corner = 0; corner < 8; ++corner)
-        box.points.push_back({(corner & 1) * x, (corner >> 1 & 1) * y, (corner >> 2 & 1) * z});
-    box.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                 {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return box;
-}
-
-std::vector<int> numbers_of(const tf::mesh_file& file, const char* element, const char* name) {
-    const tf::element* const e = tf::find_element(file.attributes, element);
-    const tf::column* const c = e == nullptr ? nullptr : tf::find_column(*e, name);
-    std::vector<int> all;
-    for (std::size_t i = 0; c != nullptr && i < tf::value_count(*c); ++i)
-        all.push_back(static_cast<int>(tf::number_at(*c, i)));
-    return all;
-}
 
 void set_bytes(tf::mesh_file& file, const char* element, std::size_t rows, const char* name,
                const std::vector<std::uint8_t>& values) {
@@ -98,7 +81,7 @@ handle add_mesh(const handle& model, const tf::mesh& mesh, const char* name) {
     return object;
 }
 
-/// The identity but for a diagonal and a translation.
+/// The identity, with another diagonal and a translation.
 NMR::MODELTRANSFORM placed_at(std::array<float, 3> scale, std::array<float, 3> to) {
     NMR::MODELTRANSFORM t{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -224,9 +207,9 @@ TEST_CASE("lib3mf writes: a mesh, its unit and its name are read") {
     for (DWORD unit = 0; unit < units.size(); ++unit) {
         const handle model = new_model();
         must(NMR::lib3mf_model_setunit(model, unit));
-        build(model, add_mesh(model, box_of(1, 2, 3.5), "k\xc3\xb6nig & <more>"));
+        build(model, add_mesh(model, test::box(1, 2, 3.5), "k\xc3\xb6nig & <more>"));
         const tf::mesh_file file = read_back(model);
-        CHECK(file.mesh == box_of(1, 2, 3.5));
+        CHECK(file.mesh == test::box(1, 2, 3.5));
         CHECK(file.attributes.obj_info ==
               std::vector<std::string>{std::string("unit ") + units[unit]});
         REQUIRE(file.attributes.parts.size() == 1);
@@ -236,7 +219,7 @@ TEST_CASE("lib3mf writes: a mesh, its unit and its name are read") {
 
 TEST_CASE("lib3mf writes: items and components are where their transforms put them") {
     const handle model = new_model();
-    const handle box = add_mesh(model, box_of(1, 2, 3), "box");
+    const handle box = add_mesh(model, test::box(1, 2, 3), "box");
     const handle both =
         handle::of([&](auto* to) { return NMR::lib3mf_model_addcomponentsobject(model, to); });
     must(NMR::lib3mf_object_setnameutf8(both, "both"));
@@ -272,7 +255,7 @@ TEST_CASE("lib3mf writes: base materials are materials and colors") {
     must(NMR::lib3mf_basematerial_addmaterialutf8(materials, "red PLA", 255, 0, 0, &red));
     must(NMR::lib3mf_basematerial_addmaterialutf8(materials, "blue", 0, 0, 255, &blue));
     must(NMR::lib3mf_basematerial_getresourceid(materials, &group));
-    const handle box = add_mesh(model, box_of(1, 1, 1), "box");
+    const handle box = add_mesh(model, test::box(1, 1, 1), "box");
     {
         const handle usual = handle::of(
             [&](auto* to) { return NMR::lib3mf_object_createdefaultpropertyhandler(box, to); });
@@ -290,15 +273,15 @@ TEST_CASE("lib3mf writes: base materials are materials and colors") {
     CHECK(file.attributes.parts[1] ==
           tf::part{.object = "box", .material = "blue", .first_face = 6});
     const std::vector<int> half{255, 255, 255, 255, 255, 255, 0, 0, 0, 0, 0, 0};
-    CHECK(numbers_of(file, "face", "red") == half);
-    CHECK(numbers_of(file, "face", "green") == std::vector<int>(12, 0));
-    CHECK(numbers_of(file, "face", "blue") == std::vector<int>(half.rbegin(), half.rend()));
+    CHECK(test::whole_values(file, "face", "red") == half);
+    CHECK(test::whole_values(file, "face", "green") == std::vector<int>(12, 0));
+    CHECK(test::whole_values(file, "face", "blue") == std::vector<int>(half.rbegin(), half.rend()));
 }
 
 TEST_CASE("lib3mf writes: colors of faces and of their corners are read") {
     for (const bool of_corners : {false, true}) {
         const handle model = new_model();
-        const tf::mesh shape = box_of(1, 1, 1);
+        const tf::mesh shape = test::box(1, 1, 1);
         const handle box = add_mesh(model, shape, "box");
         {
             const handle colors = handle::of(
@@ -320,16 +303,16 @@ TEST_CASE("lib3mf writes: colors of faces and of their corners are read") {
         const char* const where = of_corners ? "vertex" : "face";
         std::vector<int> reds;
         for (int i = 0; i < (of_corners ? 8 : 12); ++i) reds.push_back(10 * i);
-        CHECK(numbers_of(file, where, "red") == reds);
-        CHECK(numbers_of(file, where, "blue") == std::vector<int>(reds.size(), 30));
-        CHECK(numbers_of(file, where, "alpha") == std::vector<int>(reds.size(), 128));
+        CHECK(test::whole_values(file, where, "red") == reds);
+        CHECK(test::whole_values(file, where, "blue") == std::vector<int>(reds.size(), 30));
+        CHECK(test::whole_values(file, where, "alpha") == std::vector<int>(reds.size(), 128));
     }
 }
 
 TEST_CASE("lib3mf reads: parts, names and units as they are written") {
     tf::mesh_file file;
     for (std::uint32_t i = 0; i < 3; ++i) {
-        const tf::mesh box = box_of(1, 1 + i, 0.1);
+        const tf::mesh box = test::box(1, 1 + i, 0.1);
         file.attributes.parts.push_back(
             {.object = "part <" + std::to_string(i) + "> \xc3\xa4 & \"more\"",
              .first_face = 12 * i});
@@ -344,13 +327,13 @@ TEST_CASE("lib3mf reads: parts, names and units as they are written") {
     for (std::uint32_t i = 0; i < 3; ++i) {
         CHECK(seen[i].name == file.attributes.parts[i].object);
         CHECK(seen[i].mesh.points.size() == 8);
-        CHECK(seen[i].mesh.faces == box_of(1, 1, 1).faces);
+        CHECK(seen[i].mesh.faces == test::box(1, 1, 1).faces);
         CHECK(tf::signed_volume(seen[i].mesh) == doctest::Approx(0.1 * (1 + i)));
     }
 }
 
 TEST_CASE("lib3mf reads: materials with the colors of their faces") {
-    tf::mesh_file file{.mesh = box_of(1, 1, 1)};
+    tf::mesh_file file{.mesh = test::box(1, 1, 1)};
     file.stored_faces = 12;
     file.attributes.parts = {{.object = "box", .material = "a & b", .first_face = 0},
                              {.object = "box", .material = "c", .first_face = 6}};
@@ -366,7 +349,7 @@ TEST_CASE("lib3mf reads: materials with the colors of their faces") {
 }
 
 TEST_CASE("lib3mf reads: colors of faces, and of points") {
-    tf::mesh_file faces{.mesh = box_of(1, 1, 1)};
+    tf::mesh_file faces{.mesh = test::box(1, 1, 1)};
     faces.stored_faces = 12;
     tf::mesh_file points = faces;
     std::vector<std::uint8_t> numbers;

@@ -1,10 +1,12 @@
 #pragma once
 /// \file
-/// Attributes made in place.
+/// Attributes made in place, and read.
 
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +21,17 @@ inline tf::attributes vertex_columns(
     for (const auto& [name, values] : list)
         e.columns.push_back(tf::make_column<double>(name, values));
     return a;
+}
+
+/// The values of a column as whole numbers; none where there is no such column.
+inline std::vector<int> whole_values(const tf::mesh_file& file, const char* element,
+                                     const char* name) {
+    const tf::element* const e = tf::find_element(file.attributes, element);
+    const tf::column* const c = e == nullptr ? nullptr : tf::find_column(*e, name);
+    std::vector<int> all;
+    for (std::size_t i = 0; c != nullptr && i < tf::value_count(*c); ++i)
+        all.push_back(static_cast<int>(tf::number_at(*c, i)));
+    return all;
 }
 
 }  // namespace test

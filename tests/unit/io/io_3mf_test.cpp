@@ -7,6 +7,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/columns.hpp>
 #include <support/packages.hpp>
 
 #include <array>
@@ -70,15 +71,6 @@ bool same_points(const std::vector<tf::point3>& a, const std::vector<tf::point3>
                 std::bit_cast<std::uint64_t>(b[v][axis]))
                 return false;
     return true;
-}
-
-std::vector<int> whole_values(const tf::mesh_file& file, const char* element, const char* name) {
-    const tf::element* const e = tf::find_element(file.attributes, element);
-    const tf::column* const c = e == nullptr ? nullptr : tf::find_column(*e, name);
-    std::vector<int> all;
-    for (std::size_t i = 0; c != nullptr && i < tf::value_count(*c); ++i)
-        all.push_back(static_cast<int>(tf::number_at(*c, i)));
-    return all;
 }
 
 std::string codes(const tf::mesh_file& file) {
@@ -197,10 +189,10 @@ TEST_CASE("3mf: base materials are parts' materials and colors of faces") {
               "<m:colorgroup id=\"6\"><m:color color=\"#0000FF\"/></m:colorgroup>" +
                   object(1, "name=\"a\" pid=\"5\" pindex=\"0\"", mesh),
               "<item objectid=\"1\"/>")));
-    CHECK(whole_values(file, "face", "red") == std::vector<int>{255, 0, 0});
-    CHECK(whole_values(file, "face", "green") == std::vector<int>{0, 255, 0});
-    CHECK(whole_values(file, "face", "blue") == std::vector<int>{0, 0, 255});
-    CHECK(whole_values(file, "face", "alpha") == std::vector<int>{255, 128, 255});
+    CHECK(test::whole_values(file, "face", "red") == std::vector<int>{255, 0, 0});
+    CHECK(test::whole_values(file, "face", "green") == std::vector<int>{0, 255, 0});
+    CHECK(test::whole_values(file, "face", "blue") == std::vector<int>{0, 0, 255});
+    CHECK(test::whole_values(file, "face", "alpha") == std::vector<int>{255, 128, 255});
     const std::vector<tf::part> parts{{.object = "a", .material = "PLA", .first_face = 0},
                                       {.object = "a", .material = "ABS", .first_face = 1},
                                       {.object = "a", .first_face = 2}};
@@ -226,14 +218,14 @@ TEST_CASE("3mf: corners of several colors are colors of points where that is the
                   "<item objectid=\"1\"/>")));
     };
     const tf::mesh_file points = colored("pid=\"6\" p1=\"2\" p2=\"1\" p3=\"0\"");
-    CHECK(whole_values(points, "vertex", "red") == std::vector<int>{0, 1, 2});
+    CHECK(test::whole_values(points, "vertex", "red") == std::vector<int>{0, 1, 2});
     CHECK(tf::find_element(points.attributes, "face") == nullptr);
     CHECK(points.warnings.empty());
     CHECK(read_3mf(written_3mf(points)).attributes == points.attributes);
     const tf::mesh_file faces = colored("pid=\"6\" p1=\"1\"");
-    CHECK(whole_values(faces, "face", "red") == std::vector<int>{0, 1});
+    CHECK(test::whole_values(faces, "face", "red") == std::vector<int>{0, 1});
     CHECK(codes(faces) == "colors ");
-    CHECK(whole_values(colored(""), "face", "red") == std::vector<int>{0, 255});
+    CHECK(test::whole_values(colored(""), "face", "red") == std::vector<int>{0, 255});
 }
 
 TEST_CASE("3mf: texture coordinates are those of corners, their images are not read") {
@@ -339,7 +331,7 @@ TEST_CASE("3mf: faces without a material are white among those that have one") {
     file.attributes.parts[1].material = "PLA";
     const tf::mesh_file again = read_3mf(written_3mf(file));
     CHECK(again.attributes.parts == file.attributes.parts);
-    CHECK(whole_values(again, "face", "green") == std::vector<int>(12, 255));
+    CHECK(test::whole_values(again, "face", "green") == std::vector<int>(12, 255));
     CHECK(written_3mf(again) == written_3mf(file));
 }
 

@@ -42,7 +42,7 @@ gltf_file rich_gltf() {
     return file;
 }
 
-/// Whatever is accepted can be written, but for what a format has no numbers for.
+/// Whatever is accepted can be written, except what a format has no numbers for.
 void write_somewhere(const tf::mesh_file& file) {
     for (const char* const format : {"ply", "3mf", "glb", "obj"}) {
         try {

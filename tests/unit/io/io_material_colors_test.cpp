@@ -5,6 +5,7 @@
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/columns.hpp>
 #include <support/own_folder.hpp>
 
 #include <filesystem>
@@ -33,15 +34,6 @@ class obj_with_materials {
     test::own_folder folder_{"treeform-materials"};
 };
 
-std::vector<int> channel_of(const tf::mesh_file& file, const char* element, const char* name) {
-    const tf::element* const e = tf::find_element(file.attributes, element);
-    const tf::column* const c = e == nullptr ? nullptr : tf::find_column(*e, name);
-    std::vector<int> all;
-    for (std::size_t i = 0; c != nullptr && i < tf::value_count(*c); ++i)
-        all.push_back(static_cast<int>(tf::number_at(*c, i)));
-    return all;
-}
-
 tf::mesh_file through_3mf(const tf::mesh_file& file, std::vector<tf::io_warning>& warnings) {
     const test::own_folder folder("treeform-through-3mf");
     const auto path = folder.path / "a.3mf";
@@ -56,16 +48,16 @@ TEST_CASE("materials: faces of an OBJ have the colors that the file beside it sa
         "# c\nnewmtl red one \n Kd 1 0 0\nmap_Kd red.png\n\nnewmtl blue\r\nKd 0 0.502 1 # c\nd "
         "0.5\n");
     const tf::mesh_file file = tf::read(obj.path());
-    CHECK(channel_of(file, "face", "red") == std::vector<int>{255, 255, 0, 255});
-    CHECK(channel_of(file, "face", "green") == std::vector<int>{255, 0, 128, 255});
-    CHECK(channel_of(file, "face", "blue") == std::vector<int>{255, 0, 255, 255});
-    CHECK(channel_of(file, "face", "alpha") == std::vector<int>{255, 255, 128, 255});
+    CHECK(test::whole_values(file, "face", "red") == std::vector<int>{255, 255, 0, 255});
+    CHECK(test::whole_values(file, "face", "green") == std::vector<int>{255, 0, 128, 255});
+    CHECK(test::whole_values(file, "face", "blue") == std::vector<int>{255, 0, 255, 255});
+    CHECK(test::whole_values(file, "face", "alpha") == std::vector<int>{255, 255, 128, 255});
     CHECK(file.warnings.empty());
     std::vector<tf::io_warning> warnings;
     const tf::mesh_file again = through_3mf(file, warnings);
     CHECK(warnings.empty());
-    CHECK(channel_of(again, "face", "green") == channel_of(file, "face", "green"));
-    CHECK(channel_of(again, "face", "alpha") == channel_of(file, "face", "alpha"));
+    CHECK(test::whole_values(again, "face", "green") == test::whole_values(file, "face", "green"));
+    CHECK(test::whole_values(again, "face", "alpha") == test::whole_values(file, "face", "alpha"));
     REQUIRE(again.attributes.parts.size() == 4);
     CHECK(again.attributes.parts[1].material == "red one");
 }
@@ -77,7 +69,7 @@ TEST_CASE("materials: polygons have one color, and text on OBJ is as without mat
     const obj_with_materials obj("newmtl a\nKd 0 1 0\n", quads);
     const tf::mesh_file file = tf::read(obj.path());
     CHECK(file.mesh.faces.size() == 4);
-    CHECK(channel_of(file, "face", "red") == std::vector<int>{0, 0});
+    CHECK(test::whole_values(file, "face", "red") == std::vector<int>{0, 0});
     CHECK(tf::find_column(*tf::find_element(file.attributes, "face"), "alpha") == nullptr);
     CHECK(tf::write_to_memory(file, {.format = "obj"}) ==
           tf::write_to_memory(tf::read(std::as_bytes(std::span(quads)), "a.obj", {}),
@@ -99,9 +91,9 @@ TEST_CASE("materials: what says no color changes nothing") {
 TEST_CASE("materials: Kd of one number is gray, and is kept between 0 and 1; Tr is not guessed") {
     const obj_with_materials obj("newmtl red one\nKd 0.2\nTr 0.5\nnewmtl blue\nKd -1 2 0.5 7\n");
     const tf::mesh_file file = tf::read(obj.path());
-    CHECK(channel_of(file, "face", "red") == std::vector<int>{255, 51, 0, 255});
-    CHECK(channel_of(file, "face", "green") == std::vector<int>{255, 51, 255, 255});
-    CHECK(channel_of(file, "face", "blue") == std::vector<int>{255, 51, 128, 255});
+    CHECK(test::whole_values(file, "face", "red") == std::vector<int>{255, 51, 0, 255});
+    CHECK(test::whole_values(file, "face", "green") == std::vector<int>{255, 51, 255, 255});
+    CHECK(test::whole_values(file, "face", "blue") == std::vector<int>{255, 51, 128, 255});
     REQUIRE(file.warnings.size() == 1);
     CHECK(file.warnings[0].text.find("Tr") != std::string::npos);
 }
@@ -115,7 +107,7 @@ TEST_CASE("materials: 3MF says where it knows no colors, and which it leaves out
     const obj_with_materials obj(
         "newmtl m\nKd 1 0 0\n",
         "mtllib my colors.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nusemtl m\nf 1 2 3\n");
-    CHECK(channel_of(through_3mf(tf::read(obj.path()), warnings), "face", "red") ==
+    CHECK(test::whole_values(through_3mf(tf::read(obj.path()), warnings), "face", "red") ==
           std::vector<int>{255});
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].code == "colors-dropped");

@@ -206,7 +206,7 @@ struct TREEFORM_API repair_result {
 ///
 /// Holes are filled by triangles between their vertices; large ones of smooth surfaces by new points,
 /// so that the surface goes on as it does around them. Sheets are not filled, but said to be open,
-/// unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close them, but for
+/// unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close them, except
 /// those that end in a plane and lie to one side of it. Nor is a mesh where at more than a tenth as
 /// many edges as it has faces more than two faces meet and disagree.
 ///
