@@ -41,10 +41,10 @@ std::optional<std::vector<std::uint32_t>> active_faces(const active_space& space
 
 }  // namespace
 
-std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
-                                                       operand_edges&& edges,
-                                                       const boolean_expression& expression,
-                                                       const rounding_try& options) {
+std::optional<boolean_result> boolean_in_active_space(joined_operands& joined,
+                                                      operand_edges&& edges,
+                                                      const boolean_expression& expression,
+                                                      const boolean_options& options) {
     if (edges.piece.count() < fewest_components) return std::nullopt;
     // What each face has a number in goes as soon as it may: the crowd is far larger than the result.
     std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
@@ -52,7 +52,7 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     edges = {};
     if (components.size() < fewest_components) return std::nullopt;
     const auto stops = [&](double done) { return options.progress && !options.progress(done); };
-    if (stops(0.1)) return unmended_result{with_counts({}), {}};
+    if (stops(0.1)) return with_counts({});
     const partial_expression at_nowhere(expression, options.inside);
     const face_samples samples = sample_faces(components, at_nowhere);
     if (samples.hidden < least_hidden) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
         {.effort = std::clamp(samples.neighbors / neighbors_of_effort, 0.125, 4.0)});
     auto number = active_faces(space);
     if (!number) return std::nullopt;
-    if (stops(0.2)) return unmended_result{with_counts({}), {}};
+    if (stops(0.2)) return with_counts({});
     const std::size_t all = joined.all.faces.size();
 
     std::vector<face> faces;
@@ -75,8 +75,8 @@ std::optional<unmended_result> boolean_in_active_space(joined_operands& joined,
     arrange_faces_result arranged = arrange::arrange_where(
         active, [&](const aabb<double, 3>& box) { return space.reaches_active(box); },
         {.progress = base::part_of(options.progress, 0.2, 0.5)});
-    unmended_result made{with_counts(arranged), {}};
-    made.result.statistics.skipped_faces = all - faces.size();
+    boolean_result made = with_counts(arranged);
+    made.statistics.skipped_faces = all - faces.size();
     if (arranged.cancelled) return made;
     // The points stay where they are in memory.
     arranged.cut.given_points = std::move(joined.all.points);

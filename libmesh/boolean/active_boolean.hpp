@@ -3,7 +3,6 @@
 /// Set operations whose cost follows the result: what cannot be in it is not cut.
 
 #include <libmesh/boolean/joined_operands.hpp>
-#include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <treeform/mesh/boolean.hpp>
 
@@ -19,8 +18,8 @@ namespace treeform::detail::boolean {
 ///
 /// \param edges of `joined`; used up
 /// \same  on any number of threads
-[[nodiscard]] std::optional<unmended_result> boolean_in_active_space(
+[[nodiscard]] std::optional<boolean_result> boolean_in_active_space(
     joined_operands& joined, operand_edges&& edges, const boolean_expression& expression,
-    const rounding_try& options);
+    const boolean_options& options);
 
 }  // namespace treeform::detail::boolean

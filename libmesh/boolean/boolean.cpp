@@ -16,7 +16,6 @@
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/labeled_cells.hpp>
 #include <libmesh/boolean/manifold_pair.hpp>
-#include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
@@ -47,8 +46,6 @@ using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
 using detail::boolean::open_input_edges;
 using detail::boolean::operand_edges;
-using detail::boolean::rounding_try;
-using detail::boolean::unmended_result;
 using detail::boolean::with_counts;
 
 /// Operands, joined, and their arrangement, which has taken their points; their faces stay.
@@ -105,9 +102,9 @@ certificate open_input(const open_input_edges& found, const joined_operands& joi
     return result;
 }
 
-unmended_result open_result(certificate&& found) {
-    unmended_result made;
-    made.result.certificate = std::move(found);
+boolean_result open_result(certificate&& found) {
+    boolean_result made;
+    made.certificate = std::move(found);
     return made;
 }
 
@@ -132,7 +129,7 @@ std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t fa
 detail::round::solid_faces chosen_faces(std::span<const mesh_view> operands,
                                         const arranged_operands& input,
                                         const boolean_expression& expression,
-                                        const rounding_try& options, boolean_result& result) {
+                                        const boolean_options& options, boolean_result& result) {
     const mesh_arrangement& cut = input.arranged.cut;
     const mesh_view mesh = input_of(cut, input.joined);
     const std::vector<std::uint32_t> operand_of_face = input.joined.operand_of_face();
@@ -156,8 +153,8 @@ detail::round::solid_faces chosen_faces(std::span<const mesh_view> operands,
     return detail::round::faces_around(cut, cells, inside);
 }
 
-unmended_result boolean_of(std::span<const mesh_view> operands,
-                           const boolean_expression& expression, const rounding_try& options) {
+boolean_result boolean_of(std::span<const mesh_view> operands, const boolean_expression& expression,
+                          const boolean_options& options) {
     check_expression("boolean", operands, expression);
     arranged_operands input{join_usable(operands), {}};
     auto& [joined, arranged] = input;
@@ -172,19 +169,17 @@ unmended_result boolean_of(std::span<const mesh_view> operands,
                 return std::move(*made);
     }
     arrange_joined(input, part_of(options.progress, 0.2, 0.5));
-    unmended_result made{with_counts(arranged), {}};
-    boolean_result& result = made.result;
-    if (arranged.cancelled) return made;
+    boolean_result result = with_counts(arranged);
+    if (arranged.cancelled) return result;
     detail::round::solid_faces chosen = chosen_faces(operands, input, expression, options, result);
-    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
-    return made;
+    finish_surface(result, arranged.cut, std::move(chosen), joined, true, options);
+    return result;
 }
 
-/// `counts` are of the operand as given, not of what it is mended to.
-unmended_result labeled_of(mesh_view mesh, const rounding_try& options,
-                           std::optional<label_counts>& counts) {
+boolean_result labeled_of(mesh_view mesh, const boolean_options& options,
+                          std::optional<label_counts>& counts) {
     auto [joined, arranged] = arrange_operands({&mesh, 1}, part_of(options.progress, 0.0, 0.5));
-    unmended_result made{with_counts(arranged), {}};
+    boolean_result made = with_counts(arranged);
     if (arranged.cancelled) return made;
     const auto [count, cells] =
         detail::arrange::open_cells_of(input_of(arranged.cut, joined), arranged.cut);
@@ -192,16 +187,16 @@ unmended_result labeled_of(mesh_view mesh, const rounding_try& options,
         detail::boolean::label_cells(arranged.cut, cells, count, options.face_groups,
                                      [&] { return options.progress && !options.progress(0.6); });
     if (!labels) return made;
-    made.result.statistics.cells = count;
-    if (!counts) counts = {count - 1, labels->dropped_area, labels->turned_area};
+    made.statistics.cells = count;
+    counts = {count - 1, labels->dropped_area, labels->turned_area};
     detail::round::solid_faces chosen =
         detail::round::faces_around(arranged.cut, cells, labels->inside);
     finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
     return made;
 }
 
-unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
-                        const boolean_expression& expression, const rounding_try& options) {
+boolean_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
+                       const boolean_expression& expression, const boolean_options& options) {
     check_expression("clip", operands, expression);
     if (sheet >= operands.size())
         throw std::invalid_argument("treeform::clip: the sheet is no operand");
@@ -215,20 +210,19 @@ unmended_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet
     return detail::boolean::clip_sheet(joined, edges, sheet, expression, options);
 }
 
-unmended_result split_of(std::span<const mesh_view> operands, const rounding_try& options) {
+boolean_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
     auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.7));
-    unmended_result made{with_counts(arranged), {}};
-    boolean_result& result = made.result;
-    if (arranged.cancelled) return made;
+    boolean_result result = with_counts(arranged);
+    if (arranged.cancelled) return result;
     std::vector<std::uint32_t> all(arranged.cut.faces.size());
     std::iota(all.begin(), all.end(), 0U);
     result.statistics.covered = count_covered(arranged, joined.all.faces.size());
-    rounding_try as_cut = options;
+    boolean_options as_cut = options;
     as_cut.simplify = false;
     as_cut.keep_cuts = true;
-    finish_surface(made, arranged.cut, {std::move(arranged.cut.faces), std::move(all)}, joined,
+    finish_surface(result, arranged.cut, {std::move(arranged.cut.faces), std::move(all)}, joined,
                    false, as_cut);
-    return made;
+    return result;
 }
 
 /// The result as it is returned: a solid as a manifold, which takes a `split` where it may not be one.
@@ -266,14 +260,12 @@ boolean_result with_checks(const char* function, std::span<const mesh_view> oper
     }
 }
 
-/// What `make` makes of the operands, mended where rounding asks for it, as returned.
+/// What `make` makes of the operands, as returned.
 template <class Make>
 boolean_result evaluate(const char* function, std::span<const mesh_view> operands,
                         const boolean_options& options, bool solid, const Make& make) {
-    return with_checks(function, operands, options, [&] {
-        return finished(detail::boolean::with_mended_operands(operands, options, make), solid,
-                        options.precision);
-    });
+    return with_checks(function, operands, options,
+                       [&] { return finished(make(operands, options), solid, options.precision); });
 }
 
 using operand_kind = detail::boolean::examined_operand::kind;
@@ -350,11 +342,7 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
             return finished(with_counts({}), false, options.precision);
         }
         now.progress = part_of(options.progress, done, 1.0);
-        return finished(
-            detail::boolean::with_mended_operands(
-                views, now,
-                [&](auto given, const auto& how) { return boolean_of(given, expression, how); }),
-            true, options.precision);
+        return finished(boolean_of(views, expression, now), true, options.precision);
     });
 }
 

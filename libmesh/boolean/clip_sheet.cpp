@@ -79,8 +79,8 @@ class sheet_judge {
 
 }  // namespace
 
-unmended_result clip_sheet(joined_operands& joined, const operand_edges& edges, std::uint32_t sheet,
-                           const boolean_expression& expression, const rounding_try& options) {
+boolean_result clip_sheet(joined_operands& joined, const operand_edges& edges, std::uint32_t sheet,
+                          const boolean_expression& expression, const boolean_options& options) {
     const std::size_t all = joined.all.faces.size(), count = joined.first_face.size() - 1;
     const std::vector<std::uint32_t> operand_of_all = joined.operand_of_face();
     const surface_components solids(joined.all, operand_of_all, edges, false);
@@ -96,8 +96,8 @@ unmended_result clip_sheet(joined_operands& joined, const operand_edges& edges, 
         near,
         [&](const face_pair& pair) { return operand[pair.a] == sheet || operand[pair.b] == sheet; },
         {.progress = base::part_of(options.progress, 0.0, 0.5)});
-    unmended_result made{with_counts(arranged), {}};
-    made.result.statistics.skipped_faces = all - faces.size();
+    boolean_result made = with_counts(arranged);
+    made.statistics.skipped_faces = all - faces.size();
     if (arranged.cancelled) return made;
     mesh_arrangement& cut = arranged.cut;
     cut.given_points = joined.all.points;

@@ -3,7 +3,6 @@
 /// The set operation behind `clip`.
 
 #include <libmesh/boolean/joined_operands.hpp>
-#include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <treeform/mesh/boolean.hpp>
 
@@ -17,8 +16,8 @@ namespace treeform::detail::boolean {
 ///
 /// \pre  the other operands are closed
 /// \same on any number of threads
-[[nodiscard]] unmended_result clip_sheet(joined_operands& joined, const operand_edges& edges,
-                                         std::uint32_t sheet, const boolean_expression& expression,
-                                         const rounding_try& options);
+[[nodiscard]] boolean_result clip_sheet(joined_operands& joined, const operand_edges& edges,
+                                        std::uint32_t sheet, const boolean_expression& expression,
+                                        const boolean_options& options);
 
 }  // namespace treeform::detail::boolean

@@ -27,9 +27,8 @@ boolean_result with_counts(const arrange_faces_result& arranged) {
     return result;
 }
 
-void finish_surface(unmended_result& made, mesh_arrangement& cut, round::solid_faces chosen,
-                    joined_operands& joined, bool solid, const rounding_try& options) {
-    boolean_result& result = made.result;
+void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_faces chosen,
+                    joined_operands& joined, bool solid, const boolean_options& options) {
     std::vector<std::uint32_t> face_of = std::move(chosen.face_of);
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(chosen.faces), std::vector<std::uint8_t>(face_of.size())};
@@ -51,19 +50,15 @@ void finish_surface(unmended_result& made, mesh_arrangement& cut, round::solid_f
     rounded_surface r =
         round_surface(std::move(exact), {.precision = options.precision,
                                          .solid = solid,
-                                         .steps = options.rounding_steps,
-                                         .grids = options.grids,
-                                         .join = options.join,
-                                         .most_rounds = options.most_rounds,
-                                         .most_meeting = options.most_meeting,
+                                         .max_displacement = options.max_displacement,
                                          .progress = base::part_of(options.progress, 0.7, 1.0)});
     result.certificate = std::move(r.certificate);
     if (result.certificate.status == status::cancelled) return;
     result.mesh = std::move(r.surface);
-    result.statistics.rounding_steps = r.steps;
-    made.broken = std::move(r.broken);
-    made.on_grid = r.on_grid;
+    result.statistics.rounding_rounds = r.rounds;
+    result.statistics.slivers = r.slivers;
     result.vanished_components = r.vanished_components;
+    result.vanished_reach = r.vanished_reach;
     result.vanished_at = std::move(r.vanished_at);
     base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },
                           [&] { result.vertex_source.resize(r.point_of.size()); });

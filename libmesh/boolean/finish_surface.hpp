@@ -4,7 +4,6 @@
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
-#include <libmesh/boolean/mended_operands.hpp>
 #include <libmesh/round/solid_faces.hpp>
 
 namespace treeform::detail::boolean {
@@ -12,14 +11,14 @@ namespace treeform::detail::boolean {
 /// What an arrangement counts; the status is that of a result which is not there yet.
 [[nodiscard]] boolean_result with_counts(const arrange_faces_result& arranged);
 
-/// Makes faces of `cut` the surface of `made`: simplified where that is asked for, rounded, checked,
+/// Makes faces of `cut` the surface of `result`: simplified where that is asked for, rounded, checked,
 /// and with the operands' faces and vertices that it comes from.
 ///
 /// What is not needed any more is let go on the way: `cut` and `joined.all` are empty then.
 ///
 /// \param solid whether it bounds a solid
 /// \throws std::invalid_argument when there are face groups, but not as many as faces
-void finish_surface(unmended_result& made, mesh_arrangement& cut, round::solid_faces chosen,
-                    joined_operands& joined, bool solid, const rounding_try& options);
+void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_faces chosen,
+                    joined_operands& joined, bool solid, const boolean_options& options);
 
 }  // namespace treeform::detail::boolean

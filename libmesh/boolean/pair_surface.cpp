@@ -192,7 +192,7 @@ std::optional<pair_result> surface_of_pair(const prepared_pair& pair, const near
     const std::size_t exact_faces = chosen.face_of.size();
     // What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
     // rounding to nearest takes no coordinate out of a box of doubles.
-    rounded_surface rounded = round_surface(std::move(exact), {.steps = 0});
+    rounded_surface rounded = round_surface(std::move(exact), {.mends = false});
     if (!rounded.certificate || rounded.vanished_components > 0) return std::nullopt;
     if (options.progress && !options.progress(0.8)) {
         result.certificate.status = status::cancelled;

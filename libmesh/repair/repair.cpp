@@ -313,7 +313,6 @@ class repairer {
     [[nodiscard]] boolean_options how_to_resolve() const {
         return {.inside = rule(),
                 .precision = options_.precision,
-                .rounding_steps = options_.rounding_steps,
                 .max_displacement = options_.max_displacement};
     }
 

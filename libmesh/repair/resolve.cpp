@@ -82,7 +82,6 @@ resolve_result by_mode(mesh_view mesh, resolve_mode mode, const resolve_options&
     }
     const boolean_options as_boolean{.inside = options.inside,
                                      .precision = options.precision,
-                                     .rounding_steps = options.rounding_steps,
                                      .max_displacement = options.max_displacement,
                                      .progress = options.progress};
     return mode == resolve_mode::split ? from(detail::boolean::resolve_by_split(mesh, as_boolean))

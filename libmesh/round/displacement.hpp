@@ -9,16 +9,23 @@
 
 namespace treeform::detail::round {
 
-/// How far points of `now` are from where they were, in each coordinate: from the point of `before`
-/// that each was, or, where `point_of` is beyond these, from the nearest place on the faces of
-/// `before`. Measured in double where the points are, so that moves on the way there do not add
-/// up.
+/// How far apart two surfaces are, in each coordinate, as seen from their vertices.
+struct surface_moves {
+    /// Points of the later one from the point of the earlier that each was, or else from the
+    /// nearest place on its faces.
+    double moved = 0.0;
+    /// Points of the earlier one that are gone from the nearest place on the later: far, where a part
+    /// that was too thin has gone.
+    double gone = 0.0;
+};
+
+/// Measured in double where the points are, so that moves on the way there do not add up.
 ///
-/// \param point_of  [V] of `now`
+/// \param point_of  [V] of `now`: point of `before`, or beyond these
 /// \pre   coordinates are finite
-/// \cost  as `closest_point` for the points that are new
+/// \cost  as `closest_point` for the points that are new or gone
 /// \same  on any number of threads
-[[nodiscard]] double displacement(points_view now, std::span<const std::uint32_t> point_of,
+[[nodiscard]] surface_moves displacement(mesh_view now, std::span<const std::uint32_t> point_of,
                                   mesh_view before);
 
 }  // namespace treeform::detail::round

@@ -6,7 +6,6 @@
 #include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -34,23 +33,9 @@ struct round_options {
     /// The faces bound a solid, which is behind them, and are to do so when rounded. Otherwise they
     /// are a complex of which every piece stays.
     bool solid = true;
-    /// Steps of mending before what rounding has broken is reported, and more, to 4, or 12 where
-    /// no points are joined, while each leaves fewer faces that meet; none for 0.
-    int steps = 4;
-    /// Mending on grids puts the corners of faces that meet on one of these steps, instead of
-    /// joining what is near; each grid begins from the surface as it was first rounded, as long as
-    /// none before has done. Powers of two, at least the precision's step at the largest coordinate.
-    std::vector<double> grids{};
-    /// With grids: whether joining what is near comes first, instead of them, or not at all.
-    enum class joining : std::uint8_t {
-        first,
-        where_few_meet,  ///< there instead of grids, elsewhere not at all
-        never
-    } join = joining::never;
-    /// Steps of mending on grids, of all grids together; for float32, of any mending.
-    int most_rounds = 15;
-    /// Where more pairs of faces meet at first, nothing is mended.
-    std::uint64_t most_meeting = std::numeric_limits<std::uint64_t>::max();
+    bool mends =
+        true;  ///< what rounding has broken, until nothing meets or no move may be as far as:
+    double max_displacement = std::numeric_limits<double>::infinity();
     progress_callback progress{};
 };
 
@@ -66,9 +51,12 @@ struct rounded_surface {
     /// or nothing in common, none is degenerate, and, of a solid, they run along every edge as
     /// often one way as the other and have its inside behind them.
     treeform::certificate certificate{};
-    int steps = 0;                          ///< of mending that were taken
-    bool on_grid = false;                   ///< the last were on one of `round_options::grids`
-    std::vector<aabb<double, 3>> broken{};  ///< boxes of all faces that met in any step
+    int rounds = 0;             ///< of cutting what was rounded along itself
+    std::uint64_t slivers = 0;  ///< taken out where faces met
+    /// Where anything was mended: how far, at most, vertices of the exact surface that are gone are
+    /// from this one, in each coordinate. More than anything moved where parts have gone that were
+    /// thinner than the coordinates tell apart; those that went as a whole are counted instead.
+    double vanished_reach = 0.0;
     /// Components of the exact surface, by points, no face of which is left: all of each was within
     /// what the rounded coordinates tell apart.
     std::uint64_t vanished_components = 0;
@@ -79,24 +67,20 @@ struct rounded_surface {
 ///
 /// Every point is rounded once, to nearest; given points stay bit for bit unless float32 is asked
 /// for. Then the surface is checked with the exact predicates: every face that has moved, or is not
-/// known to be sound, against all others. Where it is broken, it is mended,
-/// step by step: corners, edges and faces next to each other are joined where faces meet, the
-/// surface is cut along itself (`arrange_faces`), of a solid what it does not wind around any more
-/// is left out, and what was cut is rounded. Next to each other is what is nearer than 2^-48 of the
-/// largest coordinate in the first step (2^-22 for float32), four times as far in each that
-/// follows. Faces that lose their area or cover each other in opposite directions vanish; points of
-/// these places may move by that much.
+/// known to be sound, against all others. Where it is broken, it is mended in rounds:
+/// - Nearly all faces that meet are slivers, thinner than rounding moved their corners. They are
+///   taken out (`remove_slivers`), as long as less meets by that.
+/// - What meets all the same is cut along each other (`arrange_faces`), of a solid what it does not
+///   wind around any more is left out, and what was cut is rounded.
 ///
-/// On a grid (`round_options::grids`), corners of faces that meet are put there instead, with what
-/// would come to the same places. It ends, too, where a step would have to cut more than three
-/// times as many pairs of faces as there were faces. What is left broken on all of several grids
-/// is given back as it was first rounded.
+/// What goes is at most 8 steps of the precision at the largest coordinate long in the first two
+/// rounds, four times as long in each two that follow, and never longer than `max_displacement` and
+/// than 2^-10 of the largest coordinate: this bounds the rounds, by 38 for float32 and by 96 for
+/// float64. Success is not proved, but checked; the certificate tells. A round that would have to cut
+/// more than three times as many pairs of faces as there were faces cuts nothing.
 ///
-/// Where anything was mended, `certificate::max_displacement` is measured at the end
-/// (`detail::round::displacement`), and moves on the way do not add up.
-///
-/// No number of steps is sure to suffice: the certificate tells. Mending also ends when the surface
-/// only grows by it. Status `out_of_range`: a coordinate was too large to be rounded.
+/// Where anything was mended, `certificate::max_displacement` and `vanished_reach` are measured at
+/// the end (`detail::round::displacement`), so that moves on the way do not add up. Status `out_of_range`: a coordinate was too large to be rounded.
 ///
 /// Where a part of a solid is thinner than rounding moves its points, it may be turned inside out
 /// and meet nothing: then the cells of the whole surface are found, and what is turned is mended.
@@ -107,8 +91,8 @@ struct rounded_surface {
 /// \cost   as `self_intersections` of the faces to be checked and those near them; as
 ///         `arrange_faces` and `find_cells` for each step, if any
 /// \same   on any number of threads
-/// \source CGAL 6.1's iterative snap rounding has the same aim and ends in the same check; here
-///         faces take the points next to them, and winding numbers decide what stays
+/// \source CGAL 6.1's iterative snap rounding (Lazard and Valque, SGP 2025) has the same aim and
+///         ends in the same check; here slivers go first, and winding numbers decide what stays
 [[nodiscard]] TREEFORM_API rounded_surface round_surface(exact_surface exact,
                                                          const round_options& options = {});
 

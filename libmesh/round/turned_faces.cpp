@@ -3,7 +3,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/union_find.hpp>
-#include <libmesh/round/joint_geometry.hpp>
 #include <libmesh/round/turned_faces.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/search.hpp>

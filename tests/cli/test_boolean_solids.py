@@ -99,11 +99,11 @@ class Solids(BooleanTest):
         speck = box((5, 5, 5), (5 + 2 ** -40, 5 + 2 ** -40, 5 + 2 ** -40))
         self.mesh("both.obj", together(cube(), speck))
         entry = self.made("union", "both.obj", name="out.stl")
-        self.assertEqual(entry["output"]["lost_parts"], {"count": 1, "list": [[5, 5, 5]]})
+        self.assertEqual(entry["output"]["lost_parts"], {"count": 1, "list": [[5, 5, 5]], "reach": 0.0})
         self.assertIn("1 part of the exact result left out, the first at (5, 5, 5)",
                       " ".join(w["text"] for w in entry["warnings"]))
         entry = self.made("union", "both.obj")
-        self.assertEqual(entry["output"]["lost_parts"], {"count": 0, "list": []})
+        self.assertEqual(entry["output"]["lost_parts"], {"count": 0, "list": [], "reach": 0.0})
 
     def test_what_is_too_large_to_be_cut_is_bad_input(self):
         self.mesh("huge.obj", ([tuple(1e302 * x for x in p) for p in cube()[0]], cube()[1]))

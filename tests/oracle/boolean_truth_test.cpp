@@ -13,6 +13,7 @@
 #include <support/models.hpp>
 #include <support/solid_checks.hpp>
 #include <support/truth.hpp>
+#include <support/was_mended.hpp>
 
 #include <array>
 #include <cmath>
@@ -76,7 +77,7 @@ TEST_CASE("truth: every boolean of every pair of files has the volume of the exa
             CHECK(result.certificate.open_count == 0);
             CHECK(test::is_clean_solid(result.mesh));
             ++checked;
-            mended += result.statistics.rounding_steps > 0;
+            mended += test::was_mended(result.statistics);
             const std::string truth = row.text(q.column);
             if (truth.empty() || truth == "nonmanifold") continue;
             // Moving the surface by m in each coordinate changes the volume by its area times

@@ -46,8 +46,8 @@ template <class Result>
 void check_floats(const Result& doubles, const Result& floats) {
     test::check_floats(doubles, floats);
     CHECK(floats.mesh.faces.size() <= 3 * floats.statistics.exact_faces + 1000);
-    if constexpr (requires { floats.statistics.rounding_steps; })
-        CHECK(floats.statistics.rounding_steps <= 15);
+    if constexpr (requires { floats.statistics.rounding_rounds; })
+        CHECK(floats.statistics.rounding_rounds <= 15);
 }
 
 void check_formula(const std::vector<tf::mesh>& operands, const tf::boolean_expression& formula) {

@@ -20,7 +20,6 @@ tf::boolean_options options_of(const treeform_boolean_options* options) {
     tf::boolean_options how;
     how.inside = rule(o.inside);
     how.precision = glue::precision(o.precision);
-    how.rounding_steps = o.rounding_steps;
     how.max_displacement = o.max_displacement;
     how.keep_cuts = o.keep_cuts != 0;
     how.simplify = o.simplify != 0;
@@ -52,6 +51,7 @@ treeform_code give_solid(tf::boolean_result from, treeform_boolean_result** out)
         r.face_of_cut_vertex = glue::same<treeform_element>(kept.face_of_cut_vertex);
     r.certificate = glue::keep(*made, kept.certificate);
     r.vanished_components = kept.vanished_components;
+    r.vanished_reach = kept.vanished_reach;
     r.vanished_at = glue::flat(kept.vanished_at);
     r.vanished_listed = kept.vanished_at.size();
     if (kept.volumes)
@@ -65,7 +65,8 @@ treeform_code give_solid(tf::boolean_result from, treeform_boolean_result** out)
     r.covered = kept.statistics.covered;
     r.exact_faces = kept.statistics.exact_faces;
     r.split_vertices = kept.statistics.split_vertices;
-    r.rounding_steps = kept.statistics.rounding_steps;
+    r.slivers = kept.statistics.slivers;
+    r.rounding_rounds = kept.statistics.rounding_rounds;
     glue::give(std::move(made), out);
     return code;
 }
@@ -98,7 +99,6 @@ tf::repair_options options_of(const treeform_repair_options* options) {
     how.max_loss = o.max_loss;
     how.sheet = o.sheet != 0;
     how.precision = glue::precision(o.precision);
-    how.rounding_steps = o.rounding_steps;
     how.max_displacement = o.max_displacement;
     how.progress = glue::progress(o);
     return how;
@@ -178,7 +178,6 @@ void give_defects(const tf::solid_defects& found, treeform_solid_defects** out) 
 void treeform_boolean_options_init(treeform_boolean_options* options, size_t size) {
     treeform_boolean_options defaults{};
     defaults.precision = TREEFORM_FLOAT64;
-    defaults.rounding_steps = tf::boolean_options{}.rounding_steps;
     defaults.max_displacement = glue::infinity;
     glue::init(options, size, defaults);
 }
@@ -280,7 +279,6 @@ void treeform_resolve_options_init(treeform_resolve_options* options, size_t siz
     const tf::resolve_options from;
     treeform_resolve_options defaults{};
     defaults.precision = TREEFORM_FLOAT64;
-    defaults.rounding_steps = from.rounding_steps;
     defaults.max_displacement = from.max_displacement;
     defaults.removal_rounds = from.removal_rounds;
     defaults.max_loss = from.max_loss;
@@ -297,7 +295,6 @@ treeform_code treeform_resolve_self_intersections(const treeform_mesh* mesh,
         tf::resolve_options how;
         how.inside = rule(o.inside);
         how.precision = glue::precision(o.precision);
-        how.rounding_steps = o.rounding_steps;
         how.max_displacement = o.max_displacement;
         how.touching = o.touching != 0;
         how.removal_rounds = o.removal_rounds;
@@ -333,7 +330,6 @@ void treeform_repair_options_init(treeform_repair_options* options, size_t size)
     defaults.strays = from.strays;
     defaults.max_loss = from.max_loss;
     defaults.precision = TREEFORM_FLOAT64;
-    defaults.rounding_steps = from.rounding_steps;
     defaults.max_displacement = from.max_displacement;
     glue::init(options, size, defaults);
 }

@@ -94,11 +94,15 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
         {"self_intersections", known.meeting_count},
         {"meeting", meeting_entry(known)},
         {"exact_faces", did.exact_faces},
-        {"lost_parts", {{"count", result.vanished_components}, {"list", result.vanished_at}}},
+        {"lost_parts",
+         {{"count", result.vanished_components},
+          {"list", result.vanished_at},
+          {"reach", result.vanished_reach}}},
         {"certified", static_cast<bool>(known)},
         {"max_move", known.max_displacement},
         {"step", tf::coordinate_step(result.mesh.points, known.precision)},
-        {"rounding_steps", did.rounding_steps}};
+        {"slivers", did.slivers},
+        {"rounding_rounds", did.rounding_rounds}};
 }
 
 void write_surface(job& work, const boolean_settings& settings, const std::vector<solid>& solids,

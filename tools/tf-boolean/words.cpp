@@ -42,6 +42,13 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
                                     in_words(result.vanished_at.front()) + ": thinner than " +
                                     numbers_of(result.certificate.precision) +
                                     " numbers tell apart there");
+    // Beyond what all else may have moved.
+    if (result.certificate && result.vanished_reach > result.certificate.max_displacement &&
+        result.vanished_reach > 64.0 * work.entry["output"]["step"].get<double>())
+        work.warn("lost-parts", std::string("places thinner than ") +
+                                    numbers_of(result.certificate.precision) +
+                                    " numbers tell apart there are left out, up to " +
+                                    brief(result.vanished_reach) + " from what is left");
     if (result.statistics.degenerate > 0)
         work.warn("degenerate", counted(result.statistics.degenerate, "face", "faces") +
                                     " without an area left out; nothing changes by that");
@@ -73,10 +80,11 @@ void say_details(job& work, const tf::boolean_result& result) {
     work.out.info(work.name + ": " + counted(result.statistics.pairs, "pair", "pairs") +
                   " of faces meet, " + counted(result.statistics.cut_faces, "face", "faces") +
                   " cut");
-    if (result.statistics.rounding_steps > 0)
-        work.out.info(
-            work.name + ": rounding made faces meet; mended in " +
-            counted(static_cast<std::uint64_t>(result.statistics.rounding_steps), "step", "steps"));
+    const auto rounds = static_cast<std::uint64_t>(result.statistics.rounding_rounds);
+    if (result.statistics.slivers + rounds > 0)
+        work.out.info(work.name + ": rounding made faces meet: took out " +
+                      counted(result.statistics.slivers, "sliver", "slivers") + ", cut again " +
+                      counted(rounds, "time", "times"));
 }
 
 }  // namespace tools

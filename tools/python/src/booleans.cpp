@@ -50,8 +50,10 @@ py::dict statistics_of(const tf::boolean_result& result) {
     made["covered"] = s.covered;
     made["exact_faces"] = s.exact_faces;
     made["split_vertices"] = s.split_vertices;
-    made["rounding_steps"] = s.rounding_steps;
+    made["slivers"] = s.slivers;
+    made["rounding_rounds"] = s.rounding_rounds;
     made["vanished_components"] = result.vanished_components;
+    made["vanished_reach"] = result.vanished_reach;
     return made;
 }
 

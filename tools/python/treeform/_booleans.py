@@ -146,7 +146,7 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     precision: of the coordinates returned; 'float32' for STL and GLB.
     keep_cuts: leave coplanar faces apart that were cut, or overlap; they are merged otherwise.
     simplify: merge all coplanar faces. volumes: compute those of two operands.
-    max_displacement: mending after rounding moves no coordinate further at once.
+    max_displacement: where rounding makes faces meet, nothing longer is taken out at once.
     check: raise where the result is not certified; False returns it with its certificate.
 
     The surface is decided exactly on the coordinates as given. Then points on cuts are rounded, and

@@ -92,13 +92,9 @@ struct boolean_options {
     fill_rule inside = fill_rule::nonzero;  ///< what is solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    /// How often to mend what rounding has broken. The first two steps, or more while they help,
-    /// mend the surface. Further ones join what is nearer than 2^-48, 2^-44, 2^-40 ... of the largest
-    /// coordinate (float32: 2^-22, 2^-18 ...) next to such places in the operands, and decide all
-    /// once more. Else, and first for float32 where many faces meet, corners go on uniform grids.
-    int rounding_steps = 5;
-    /// Mending tries nothing that moves a coordinate further at once, in the mesh's own length unit,
-    /// and goes on where all of it did: see `certificate::max_displacement`. Not negative.
+    /// Where rounding makes faces meet, nothing longer is taken out of the surface at once, in the
+    /// mesh's own length unit, nor anything longer than 2^-10 of the largest coordinate. How far all
+    /// of it moved is `certificate::max_displacement`. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Otherwise coplanar faces that were cut, or that overlap, are merged, exactly and before
     /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a straight
@@ -133,7 +129,10 @@ struct boolean_statistics {
     /// the result is thinner than the coordinates can show.
     std::uint64_t exact_faces = 0;
     std::uint64_t split_vertices = 0;  ///< added where parts touch, so that edges have two faces
-    int rounding_steps = 0;            ///< steps of mending that were taken
+    /// Thin faces taken out where rounding made faces meet, and how often what met all the same was
+    /// cut and rounded once more.
+    std::uint64_t slivers = 0;
+    int rounding_rounds = 0;
 };
 
 /// The surface of a solid in rounded coordinates, and what was checked about it.
@@ -152,9 +151,12 @@ struct TREEFORM_API boolean_result {
     /// the inside is behind every face: the surface winds once around points just behind it, and
     /// not around those in front.
     treeform::certificate certificate{};
-    /// Components, by vertices, of the exact result (of mended operands, where some were) that have
+    /// Components, by vertices, of the exact result that have
     /// no face left, because they are thinner than the coordinates can show.
     std::uint64_t vanished_components = 0;
+    /// How far places of the exact result are, at most, from `mesh`, as seen from vertices that are
+    /// gone: far where a part too thin to be shown went from a component that is still there.
+    double vanished_reach = 0.0;
     std::vector<point3> vanished_at{};  ///< a point of each, at most 100
     std::optional<operand_volumes> volumes{};
     boolean_statistics statistics{};
@@ -168,8 +170,8 @@ struct TREEFORM_API boolean_result {
 /// The solid that `expression` makes of the operands. All of them are cut along each other at once.
 ///
 /// The surface is decided exactly, on the coordinates as given. Then points on cuts are rounded,
-/// and the rounded surface is checked. Where rounding makes faces meet, neighboring points are
-/// joined and faces cut again, step by step (`boolean_options::rounding_steps`). Vertices of
+/// and the rounded surface is checked. Where rounding makes faces meet, thin faces are taken out,
+/// and what still meets is cut and rounded again, in rounds. Vertices of
 /// operands stay bit for bit, except next to such a place, or when float32 is asked for.
 ///
 /// Each operand has to bound a solid: after cutting, the signed face count of every edge is zero.

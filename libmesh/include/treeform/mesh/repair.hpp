@@ -29,7 +29,6 @@ struct resolve_options {
     fill_rule inside = fill_rule::nonzero;  ///< for `outer`: what is solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    int rounding_steps = 5;  ///< for `split` and `outer`: see `boolean_options`
     /// For `split` and `outer`: as in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// For `remove`: delete faces that only touch (`pair_kind::touching`), too. Otherwise they
@@ -132,7 +131,6 @@ struct repair_options {
     bool sheet = false;
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    int rounding_steps = 5;  ///< as in `boolean_options`
     /// As in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
     progress_callback progress{};

@@ -21,11 +21,11 @@ typedef struct treeform_boolean_options {
     size_t size;
     treeform_fill_rule inside;     ///< default: nonzero
     treeform_precision precision;  ///< of the coordinates returned; default: double
-    int32_t rounding_steps;        ///< how often to mend what rounding has broken; default 5
-    double max_displacement;      ///< mending moves no coordinate further at once; default infinite
-    int32_t keep_cuts;            ///< leave coplanar faces apart that were cut, or overlap
-    int32_t simplify;             ///< merge all coplanar faces of the result, exactly
-    int32_t volumes;              ///< compute `volumes`, of two operands
+    double
+        max_displacement;  ///< nothing longer goes where rounding broke something; default infinite
+    int32_t keep_cuts;     ///< leave coplanar faces apart that were cut, or overlap
+    int32_t simplify;      ///< merge all coplanar faces of the result, exactly
+    int32_t volumes;       ///< compute `volumes`, of two operands
     const uint32_t* face_groups;  ///< merge only faces with equal numbers; or null
     size_t face_group_count;      ///< faces of all operands
     treeform_progress progress;
@@ -52,6 +52,7 @@ typedef struct treeform_boolean_result {
         face_of_cut_vertex;  ///< [V] of new ones, an operand face it lies in; or null
     const treeform_certificate* certificate;
     uint64_t vanished_components;  ///< thinner than the coordinates can show
+    double vanished_reach;         ///< how far gone vertices of others are from the result, at most
     const double* vanished_at;     ///< [vanished_listed][3] a point of each, at most 100
     size_t vanished_listed;
     const treeform_volumes* volumes;  ///< or null
@@ -63,7 +64,8 @@ typedef struct treeform_boolean_result {
     uint64_t covered;        ///< for `treeform_split`: faces that lie entirely on lower ones
     uint64_t exact_faces;    ///< of the result before rounding
     uint64_t split_vertices;
-    int32_t rounding_steps;  ///< taken
+    uint64_t slivers;         ///< thin faces taken out where rounding made faces meet
+    int32_t rounding_rounds;  ///< how often what met all the same was cut and rounded again
 } treeform_boolean_result;
 
 /// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with +
@@ -129,7 +131,6 @@ typedef struct treeform_resolve_options {
     size_t size;
     treeform_fill_rule inside;
     treeform_precision precision;
-    int32_t rounding_steps;
     double max_displacement;
     int32_t touching;        ///< for `remove`: delete faces that only touch, too
     int32_t removal_rounds;  ///< for `remove`; default 16
@@ -185,7 +186,6 @@ typedef struct treeform_repair_options {
     double max_loss;  ///< default 0.05
     int32_t sheet;    ///< the mesh is an open surface: its border is kept
     treeform_precision precision;
-    int32_t rounding_steps;
     double max_displacement;
     treeform_progress progress;
     void* progress_data;

@@ -1,0 +1,99 @@
+#include <libmesh/round/remove_slivers.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/solids.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+using tf::detail::round::remove_slivers;
+using tf::detail::round::slivers_removed;
+
+namespace {
+
+std::vector<tf::face_pair> all_meeting(tf::mesh_view mesh) {
+    auto pairs = tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index}).pairs;
+    for (const std::uint32_t f : tf::find_defects(mesh).degenerate_faces) pairs.push_back({f, f});
+    return pairs;
+}
+
+/// A box whose lower side has an edge with one more corner next to it, in the side above or below:
+/// both faces there meet others or not.
+tf::mesh with_cap(double height) {
+    tf::mesh mesh = test::box(1, 1, 1);
+    // Splits the face 0 at a point that is `height` off the middle of its first edge, outward.
+    const auto [a, b, c] = mesh.faces[0];
+    const tf::point3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
+    const tf::point3 middle{(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2};
+    const tf::point3 off{(r.x - middle.x) * height, (r.y - middle.y) * height,
+                         (r.z - middle.z) * height};
+    const auto made = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back({middle.x + off.x, middle.y + off.y, middle.z + off.z});
+    mesh.faces[0] = {made, b, c};
+    mesh.faces.push_back({a, made, c});
+    mesh.faces.push_back({a, b, made});
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("slivers: where nothing meets and nothing is thin, nothing changes") {
+    const tf::mesh mesh = test::box(1, 1, 1);
+    const slivers_removed left =
+        remove_slivers(mesh, {}, {.reach = 10.0, .thin = 0.1, .solid = true});
+    CHECK(left.changes == 0);
+    CHECK(left.faces == mesh.faces);
+}
+
+TEST_CASE("slivers: a cap that was turned over goes into its neighbor across the long edge") {
+    for (const double height : {0.0, -0x1p-20}) {  // without an area; folded over its neighbor
+        CAPTURE(height);
+        const tf::mesh mesh = with_cap(height);
+        const auto meeting = all_meeting(mesh);
+        REQUIRE(!meeting.empty());
+        const slivers_removed left =
+            remove_slivers(mesh, meeting, {.reach = 0x1p-18, .thin = 0.0, .solid = true});
+        CHECK(left.changes == 1);
+        CHECK(left.moved <= 0x1p-18);
+        const tf::mesh now{.points = mesh.points, .faces = left.faces};
+        CHECK(all_meeting(now).empty());
+        CHECK_FALSE(treeform::find_open_edge(now));
+        CHECK(std::abs(tf::signed_volume(now) - 1.0) < 0x1p-18);
+        REQUIRE(left.face_of.size() == now.faces.size());
+        for (std::size_t f = 0; f < now.faces.size(); ++f)
+            CHECK((left.is_new[f] != 0) == (now.faces[f] != mesh.faces[left.face_of[f]]));
+    }
+}
+
+TEST_CASE("slivers: nothing longer than the reach goes") {
+    const tf::mesh mesh = with_cap(-0x1p-10);
+    const auto meeting = all_meeting(mesh);
+    REQUIRE(!meeting.empty());
+    CHECK(remove_slivers(mesh, meeting, {.reach = 0x1p-13, .solid = true}).changes == 0);
+    CHECK(remove_slivers(mesh, meeting, {.reach = 0x1p-9, .solid = true}).changes == 1);
+}
+
+TEST_CASE("slivers: thin faces that are listed go where that leaves fewer") {
+    const tf::mesh mesh = with_cap(0x1p-20);
+    REQUIRE(all_meeting(mesh).empty());
+    std::vector<tf::face_pair> all;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) all.push_back({f, f});
+    const slivers_removed left =
+        remove_slivers(mesh, all, {.reach = 0x1p-18, .thin = 0x1p-19, .solid = true});
+    CHECK(left.changes == 1);
+    CHECK(all_meeting(tf::mesh{.points = mesh.points, .faces = left.faces}).empty());
+}
+
+TEST_CASE("slivers: thick faces that meet stay for others to cut") {
+    const tf::mesh mesh =
+        test::together(test::box(1, 1, 1), test::moved(test::box(1, 1, 1), {0.5, 0.25, 0.25}));
+    const slivers_removed left =
+        remove_slivers(mesh, all_meeting(mesh), {.reach = 0x1p-3, .solid = true});
+    CHECK(left.changes == 0);
+    CHECK(left.faces == mesh.faces);
+}
