@@ -7,24 +7,18 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.." || exit 1
 work=$(mktemp -d)
 root=$work/root
-clean() {
-    local at
-    for at in proc dev/pts dev/shm dev; do umount "$root/$at" 2>/dev/null; done
-    rm -rf --one-file-system "$work"
-}
-trap clean EXIT
+trap 'rm -rf --one-file-system "$work"' EXIT
 mmdebstrap --quiet --variant=minbase --include=git bookworm "$root" || exit 1
-mount -t proc proc "$root/proc"
-mount --rbind /dev "$root/dev"
-mount --make-rslave "$root/dev"
 for copy in first second third; do git clone -q . "$root/$copy"; done
 
 mapfile -t reach < <(env | grep -i '^https\?_proxy=' || true)
-# in_root COMMAND: sets status, cpu and wall, in seconds. What it says is kept.
+# in_root COMMAND: sets status, cpu and wall, in seconds. What it says is kept. What is mounted goes
+# with the command, and nothing of this system is: devices are those that mmdebstrap makes.
 in_root() {
     local times
     # shellcheck disable=SC2016 # expanded inside
-    chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin CCACHE_DISABLE=1 "${reach[@]}" \
+    unshare --mount sh -c 'mount -t proc proc "$0/proc" && exec chroot "$0" "$@"' "$root" \
+        env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin CCACHE_DISABLE=1 "${reach[@]}" \
         bash -c 'TIMEFORMAT="%U %S %R"; { time eval "$1" >/said 2>&1; } 2>/times' - "$1"
     status=$?
     times=$(cat "$root/times")
@@ -51,6 +45,7 @@ in_root "cd /first && cmake --install build/release --prefix /installed && /inst
 within "installing what it has built" 0.1
 in_root "cd /second && tests/run.sh"
 within "tests/run.sh" 3.5
+in_root "apt-get install -y --no-install-recommends python3-pip"
 in_root "cd /second && python3 -m pip install --break-system-packages --no-index --no-build-isolation ./tools/python"
 within "pip install, with build/release" 0.1
 in_root "cd /third && python3 -m pip install --break-system-packages --no-index --no-build-isolation --force-reinstall ./tools/python"
