@@ -1,5 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
+#include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/round/cancelled_faces.hpp>
 #include <libmesh/round/remove_slivers.hpp>
@@ -27,14 +28,17 @@ using ids = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
 
-/// `point` becomes the corner `at`; or the edge, or the face, between these gets it.
+/// `point` becomes the corner `at`; or the edge, or the face, between these gets it; or the edge is
+/// turned, to the one from `point` to `across`.
 struct sliver_change {
     double size = 0.0;  ///< of what goes
     std::uint32_t point = 0;
     std::array<std::uint32_t, 3> at{no_point, no_point, no_point};  ///< ascending
+    std::uint32_t across = no_point;
 
     friend bool operator<(const sliver_change& a, const sliver_change& b) {
-        return std::tie(a.size, a.point, a.at) < std::tie(b.size, b.point, b.at);
+        return std::tie(a.size, a.point, a.at, a.across) <
+               std::tie(b.size, b.point, b.at, b.across);
     }
 };
 
@@ -61,6 +65,7 @@ class sliver_removal {
         for (const face_pair& pair : meeting) {
             bad.insert(bad.end(), {pair.a, pair.b});
             if (pair.a == pair.b) continue;
+            sideways_ += 2;
             meets_[pair.a].push_back(pair.b);
             meets_[pair.b].push_back(pair.a);
         }
@@ -72,8 +77,14 @@ class sliver_removal {
             const auto [size, f] = next_.top();
             next_.pop();
             if (!tree_.contains(f) || !is_bad(f)) continue;
-            for (const sliver_change& change : changes_of(f))
-                if (try_change(change)) break;
+            const std::vector<sliver_change> changes = changes_of(f);
+            const auto helps = [&](const sliver_change& c) { return try_change(c, false); };
+            if (std::ranges::any_of(changes, helps) || sideways_ == 0 || !meets_.contains(f))
+                continue;
+            const auto is_no_worse = [&](const sliver_change& c) {
+                return c.at[1] != no_point && c.across == no_point && try_change(c, true);
+            };
+            if (std::ranges::any_of(changes, is_no_worse)) --sideways_;
         }
         slivers_removed result;
         result.changes = changes_;
@@ -138,6 +149,7 @@ class sliver_removal {
     [[nodiscard]] std::vector<sliver_change> changes_of(std::uint32_t f) const {
         std::vector<sliver_change> changes;
         add_changes(f, f, changes);
+        add_turns(f, changes);
         const auto met = meets_.find(f);
         if (met != meets_.end())
             for (const std::uint32_t g : met->second) {
@@ -146,6 +158,48 @@ class sliver_removal {
             }
         std::sort(changes.begin(), changes.end());
         return changes;
+    }
+
+    /// Edges of two faces that all but lie in one plane.
+    void add_turns(std::uint32_t f, std::vector<sliver_change>& changes) const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t p = faces_[f][i], q = faces_[f][(i + 1) % 3],
+                                r = faces_[f][(i + 2) % 3];
+            const ids both = faces_between(p, q);
+            if (both.size() != 2) continue;
+            const face& g = faces_[both[0] == f ? both[1] : both[0]];
+            const std::uint32_t s = opposite(g, p, q);
+            const double gap = distance_of_diagonals(p, q, r, s);
+            if (s != r && gap <= limits_.reach)
+                changes.push_back({gap,
+                                   std::min(r, s),
+                                   {std::min(p, q), std::max(p, q), no_point},
+                                   std::max(r, s)});
+        }
+    }
+
+    [[nodiscard]] static std::uint32_t opposite(const face& f, std::uint32_t p, std::uint32_t q) {
+        return *std::ranges::find_if(f, [&](std::uint32_t c) { return c != p && c != q; });
+    }
+
+    [[nodiscard]] ids faces_between(std::uint32_t p, std::uint32_t q) const {
+        ids faces;
+        std::ranges::set_intersection(star(p), star(q), std::back_inserter(faces));
+        return faces;
+    }
+
+    /// Between the edges from p to q and from r to s where these pass each other; else infinite.
+    [[nodiscard]] double distance_of_diagonals(std::uint32_t p, std::uint32_t q, std::uint32_t r,
+                                               std::uint32_t s) const {
+        const point3 u = base::minus(at(q), at(p)), v = base::minus(at(s), at(r)),
+                     w = base::minus(at(r), at(p));
+        const point3 normal = base::cross(u, v);
+        const double square = base::dot(normal, normal);
+        const double along_u = base::dot(base::cross(w, v), normal),
+                     along_v = base::dot(base::cross(w, u), normal);
+        if (!(along_u > 0.0 && along_u < square && along_v > 0.0 && along_v < square))
+            return std::numeric_limits<double>::infinity();
+        return std::abs(base::dot(w, normal)) / std::sqrt(square);
     }
 
     void add_changes(std::uint32_t from, std::uint32_t to,
@@ -194,7 +248,7 @@ class sliver_removal {
         if (q == no_point)
             std::ranges::set_union(star(change.point), star(p), std::back_inserter(faces));
         else
-            std::ranges::set_intersection(star(p), star(q), std::back_inserter(faces));
+            faces = faces_between(p, q);
         if (r != no_point)
             std::erase_if(faces, [&](std::uint32_t f) { return !has_corner(f, change.at[2]); });
         return faces;
@@ -211,6 +265,11 @@ class sliver_removal {
         for (const std::uint32_t f : faces) {
             if (change.at[1] == no_point) {
                 put(f, change.point, change.at[0]);
+                continue;
+            }
+            if (change.across != no_point) {
+                put(f, change.at[has_corner(f, change.point) ? 0 : 1],
+                    has_corner(f, change.point) ? change.across : change.point);
                 continue;
             }
             if (has_corner(f, change.point)) continue;
@@ -259,12 +318,13 @@ class sliver_removal {
         return intersect::classify_pair(points_, f, g, counters_).has_value();
     }
 
-    /// Makes the change if less is bad after it.
-    bool try_change(const sliver_change& change) {
+    /// Makes the change if less is bad after it, or as much at most.
+    bool try_change(const sliver_change& change, bool or_as_much) {
         const ids faces = faces_at(change);
         std::vector<face_piece> pieces = pieces_of(change, faces);
         const std::size_t before = count_bad(faces);
-        if (find_bad(pieces, faces, before) >= before) return false;
+        const std::size_t most = before + (or_as_much ? 1 : 0);
+        if (find_bad(pieces, faces, most) >= most) return false;
         ids around = take_out(faces);
         const ids put = put_in(pieces, faces);
         around.insert(around.end(), put.begin(), put.end());
@@ -307,7 +367,7 @@ class sliver_removal {
         std::vector<aabb<double, 3>> boxes;
         for (const face_piece& piece : pieces) boxes.push_back(box_of(piece.corners));
         const std::span all = boxes;
-        const ids sources = sources_of(pieces);
+        const ids sources = sources_of(pieces, faces);
         tree_.move(numbers, all.first(same));
         tree_.remove(std::span(faces).subspan(same));
         for (const std::uint32_t f : tree_.insert(all.subspan(same))) numbers.push_back(f);
@@ -332,9 +392,21 @@ class sliver_removal {
         return numbers;
     }
 
-    [[nodiscard]] ids sources_of(const std::vector<face_piece>& pieces) const {
+    /// That of the face in which the middle of each lies, or next to it.
+    [[nodiscard]] ids sources_of(const std::vector<face_piece>& pieces, const ids& faces) const {
         ids sources;
-        for (const face_piece& piece : pieces) sources.push_back(source_[piece.of]);
+        for (const face_piece& piece : pieces) {
+            const auto& [a, b, c] = base::triangle_of(points_, piece.corners);
+            const point3 middle = base::scaled(base::plus(a, base::plus(b, c)), 1.0 / 3.0);
+            const auto away = [&](std::uint32_t f) {
+                return closest_point(base::triangle_of(points_, faces_[f]), middle)
+                    .squared_distance;
+            };
+            std::uint32_t nearest = piece.of;
+            for (const std::uint32_t f : faces)
+                if (away(f) < away(nearest)) nearest = f;
+            sources.push_back(source_[nearest]);
+        }
         return sources;
     }
 
@@ -355,6 +427,7 @@ class sliver_removal {
     using place_in_line = std::pair<double, std::uint32_t>;
     std::priority_queue<place_in_line, std::vector<place_in_line>, std::greater<>> next_{};
     predicate_counters counters_{};
+    std::size_t sideways_ = 100;  ///< changes left that may help nothing but those that follow
     std::uint64_t changes_ = 0;
     double moved_ = 0.0;
 };
