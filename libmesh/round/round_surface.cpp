@@ -20,8 +20,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -107,9 +105,7 @@ class rounding {
         const double limit = std::min(options_.max_displacement, longest_reach * largest);
         double reach = first_reach * step;
         for (int round = 1; reach <= limit; ++round) {
-            if (std::getenv("TF_V")) std::fprintf(stderr, "round %d reach %g steps: %zu pairs, %llu complaints, %zu faces\n", round, reach / step, pairs_.size(), (unsigned long long)result_.certificate.meeting_count, result_.surface.faces.size());
             if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
-            if (std::getenv("TF_V")) std::fprintf(stderr, "   then %zu pairs %zu faces\n", pairs_.size(), result_.surface.faces.size());
             if (round % rounds_of_reach == 0) reach *= 4.0;
             if (pairs_.size() > 3 * faces_given_ + 1000)
                 continue;  // far more than there was to cut
