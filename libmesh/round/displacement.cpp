@@ -28,7 +28,8 @@ double farthest(const std::vector<point3>& points, mesh_view from) {
 
 }  // namespace
 
-surface_moves displacement(mesh_view now, std::span<const std::uint32_t> point_of, mesh_view before) {
+surface_moves displacement(mesh_view now, std::span<const std::uint32_t> point_of,
+                           mesh_view before) {
     surface_moves result;
     std::vector<point3> made, gone;
     std::vector<std::uint8_t> stays(before.points.size(), 0);
@@ -39,8 +40,8 @@ surface_moves displacement(mesh_view now, std::span<const std::uint32_t> point_o
             continue;
         }
         stays[was] = 1;
-        result.moved = std::max(
-            result.moved, base::largest_of(base::minus(now.points[p], before.points[was])));
+        result.moved = std::max(result.moved,
+                                base::largest_of(base::minus(now.points[p], before.points[was])));
     }
     for (const std::uint32_t p : base::used_points(before.points.size(), before.faces))
         if (stays[p] == 0) gone.push_back(before.points[p]);

@@ -14,8 +14,8 @@ struct surface_moves {
     /// Points of the later one from the point of the earlier that each was, or else from the
     /// nearest place on its faces.
     double moved = 0.0;
-    /// Points of the earlier one that are gone from the nearest place on the later: far, where a part
-    /// that was too thin has gone.
+    /// Points of the earlier one that are gone from the nearest place on the later: far, where a
+    /// part that was too thin has gone.
     double gone = 0.0;
 };
 
@@ -26,6 +26,6 @@ struct surface_moves {
 /// \cost  as `closest_point` for the points that are new or gone
 /// \same  on any number of threads
 [[nodiscard]] surface_moves displacement(mesh_view now, std::span<const std::uint32_t> point_of,
-                                  mesh_view before);
+                                         mesh_view before);
 
 }  // namespace treeform::detail::round

@@ -12,33 +12,41 @@
 namespace treeform::detail::round {
 
 struct sliver_limits {
-    double reach = 0.0;  ///< edges and heights of faces up to this long may go
+    double reach = 0.0;  ///< what is no further apart than this may be joined
     double thin = 0.0;   ///< faces of less height are as bad as faces that meet
     bool solid = true;   ///< the faces bound a solid: what covers each other back to back goes
 };
 
 struct slivers_removed {
     std::vector<face> faces;
-    std::vector<std::uint32_t> face_of;  ///< [F] face that each one was, or was a part of
-    std::vector<std::uint8_t> is_new;    ///< [F] 1 for faces with other corners than that one had
+    std::vector<std::uint32_t>
+        face_of;                       ///< [F] face that the middle of each one lies in, or next to
+    std::vector<std::uint8_t> is_new;  ///< [F] 0 for faces that are as they were
     std::uint64_t changes = 0;
-    double moved = 0.0;  ///< length of the longest edge or height that went
+    double moved = 0.0;  ///< furthest apart of what was joined
 };
 
-/// Where faces meet, one of them is nearly always thinner than rounding moved its corners. Such
-/// faces go, by two changes, smallest first: one end of a short edge becomes the other; or the edge
-/// below a corner gets that corner, which turns a flat triangle into its neighbors. Both keep a
-/// closed surface closed. Points stay where they are.
+/// Where rounding makes faces meet, one of them is nearly always thinner than points were moved: a
+/// sliver. Others lie on each other but for that much. Four changes mend nearly all of it, each
+/// where things are within reach, nearest first:
+/// - a corner becomes another one;
+/// - an edge gets a corner that is above it, so that a flat triangle goes into its neighbors;
+/// - a face gets a corner that is above it;
+/// - the edge between two faces that are all but coplanar is turned into their other diagonal.
 ///
-/// A change is kept only if afterwards, by exact predicates, fewer faces meet or are thin than
-/// before. So it ends, and leaves nothing worse than it was. What no change helps stays: two
-/// thick faces that meet have to be cut.
+/// All of them keep a closed surface closed, and points stay where they are. A change is kept only
+/// if by exact predicates fewer faces meet, or are thin, than before; corners may also be put into
+/// edges and faces that meet where as many do, at most twice a pair, as the next change often needs
+/// that. So it ends, and leaves no more that meets than there was. Thick faces that cross stay, to
+/// be cut.
 ///
-/// \param  meeting  all pairs of faces that meet; (f, f) for faces without an area
-/// \cost   O(F) for a tree over the faces, and for each pair a few searches in it
+/// \param  meeting  all pairs of faces that meet; (f, f) for those without an area or that may be
+///                  thin
+/// \cost   O(F) for a tree over the faces; for each pair a few changes, each as many searches in
+///         the tree as there are faces at it
 /// \same   on any number of threads
-/// \source features are separated before they are rounded in Milenkovic and Sacks, Two approximate
-///         Minkowski sum algorithms, IJCGA 20 (2010)
+/// \source Milenkovic and Sacks, Two approximate Minkowski sum algorithms, IJCGA 20 (2010),
+///         separate features before they round them
 [[nodiscard]] slivers_removed remove_slivers(mesh_view surface, std::span<const face_pair> meeting,
                                              const sliver_limits& limits);
 

@@ -31,11 +31,10 @@ namespace {
 constexpr std::size_t point_grain = std::size_t{1} << 7;  // the constructed ones are the last
 constexpr std::size_t most_listed = 100;
 
-// In steps of the precision at the largest coordinate: what slivers are, and how long what goes of
-// them may be in the first two rounds; then four times as long in each two. Rounding moves points
-// by half a step, so that most of what it breaks is thinner than one. On real results (threads,
-// gantries, a slicer's test object) 2, 4, 8 and 16 end in as many rounds, give or take one, and
-// differ by a fifth in how many slivers stay.
+// In steps of the precision at the largest coordinate: the height of slivers, and how far apart
+// what is joined may be in the first two rounds; then four times as far in each two. Rounding moves
+// points by half a step, so that most of what it breaks is thinner than one. On real results
+// (threads, a gantry, a slicer's test object) 2, 4, 8 and 16 take as many rounds, give or take one.
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;

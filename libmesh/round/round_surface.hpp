@@ -68,19 +68,20 @@ struct rounded_surface {
 /// Every point is rounded once, to nearest; given points stay bit for bit unless float32 is asked
 /// for. Then the surface is checked with the exact predicates: every face that has moved, or is not
 /// known to be sound, against all others. Where it is broken, it is mended in rounds:
-/// - Nearly all faces that meet are slivers, thinner than rounding moved their corners. They are
-///   taken out (`remove_slivers`), as long as less meets by that.
+/// - What all but touches is joined, and slivers are taken out, as long as less meets by that
+///   (`remove_slivers`).
 /// - What meets all the same is cut along each other (`arrange_faces`), of a solid what it does not
 ///   wind around any more is left out, and what was cut is rounded.
 ///
-/// What goes is at most 8 steps of the precision at the largest coordinate long in the first two
-/// rounds, four times as long in each two that follow, and never longer than `max_displacement` and
-/// than 2^-10 of the largest coordinate: this bounds the rounds, by 38 for float32 and by 96 for
-/// float64. Success is not proved, but checked; the certificate tells. A round that would have to cut
-/// more than three times as many pairs of faces as there were faces cuts nothing.
+/// What is joined is at most 8 steps of the precision at the largest coordinate apart in the first
+/// two rounds, four times as far in each two that follow, and never further than `max_displacement`
+/// and than 2^-10 of the largest coordinate: so there are at most 12 rounds for float32 and 42 for
+/// float64. Success is not proved, but checked; the certificate tells. A round that would have to
+/// cut more than three times as many pairs of faces as there were faces cuts nothing.
 ///
 /// Where anything was mended, `certificate::max_displacement` and `vanished_reach` are measured at
-/// the end (`detail::round::displacement`), so that moves on the way do not add up. Status `out_of_range`: a coordinate was too large to be rounded.
+/// the end (`detail::round::displacement`), so that moves on the way do not add up. Status
+/// `out_of_range`: a coordinate was too large to be rounded.
 ///
 /// Where a part of a solid is thinner than rounding moves its points, it may be turned inside out
 /// and meet nothing: then the cells of the whole surface are found, and what is turned is mended.

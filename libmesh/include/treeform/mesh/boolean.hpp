@@ -92,9 +92,9 @@ struct boolean_options {
     fill_rule inside = fill_rule::nonzero;  ///< what is solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    /// Where rounding makes faces meet, nothing longer is taken out of the surface at once, in the
-    /// mesh's own length unit, nor anything longer than 2^-10 of the largest coordinate. How far all
-    /// of it moved is `certificate::max_displacement`. Not negative.
+    /// Where rounding makes faces meet, nothing further apart is joined, in the mesh's own length
+    /// unit, nor anything further than 2^-10 of the largest coordinate. How far the result moved is
+    /// `certificate::max_displacement`. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Otherwise coplanar faces that were cut, or that overlap, are merged, exactly and before
     /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a straight
@@ -129,8 +129,8 @@ struct boolean_statistics {
     /// the result is thinner than the coordinates can show.
     std::uint64_t exact_faces = 0;
     std::uint64_t split_vertices = 0;  ///< added where parts touch, so that edges have two faces
-    /// Thin faces taken out where rounding made faces meet, and how often what met all the same was
-    /// cut and rounded once more.
+    /// Where rounding made faces meet: changes that join what all but touches and take out thin
+    /// faces, and how often what met all the same was cut and rounded once more.
     std::uint64_t slivers = 0;
     int rounding_rounds = 0;
 };
