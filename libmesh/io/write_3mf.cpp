@@ -70,7 +70,7 @@ class model_writer {
         : job_(job),
           archive_(archive),
           objects_(objects_of(job.file)),
-          looks_(job.file),
+          looks_(job),
           local_(job.file.mesh.points.size()) {}
 
     /// No less than the model takes.
@@ -101,6 +101,8 @@ class model_writer {
             job_.result.warnings.push_back(
                 {"colors-dropped",
                  "colors of points left out: their faces have colors or materials"});
+        if (looks_.rounds_colors())
+            job_.result.warnings.push_back({"colors", "colors are rounded to 8 bits"});
         if (looks_.lacks_colors())
             job_.result.warnings.push_back(
                 {"materials",

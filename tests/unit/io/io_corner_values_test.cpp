@@ -313,7 +313,7 @@ TEST_CASE(
 }
 
 TEST_CASE("writing: formats that do not hold names of texture files say so") {
-    tf::mesh_file file = read_obj(square + "f 1 2 3\n");
+    tf::mesh_file file = read_obj(square + "f 1 2 3 4\n");
     file.attributes.texture_files = {"a.png"};
     for (const char* const format : {"ply", "obj", "stl", "off", "glb"}) {
         CAPTURE(format);
@@ -338,7 +338,7 @@ TEST_CASE("writing: formats that do not hold materials say so") {
         std::filesystem::remove(path);
         return all;
     };
-    const std::string face = square + "f 1 2 3\n";
+    const std::string face = square + "f 1 2 3 4\n";
     for (const char* const format : {"ply", "stl", "off", "glb"}) {
         CAPTURE(format);
         CHECK(codes("usemtl oak\n" + face, format) == std::vector<std::string>{"materials"});
