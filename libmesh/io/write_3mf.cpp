@@ -10,8 +10,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -53,6 +55,18 @@ struct written_object {
         objects[last].points.push_back(v);
     }
     return objects;
+}
+
+/// Different names of parts that have faces.
+[[nodiscard]] std::size_t count_named(const mesh_file& file) {
+    std::set<std::pair<std::string, std::string>> names;
+    const auto& parts = file.attributes.parts;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const std::size_t end =
+            p + 1 < parts.size() ? parts[p + 1].first_face : stored_face_count(file);
+        if (parts[p].first_face < end) names.emplace(parts[p].object, parts[p].group);
+    }
+    return names.size();
 }
 
 /// The unit that was read, or that of models which name none.
@@ -101,6 +115,9 @@ class model_writer {
             job_.result.warnings.push_back(
                 {"colors-dropped",
                  "colors of points left out: their faces have colors or materials"});
+        if (count_named(job_.file) > objects_.size())
+            job_.result.warnings.push_back(
+                {"left-out", "names of parts left out: those that share points are one object"});
         if (looks_.rounds_colors())
             job_.result.warnings.push_back({"colors", "colors are rounded to 8 bits"});
         if (looks_.lacks_colors())

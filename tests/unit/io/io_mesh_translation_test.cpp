@@ -260,3 +260,23 @@ TEST_CASE("mesh translation: colors of points of more than 8 bits, and of floats
         CHECK(is_named_in(put_translated(fine, format).warnings, "colors") == !is_glb);
     }
 }
+
+TEST_CASE("mesh translation: 3MF says that names are lost where parts share points") {
+    tf::mesh_file given = folded_sheet();
+    given.attributes.parts = {{.object = "left", .first_face = 0},
+                              {.object = "right", .first_face = 1}};
+    CHECK(put_translated(given, "3mf").warnings ==
+          sentences{"left-out: names of parts left out: those that share points are one object"});
+    given.mesh.points.insert(given.mesh.points.end(), {{2, 0, 4.5}, {1, 0.25, 0}});
+    given.mesh.faces[1] = {4, 5, 3};
+    CHECK(put_translated(given, "3mf").warnings.empty());
+}
+
+TEST_CASE("mesh translation: OFF: a comment may begin right behind a number") {
+    const tf::mesh_file file = read_translated(
+        "COFF\n3 1 0#counts\n0 0 0 1 0 0#red\n1 0 0 0 1 0 # green\n0 1 0 0 0 1\n3 0 1 2#face\n",
+        "off");
+    CHECK(file.mesh.faces.size() == 1);
+    CHECK(translated_numbers(file, "green") == std::vector<double>{0, 1, 0});
+    CHECK_THROWS_AS((void)read_translated("OFF\n1 0 0\n1.#IND 0 0\n", "off"), tf::io_error);
+}
