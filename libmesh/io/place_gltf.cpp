@@ -121,9 +121,8 @@ struct placed_node {
     return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-[[nodiscard]] std::uint8_t byte_of_share(double share) {
-    return static_cast<std::uint8_t>(share > 0.0 ? std::min(std::round(share * 255.0), 255.0)
-                                                 : 0.0);
+[[nodiscard]] std::uint8_t whole_byte(double value) {
+    return static_cast<std::uint8_t>(value > 0.0 ? std::min(std::round(value), 255.0) : 0.0);
 }
 
 class placer_gltf {
@@ -272,15 +271,20 @@ class placer_gltf {
         const bool is_opaque =
             std::ranges::all_of(materials_, [&](std::size_t m) { return color_of(m)[3] >= 1.0; });
         auto& columns = obtain_element(file_.attributes, "face", materials_.size()).columns;
+        bool is_rounded = false;
         for (std::size_t k = 0; k < (is_opaque ? 3U : 4U); ++k) {
             std::vector<std::uint8_t> values(materials_.size());
             for (std::size_t f = 0; f < values.size(); ++f) {
                 const double channel = color_of(materials_[f])[k];
-                values[f] = byte_of_share(k < 3 ? seen(channel) : channel);
+                const double share = 255.0 * (k < 3 ? seen(channel) : channel);
+                values[f] = whole_byte(share);
+                // Four digits of a dark color lead so near to a byte.
+                is_rounded = is_rounded || !(std::abs(share - values[f]) < 0.25);
             }
             columns.push_back(
                 make_column<std::uint8_t>(std::array{"red", "green", "blue", "alpha"}[k], values));
         }
+        if (is_rounded) warn("colors", "colors of materials are rounded to 8 bits");
     }
 
     void warn(const char* code, std::string text) {

@@ -234,6 +234,11 @@ TEST_CASE("mesh translation: GLB: colors of faces are those of materials, to the
     CHECK(back.warnings.empty());
     for (const char* name : {"red", "green", "blue", "alpha"})
         CHECK(face_numbers(back, name) == std::vector<double>(ramp.begin(), ramp.end()));
+    for (tf::column& c : columns) c = tf::make_column<float>(c.name, std::vector<float>(256, 0.7F));
+    const tf::mesh_file rounded = test::passed_through(given, "glb");
+    REQUIRE(rounded.warnings.size() == 1);
+    CHECK(rounded.warnings[0].text == "colors of materials are rounded to 8 bits");
+    CHECK(face_numbers(rounded, "red") == std::vector<double>(256, 179.0));
 }
 
 TEST_CASE("mesh translation: colors of points of more than 8 bits, and of floats beyond 1") {
