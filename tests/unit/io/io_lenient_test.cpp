@@ -283,3 +283,15 @@ TEST_CASE("lenient: CSV with numbers between quotes, and a comma behind the last
     CHECK(file.warnings.empty());
     CHECK_FALSE(named_refusal("x,y,z\n\"1,2,3\n", "a.csv").empty());
 }
+
+TEST_CASE("lenient: faces that are not convex are counted, others and flat corners are not") {
+    const std::string points =
+        "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 2 2 0.1\nv 1 0 0\n";
+    const auto said = [&](const std::string& faces) {
+        return warnings(read_named(points + faces, "a.obj"));
+    };
+    CHECK(said("f 1 2 3 7 6\nf 1 8 2 3\nf 1 2 3\n").empty());  // nearly flat; a corner on an edge
+    CHECK(said("f 1 2 3 4 5 6\n").empty());  // all of it is seen from the first corner
+    CHECK(said("f 6 1 2 3 4 5\nf 1 2 3\nf 5 4 3 2 1 6\n")
+              .starts_with("concave-faces: 2 faces are not convex"));
+}
