@@ -103,6 +103,11 @@ TEST_CASE("translation: names and types are those that others read") {
     CHECK(translated_numbers(las, "NormalZ") == std::vector<double>{1, 0, 0});
     const std::string obj = put_translated(colored_cloud(), "obj").bytes;
     CHECK(obj.starts_with("v 0 0 0 1 0.5019607843137255 0\nvn 0 0 1\n"));
+    tf::mesh_file remarked = colored_cloud();
+    remarked.attributes.obj_info = {"made by hand", "viewpoint 1 2 3 1 0 0 0"};
+    const tf::mesh_file told = passed_through(remarked, "pcd");
+    CHECK(told.attributes.comments == sentences{"made by hand"});
+    CHECK(told.attributes.obj_info == sentences{"viewpoint 1 2 3 1 0 0 0"});
     // A file stays as it is in its own format, and where that is asked for.
     CHECK(put_translated(packed, "pcd").bytes == put_translated(clear, "pcd").bytes);
     CHECK(translated_column(
