@@ -156,14 +156,18 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
     const bool keeps_names = holds.names && (format.extension != "stl" || text);
     const auto is_named = [](const part& p) { return !p.object.empty() || !p.group.empty(); };
     // A name of all faces is that of the file, more or less.
-    add(!keeps_names && all.parts.size() > 1 && std::ranges::any_of(all.parts, is_named),
-        "names of parts");
+    const bool has_parts =
+        all.parts.size() > 1 || (!all.parts.empty() && all.parts[0].first_face > 0);
+    add(!keeps_names && has_parts && std::ranges::any_of(all.parts, is_named), "names of parts");
     // Those of `add_source_columns` belong to its columns.
     const auto is_remark = [](const std::string& line) {
         return !line.starts_with("source_mesh ");
     };
     add(!holds.comments && std::ranges::any_of(all.comments, is_remark), "comments");
-    add(!holds.remarks && !all.obj_info.empty(), "remarks");
+    const auto is_lost = [&](const std::string& line) {
+        return !holds.remarks || (format.extension == "3mf" && !line.starts_with("unit "));
+    };
+    add(std::ranges::any_of(all.obj_info, is_lost), "remarks");
     add(!holds.system && file.las && has_system(*file.las), "the reference system of LAS");
     return rest;
 }

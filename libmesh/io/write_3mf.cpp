@@ -57,10 +57,11 @@ struct written_object {
     return objects;
 }
 
-/// Different names of parts that have faces.
+/// Different names of parts that have faces; none is one, too.
 [[nodiscard]] std::size_t count_named(const mesh_file& file) {
     std::set<std::pair<std::string, std::string>> names;
     const auto& parts = file.attributes.parts;
+    if (!parts.empty() && parts[0].first_face > 0) names.emplace();
     for (std::size_t p = 0; p < parts.size(); ++p) {
         const std::size_t end =
             p + 1 < parts.size() ? parts[p + 1].first_face : stored_face_count(file);

@@ -59,13 +59,15 @@ def read_ply(path):
     end = data.index(b"end_header\n") + len("end_header\n")
     header = data[:end].decode(errors="replace").splitlines()
     elements = []
+    order = ">" if "format binary_big_endian 1.0" in header else "<"
+    type_of = lambda word: TYPES[word].replace("<", order)
     for line in header:
         words = line.split()
         if words[0] == "element":
             elements.append((words[1], int(words[2]), []))
         elif words[0] == "property":
-            elements[-1][2].append((words[-1], TYPES[words[-2]],
-                                    TYPES[words[2]] if words[1] == "list" else ""))
+            elements[-1][2].append((words[-1], type_of(words[-2]),
+                                    type_of(words[2]) if words[1] == "list" else ""))
     made, at = {}, end
     for name, count, properties in elements:
         made[name], at = rows(data, at, count, properties)

@@ -19,6 +19,7 @@ import numpy as np
 
 from ply_rows import read_ply
 
+np.seterr(over="ignore")  # of what is beyond float32, and stays so
 LIMIT = 120  # seconds that a program may take
 OF_MESHES = (("ply", ()), ("ply", ("--ascii",)), ("obj", ()), ("off", ()), ("stl", ()),
              ("stl", ("--ascii",)), ("glb", ()), ("3mf", ()), ("3mf", ("--precision", "double")))
@@ -128,6 +129,8 @@ def names(path):
                 if not parts or parts[-1][0] != key:
                     parts.append([key, 0])
                 parts[-1][1] += len(rest.split()) - 2
+    for part in parts:  # of a GLB, where there is no name
+        part[0] = re.sub(r"^nodes\[\d+\]$", "", part[0])
     return parts if len(parts) > 1 else []
 
 

@@ -394,7 +394,7 @@ TEST_CASE("writing: no name makes lines of its own") {
     CHECK(read_obj(written_mesh(file, "ply"), "a.ply").attributes.texture_files ==
           again.attributes.material_files);
     const auto parts = read_obj(written_mesh(file, "stl", true), "a.stl").attributes.parts;
-    CHECK(parts == std::vector<tf::part>{{.object = flat}});
+    CHECK(parts == std::vector<tf::part>{{.object = flat + "/" + flat}});
 }
 
 TEST_CASE(

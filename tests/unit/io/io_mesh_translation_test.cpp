@@ -285,3 +285,25 @@ TEST_CASE("mesh translation: OFF: a comment may begin right behind a number") {
     CHECK(translated_numbers(file, "green") == std::vector<double>{0, 1, 0});
     CHECK_THROWS_AS((void)read_translated("OFF\n1 0 0\n1.#IND 0 0\n", "off"), tf::io_error);
 }
+
+TEST_CASE("mesh translation: 3MF keeps the unit of all remarks, and says so") {
+    tf::mesh_file given = folded_sheet();
+    given.attributes.obj_info = {"unit inch"};
+    CHECK(put_translated(given, "3mf").warnings.empty());
+    given.attributes.obj_info.emplace_back("made by hand");
+    CHECK(put_translated(given, "3mf").warnings ==
+          sentences{"left-out: remarks left out: 3MF does not hold them"});
+}
+
+TEST_CASE("mesh translation: faces ahead of a part that has a name; groups are names in STL") {
+    tf::mesh_file given = folded_sheet();
+    given.attributes.parts = {{.object = "lid", .group = "inner", .first_face = 1}};
+    for (const char* format : {"ply", "off", "stl", "3mf"})
+        CHECK(is_named_in(put_translated(given, format).warnings, "names of parts"));
+    const translated_file text = put_translated(given, "stl", {.ascii = true});
+    CHECK(text.warnings.empty());
+    CHECK(text.bytes.find("\nsolid lid/inner\n") != std::string::npos);
+    given.attributes.parts[0].object.clear();
+    CHECK(put_translated(given, "stl", {.ascii = true}).bytes.find("\nsolid inner\n") !=
+          std::string::npos);
+}
