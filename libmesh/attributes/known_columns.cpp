@@ -179,7 +179,8 @@ translation::translation(const element& columns, std::string_view from, std::str
       ranges_(ranges),
       renamed_(rename),
       is_same_(family_of(from) == to_),
-      keeps_floats_(to_ == "obj" || to_ == "off" || to_ == "glb" || to_ == "3mf") {
+      keeps_floats_(to_ == "obj" || to_ == "off" || to_ == "glb" || to_ == "3mf"),
+      keeps_words_(to_ == "glb") {
     if (is_same_ && drop.empty() && rename.empty()) return;
     element chosen{.name = columns.name};
     for (const column& c : columns.columns)
@@ -261,6 +262,7 @@ void translation::plan_colors(const element& columns, std::vector<bool>& done) {
         return;
     }
     if (keeps_floats_ && has_floats && scale_ == color_scale::unit) return;
+    if (keeps_words_ && scale_ == color_scale::high_byte) return;
     for (std::size_t k = 0; k < from.size(); ++k) {
         const column& c = columns.columns[from[k]];
         target t{
@@ -312,7 +314,7 @@ void translation::choose_scale(const std::vector<const column*>& channels) {
             return;
         }
         scale_ = color_scale::high_byte;
-        if (to_words_ != dialect::las)
+        if (to_words_ != dialect::las && !keeps_words_)
             say("colors", "colors of 16 bits are written with 8, the high ones");
     }
 }

@@ -115,6 +115,7 @@ class translation {
     bool is_same_;  ///< format
     bool changes_ = false;
     bool keeps_floats_ = false;  ///< of colors
+    bool keeps_words_ = false;   ///< of 16 bits, of colors
     color_scale scale_ = color_scale::bytes;
     std::vector<target> targets_{};
     std::string narrowed_{};  ///< names of columns that become float32

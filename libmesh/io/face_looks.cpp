@@ -11,23 +11,26 @@ namespace {
 constexpr std::uint32_t white = 0xffffffff;
 
 /// 0xRRGGBBAA.
-[[nodiscard]] std::uint32_t color_of_row(const std::vector<const column*>& columns,
-                                         std::size_t row) {
+[[nodiscard]] std::uint32_t color_of_row(const std::vector<const column*>& columns, std::size_t row,
+                                         bool& is_rounded) {
     std::uint32_t color = 0;
     for (std::size_t c = 0; c < 4; ++c) {
         const double value = c < columns.size() ? color_value(*columns[c], row) : 1.0;
         const double share = value > 0.0 ? std::min(value, 1.0) : 0.0;  // of NaN: none
-        color = color << 8 | static_cast<std::uint32_t>(std::lround(share * 255.0));
+        const auto channel = static_cast<std::uint32_t>(std::lround(share * 255.0));
+        is_rounded = is_rounded || !(std::abs(channel - value * 255.0) < 1e-3);
+        color = color << 8 | channel;
     }
     return color;
 }
 
 }  // namespace
 
-face_looks::face_looks(const mesh_file& file) {
+face_looks::face_looks(const write_job& job) {
+    const mesh_file& file = job.file;
     const auto& parts = file.attributes.parts;
     const auto of_faces = color_columns(file, "face");
-    auto of_points = color_columns(file, "vertex");
+    auto of_points = color_columns(job.vertices);
     const bool named =
         std::any_of(parts.begin(), parts.end(), [](const part& p) { return !p.material.empty(); });
     leaves_out_points_ = (named || !of_faces.empty()) && !of_points.empty();
@@ -40,7 +43,8 @@ face_looks::face_looks(const mesh_file& file) {
         const std::size_t row = face_row(file, f);
         while (next < parts.size() && parts[next].first_face <= row) ++next;
         const std::string& material = next > 0 ? parts[next - 1].material : nameless;
-        const std::uint32_t color = of_faces.empty() ? white : color_of_row(of_faces, row);
+        const std::uint32_t color =
+            of_faces.empty() ? white : color_of_row(of_faces, row, rounds_colors_);
         face_look look;
         if (!material.empty()) {
             look.list = look_list::materials;
@@ -48,7 +52,8 @@ face_looks::face_looks(const mesh_file& file) {
         } else if (!of_points.empty()) {
             look.list = look_list::colors;
             for (std::size_t k = 0; k < 3; ++k)
-                look.entries[k] = color_entry(color_of_row(of_points, file.mesh.faces[f][k]));
+                look.entries[k] =
+                    color_entry(color_of_row(of_points, file.mesh.faces[f][k], rounds_colors_));
         } else {
             look.list = look_list::colors;
             look.entries.fill(color_entry(color));

@@ -28,7 +28,7 @@ struct face_look {
 /// 0xRRGGBBAA.
 class face_looks {
   public:
-    explicit face_looks(const mesh_file& file);
+    explicit face_looks(const write_job& job);
 
     [[nodiscard]] const face_look& of(std::uint32_t triangle) const {
         return looks_.empty() ? none_ : looks_[triangle];
@@ -38,6 +38,8 @@ class face_looks {
     [[nodiscard]] const std::vector<std::uint32_t>& colors() const { return colors_; }
     /// Whether points have colors that are not among these.
     [[nodiscard]] bool leaves_out_points() const { return leaves_out_points_; }
+    /// Whether some color is none of 8 bits a channel.
+    [[nodiscard]] bool rounds_colors() const { return rounds_colors_; }
     /// Whether the colors of materials are in files of which nothing is known here.
     [[nodiscard]] bool lacks_colors() const { return lacks_colors_; }
 
@@ -52,6 +54,7 @@ class face_looks {
     std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> number_of_material_{};
     std::map<std::uint32_t, std::uint32_t> number_of_color_{};
     bool leaves_out_points_ = false;
+    bool rounds_colors_ = false;
     bool lacks_colors_ = false;
 };
 

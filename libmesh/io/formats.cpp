@@ -101,7 +101,7 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
 
 /// Columns, a list for each element.
 [[nodiscard]] std::string columns_left_out(const known_format& format, const mesh_file& file,
-                                           const element* points) {
+                                           const element* points, bool text) {
     const holdings& holds = format.holds;
     std::string columns;
     add_names(columns, points, holds.points, holds.alpha, "points");
@@ -113,9 +113,10 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
     const bool is_off = format.extension == "off" &&
                         (find_column(*faces, "color_index") || find_column(*faces, "off_color"));
     add_names(columns, faces,
-              is_off          ? held::all
-              : has_materials ? held::colors
-                              : holds.faces,
+              is_off                                   ? held::all
+              : has_materials                          ? held::colors
+              : text && holds.faces == held::attribute ? held::none
+                                                       : holds.faces,
               holds.alpha || has_materials, "faces");
     return columns;
 }
@@ -155,16 +156,28 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
     const bool keeps_names = holds.names && (format.extension != "stl" || text);
     const auto is_named = [](const part& p) { return !p.object.empty() || !p.group.empty(); };
     // A name of all faces is that of the file, more or less.
-    add(!keeps_names && all.parts.size() > 1 && std::ranges::any_of(all.parts, is_named),
-        "names of parts");
+    const bool has_parts =
+        all.parts.size() > 1 || (!all.parts.empty() && all.parts[0].first_face > 0);
+    add(!keeps_names && has_parts && std::ranges::any_of(all.parts, is_named), "names of parts");
     // Those of `add_source_columns` belong to its columns.
     const auto is_remark = [](const std::string& line) {
         return !line.starts_with("source_mesh ");
     };
     add(!holds.comments && std::ranges::any_of(all.comments, is_remark), "comments");
-    add(!holds.remarks && !all.obj_info.empty(), "remarks");
+    const auto is_lost = [&](const std::string& line) {
+        return !holds.remarks || (format.extension == "3mf" && !line.starts_with("unit "));
+    };
+    add(std::ranges::any_of(all.obj_info, is_lost), "remarks");
     add(!holds.system && file.las && has_system(*file.las), "the reference system of LAS");
     return rest;
+}
+
+/// Of no face.
+[[nodiscard]] std::size_t count_loose_points(const mesh& m) {
+    std::vector<bool> is_used(m.points.size(), false);
+    for (const face& f : m.faces)
+        for (const std::uint32_t corner : f) is_used[corner] = true;
+    return static_cast<std::size_t>(std::ranges::count(is_used, false));
 }
 
 /// Which column is which; empty where they have no names.
@@ -193,7 +206,7 @@ std::vector<io_warning> left_out(const known_format& format, const mesh_file& fi
         if (!what.empty())
             lost.push_back({code, what + " left out: " + name + " does not hold them"});
     };
-    say("columns-dropped", columns_left_out(format, file, points));
+    say("columns-dropped", columns_left_out(format, file, points, text));
     if (!holds.has_faces && !file.mesh.faces.empty())
         lost.push_back({"faces-dropped", name + " holds points only: faces are left out"});
     say("corner-values", corner_values_left_out(holds, all.corners, points));
@@ -203,6 +216,9 @@ std::vector<io_warning> left_out(const known_format& format, const mesh_file& fi
     if (!holds.texture_files && !all.texture_files.empty())
         say("materials", "names of texture files");
     say("left-out", rest_left_out(format, file, text));
+    if (const std::size_t loose = format.extension == "stl" ? count_loose_points(file.mesh) : 0)
+        lost.push_back({"left-out", std::to_string(loose) + (loose == 1 ? " point" : " points") +
+                                        " of no face left out: STL holds faces only"});
     if (const std::string names = names_left_out(points);
         format.extension == "xyz" && !names.empty())
         lost.push_back({"columns", "XYZ has no names; its columns are x y z" + names});

@@ -85,6 +85,7 @@ class json_entry {
         return static_cast<std::size_t>(number);
     }
     [[nodiscard]] bool is_number() const { return value_->is_number(); }
+    [[nodiscard]] bool is_object() const { return value_->is_object(); }
     [[nodiscard]] double number() const {
         if (!value_->is_number()) fail("is no number");
         return value_->get<double>();

@@ -66,6 +66,7 @@ struct placed_3mf {
 struct object_3mf {
     std::string name{};     ///< the name, else the part number
     bool is_other = false;  ///< of the type "other", which is not made: nothing of it is read
+    bool is_support = false;
     std::vector<point3> points{};
     std::vector<face> faces{};
     std::vector<face> colors{};              ///< [F] of corners, in the palette; empty: none
@@ -78,6 +79,8 @@ struct object_3mf {
 struct unread_3mf {
     std::size_t not_built = 0;      ///< objects
     std::size_t other = 0;          ///< items and components with objects of the type "other"
+    std::size_t support = 0;        ///< the same of supports, which are read
+    std::size_t not_printable = 0;  ///< items, which are read
     std::size_t property_uses = 0;  ///< triangles with mixtures of materials
     std::size_t extensions = 0;     ///< elements in meshes
     bool images = false;

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <string>
+#include <set>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -56,8 +56,9 @@ struct texture_transform_gltf {
     std::array<double, 2> scale{1, 1};
 };
 
-/// What of a material matters here: which texture coordinates its color takes, and how.
+/// What of a material matters here: its color, and which texture coordinates that takes, and how.
 struct material_gltf {
+    std::optional<std::array<double, 4>> color{};  ///< linear
     std::size_t texture_set = 0;
     std::optional<texture_transform_gltf> transform{};
 };
@@ -74,7 +75,8 @@ struct primitive_gltf {
     std::optional<std::size_t> material{};
     unsigned mode = 4;
     bool morphs = false;
-    std::optional<draco_gltf> draco{};  ///< where KHR_draco_mesh_compression has its values
+    std::set<std::string> face_properties{};  ///< names in `extras`, as treeform writes them
+    std::optional<draco_gltf> draco{};        ///< where KHR_draco_mesh_compression has its values
 };
 
 struct mesh_gltf {
@@ -132,7 +134,7 @@ struct model_gltf {
     std::vector<node_gltf> nodes{};
     std::vector<std::size_t> roots{};  ///< nodes of the scene
     std::size_t scenes = 0;
-    bool has_looks = false;     ///< colors or textures of materials
+    bool has_textures = false;  ///< of materials
     bool is_version_1 = false;  ///< glTF 1.0, of which nothing was parsed
 };
 

@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -112,8 +113,10 @@ class part_reader {
     }
 
     void read_build(pugi::xml_node root) {
-        for (const pugi::xml_node item : child(root, "build").children(item_.c_str()))
+        for (const pugi::xml_node item : child(root, "build").children(item_.c_str())) {
             model_.items.push_back(read_reference(item));
+            if (!item.attribute("printable").as_bool(true)) ++model_.unread.not_printable;
+        }
     }
 
     void read_objects() {
@@ -189,7 +192,9 @@ class part_reader {
     void read_object(pugi::xml_node node, object_3mf& object) {
         object.name = name_in(node, "name");
         if (object.name.empty()) object.name = name_in(node, "partnumber");
-        object.is_other = std::strcmp(node.attribute("type").value(), "other") == 0;
+        const std::string_view type = node.attribute("type").value();
+        object.is_other = type == "other";
+        object.is_support = type == "support" || type == "solidsupport";
         if (object.is_other) return;
         const pugi::xml_node mesh = child(node, "mesh");
         const pugi::xml_node components = child(node, "components");

@@ -152,8 +152,13 @@ class parser {
         material_gltf material;
         if (const auto looks = e.find("pbrMetallicRoughness")) {
             const auto texture = looks->find("baseColorTexture");
-            model_.has_looks = model_.has_looks || texture || looks->find("baseColorFactor");
+            model_.has_textures = model_.has_textures || texture;
             if (texture) material = material_of(*texture);
+            if (const auto color = looks->find("baseColorFactor"))
+                material.color = color->numbers<4>();
+            // What is opaque ignores it.
+            const auto alpha = e.find("alphaMode");
+            if (material.color && (!alpha || alpha->text() == "OPAQUE")) (*material.color)[3] = 1.0;
         }
         model_.materials.push_back(material);
     }
@@ -188,6 +193,11 @@ class parser {
         primitive.mode = static_cast<unsigned>(whole_or(e, "mode", 4));
         if (const auto mode = e.find("mode")) (void)mode->number_of(7, "modes");
         primitive.morphs = e.count("targets") > 0;
+        if (const auto extras = e.find("extras"); extras && extras->is_object())
+            if (const auto own = extras->find("face_properties"); own && own->is_object())
+                own->for_each_member([&](const std::string& name, const json_entry&) {
+                    primitive.face_properties.insert(name);
+                });
         if (const auto packed = e.find("extensions", draco_extension)) {
             primitive.draco = draco_gltf{.view = view_of(*packed)};
             packed->get("attributes").for_each_member([&](const auto& name, const auto& id) {

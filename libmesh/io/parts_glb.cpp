@@ -11,7 +11,6 @@ namespace treeform::detail::io {
 namespace {
 
 constexpr std::size_t most_colors = 256;
-constexpr color_glb gray{0.8, 0.8, 0.8, 1.0};
 constexpr color_glb full{1.0, 1.0, 1.0, 1.0};
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
@@ -19,12 +18,11 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 [[nodiscard]] std::vector<std::uint32_t> materials_of(const write_job& job, layout_glb& layout) {
     const mesh_file& file = job.file;
     const auto columns = color_columns(file, "face");
-    // Colors of points are multiplied by that of the material.
-    const color_glb other = color_columns(file, "vertex").empty() ? gray : full;
+    layout.has_colors = !columns.empty();
     std::vector<std::uint32_t> material(file.mesh.faces.size(), 0);
     std::map<color_glb, std::uint32_t> number;
     for (std::uint32_t f = 0; f < material.size(); ++f) {
-        color_glb rgba = other;
+        color_glb rgba = full;
         for (std::size_t c = 0; c < columns.size(); ++c)
             rgba[c] = color_value(*columns[c], face_row(file, f));
         const auto [at, added] =
@@ -33,7 +31,8 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
         if (layout.materials.size() > most_colors) {
             job.result.warnings.push_back(
                 {"colors-dropped", "more than 256 different colors of faces; none was written"});
-            layout.materials.assign(1, other);
+            layout.materials.assign(1, full);
+            layout.has_colors = false;
             return std::vector<std::uint32_t>(material.size(), 0);
         }
         material[f] = at->second;
@@ -148,14 +147,14 @@ layout_glb lay_out(const write_job& job) {
     return layout;
 }
 
-attributes_glb::attributes_glb(const mesh_file& file) : file_(file) {
+attributes_glb::attributes_glb(const write_job& job) : file_(job.file), vertices_(job.vertices) {
     constexpr std::array<std::string_view, 3> normals{"nx", "ny", "nz"};
     constexpr std::array<std::array<std::string_view, 2>, 3> textures{
         {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}};
-    normals_ = scalar_columns(file, "vertex", normals);
+    normals_ = scalar_columns(vertices_, normals);
     for (const auto& names : textures)
-        if (texture_.empty()) texture_ = scalar_columns(file, "vertex", names);
-    colors_ = color_columns(file, "vertex");
+        if (texture_.empty()) texture_ = scalar_columns(vertices_, names);
+    colors_ = color_columns(vertices_);
     for (const scalar_type type : {scalar_type::uint8, scalar_type::uint16})
         if (std::all_of(colors_.begin(), colors_.end(),
                         [&](const column* c) { return c->type == type; }))
@@ -240,9 +239,8 @@ double attributes_glb::color_share(const column& c, std::size_t row) {
 
 std::vector<std::string> attributes_glb::left_out() const {
     std::vector<std::string> names;
-    const element* const vertices = find_element(file_.attributes, "vertex");
-    if (vertices == nullptr) return names;
-    for (const column& c : vertices->columns) {
+    if (vertices_ == nullptr) return names;
+    for (const column& c : vertices_->columns) {
         bool is_written = c.role != column_role::data;
         for (const auto* const written : {&normals_, &texture_, &colors_})
             is_written =

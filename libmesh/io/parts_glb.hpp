@@ -40,6 +40,7 @@ struct part_glb {
 
 struct layout_glb {
     std::vector<color_glb> materials{};  ///< by first appearance
+    bool has_colors = false;             ///< else there is one material, without a color
     std::vector<part_glb> parts{};
 };
 
@@ -50,7 +51,7 @@ struct layout_glb {
 /// Values that vertices have besides positions.
 class attributes_glb {
   public:
-    explicit attributes_glb(const mesh_file& file);
+    explicit attributes_glb(const write_job& job);
 
     /// Whether vertices of the part have these.
     [[nodiscard]] bool has_normals(const part_glb& part) const;
@@ -80,6 +81,7 @@ class attributes_glb {
     [[nodiscard]] std::array<double, 2> stored_texture(const vertex_glb& v) const;
 
     const mesh_file& file_;
+    const element* vertices_;
     std::vector<const column*> normals_{};
     std::vector<const column*> texture_{};
     std::vector<const column*> colors_{};

@@ -74,7 +74,7 @@ class pcd_header_reader {
         else if (keyword == "TYPE")
             each([&](declared_field& f) { f.kind = kind(); });
         else if (keyword == "COUNT")
-            each([&](declared_field& f) { f.count = number(most_values); });
+            each([&](declared_field& f) { f.count = number(most_values, 0); });
         else if (keyword == "WIDTH")
             width_ = number_at_word();
         else if (keyword == "HEIGHT")
@@ -129,10 +129,11 @@ class pcd_header_reader {
         }
     }
 
-    [[nodiscard]] std::size_t number(std::size_t most) {
+    [[nodiscard]] std::size_t number(std::size_t most, std::int64_t least = 1) {
         const std::int64_t value = text_.integer("a number");
-        if (value < 1 || static_cast<std::size_t>(value) > most)
-            fail("a number from 1 to " + std::to_string(most) + " should stand here");
+        if (value < least || static_cast<std::size_t>(value) > most)
+            fail("a number from " + std::to_string(least) + " to " + std::to_string(most) +
+                 " should stand here");
         return static_cast<std::size_t>(value);
     }
 
@@ -166,6 +167,7 @@ class pcd_header_reader {
     void place_fields() {
         std::size_t values = 0;
         for (const declared_field& f : fields_) {
+            if (f.count == 0) continue;  // padding that is not needed
             const auto type = type_of(f);
             if (!type)
                 text_.file.fail("field " + f.name + ": no type " + f.kind + " has " +

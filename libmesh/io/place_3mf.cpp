@@ -173,17 +173,19 @@ void say_what_is_unread(const unread_3mf& unread, std::vector<io_warning>& warni
     };
     say(unread.not_built, "not-built", " objects are not in the build and were not read");
     say(unread.other, "not-built", " items and components of the type 'other' were not read");
+    say(unread.support, "support", " items and components are supports, read as all others are");
+    say(unread.not_printable, "support", " items are not to be printed, read as all others are");
     say(unread.extensions, "skipped-elements", " elements of extensions in meshes were not read");
     say(unread.property_uses, "materials", " faces have mixed materials, which were not read");
     if (unread.images) warnings.push_back({"materials", "images of textures were not read"});
 }
 
-/// Items and components with objects of the type "other".
-[[nodiscard]] std::size_t count_others(const model_3mf& model) {
-    const auto is_other = [&](const placed_3mf& p) { return model.objects.at(p.object).is_other; };
-    auto count = std::count_if(model.items.begin(), model.items.end(), is_other);
+/// Items and components with objects of a type.
+[[nodiscard]] std::size_t count_users(const model_3mf& model, bool object_3mf::*of_type) {
+    const auto is_one = [&](const placed_3mf& p) { return model.objects.at(p.object).*of_type; };
+    auto count = std::count_if(model.items.begin(), model.items.end(), is_one);
     for (const auto& [key, object] : model.objects)
-        count += std::count_if(object.components.begin(), object.components.end(), is_other);
+        count += std::count_if(object.components.begin(), object.components.end(), is_one);
     return static_cast<std::size_t>(count);
 }
 
@@ -193,7 +195,8 @@ mesh_file place_3mf(const source& in, const model_3mf& model) {
     const amount total = counter(in, model).total();
     mesh_file file = placer(in, model, total).place();
     unread_3mf unread = model.unread;
-    unread.other = count_others(model);
+    unread.other = count_users(model, &object_3mf::is_other);
+    unread.support = count_users(model, &object_3mf::is_support);
     say_what_is_unread(unread, file.warnings);
     return file;
 }

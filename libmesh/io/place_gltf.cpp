@@ -6,11 +6,13 @@
 #include <libmesh/io/values_gltf.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -114,6 +116,15 @@ struct placed_node {
     return make_column<float>(name, values);
 }
 
+/// What an eye sees of linear light (sRGB).
+[[nodiscard]] double seen(double linear) {
+    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+[[nodiscard]] std::uint8_t whole_byte(double value) {
+    return static_cast<std::uint8_t>(value > 0.0 ? std::min(std::round(value), 255.0) : 0.0);
+}
+
 class placer_gltf {
   public:
     placer_gltf(const source& in, const model_gltf& model, buffers_gltf& buffers)
@@ -210,6 +221,7 @@ class placer_gltf {
         }
         texture_.insert(texture_.end(), local.texture.begin(), local.texture.end());
         colors_.insert(colors_.end(), local.colors.begin(), local.colors.end());
+        materials_.insert(materials_.end(), local.materials.begin(), local.materials.end());
     }
 
     void add_part(std::size_t number) {
@@ -222,6 +234,7 @@ class placer_gltf {
     }
 
     void store_attributes() {
+        store_colors_of_faces();
         if (normals_.empty() && texture_.empty() && colors_.empty()) return;
         const std::size_t count = file_.mesh.points.size();
         auto& columns = obtain_element(file_.attributes, "vertex", count).columns;
@@ -244,6 +257,36 @@ class placer_gltf {
         }
     }
 
+    /// Those of their materials, as numbers for the eye; white where there is none. No columns where no
+    /// material has a color.
+    void store_colors_of_faces() {
+        std::array<double, 4> white{1, 1, 1, 1};
+        const auto color_of = [&](std::size_t m) {
+            return m == 0 ? white : model_.materials[m - 1].color.value_or(white);
+        };
+        const auto has_color = [&](std::size_t m) {
+            return m > 0 && model_.materials[m - 1].color.has_value();
+        };
+        if (std::ranges::none_of(materials_, has_color)) return;
+        const bool is_opaque =
+            std::ranges::all_of(materials_, [&](std::size_t m) { return color_of(m)[3] >= 1.0; });
+        auto& columns = obtain_element(file_.attributes, "face", materials_.size()).columns;
+        bool is_rounded = false;
+        for (std::size_t k = 0; k < (is_opaque ? 3U : 4U); ++k) {
+            std::vector<std::uint8_t> values(materials_.size());
+            for (std::size_t f = 0; f < values.size(); ++f) {
+                const double channel = color_of(materials_[f])[k];
+                const double share = 255.0 * (k < 3 ? seen(channel) : channel);
+                values[f] = whole_byte(share);
+                // Four digits of a dark color lead so near to a byte.
+                is_rounded = is_rounded || !(std::abs(share - values[f]) < 0.25);
+            }
+            columns.push_back(
+                make_column<std::uint8_t>(std::array{"red", "green", "blue", "alpha"}[k], values));
+        }
+        if (is_rounded) warn("colors", "colors of materials are rounded to 8 bits");
+    }
+
     void warn(const char* code, std::string text) {
         file_.warnings.push_back({code, std::move(text)});
     }
@@ -264,10 +307,14 @@ class placer_gltf {
         mixed(survey_.with_normals, "normals", "0 0 0");
         mixed(survey_.with_texture, "texture coordinates", "0 0");
         mixed(survey_.with_colors, "colors", "white");
-        std::string names;
-        for (const std::string& name : survey_.unread) names += (names.empty() ? "" : ", ") + name;
-        if (!names.empty()) warn("attributes", "attributes of points not read: " + names);
-        if (model_.has_looks) warn("materials", "colors and textures of materials were not read");
+        const auto unread = [&](const std::set<std::string>& all, const char* of) {
+            std::string names;
+            for (const std::string& name : all) names += (names.empty() ? "" : ", ") + name;
+            if (!names.empty()) warn("attributes", std::string(of) + " not read: " + names);
+        };
+        unread(survey_.unread, "attributes of points");
+        unread(survey_.unread_of_faces, "properties of faces in extras");
+        if (model_.has_textures) warn("materials", "textures of materials were not read");
     }
 
     void remark_unseen(const std::vector<placed_node>& nodes) {
@@ -301,6 +348,7 @@ class placer_gltf {
     std::vector<std::array<float, 3>> normals_{};
     std::vector<std::array<float, 2>> texture_{};
     std::vector<std::byte> colors_{};
+    std::vector<std::size_t> materials_{};  ///< [F]
     name_giver names_{};
     bool is_nameless_ = false;
 };

@@ -1,4 +1,5 @@
 #include <libmesh/attributes/known_columns.hpp>
+#include <libmesh/io/concave_faces.hpp>
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
 #include <libmesh/io/material_colors.hpp>
@@ -57,6 +58,11 @@ namespace {
 [[nodiscard]] mesh_file read(const detail::io::source& in, const std::filesystem::path& path,
                              const detail::io::reading& how, const std::string& extension) {
     mesh_file file = read_as_is(in, path, how, extension);
+    if (const std::size_t concave = detail::io::count_concave_faces(file))
+        file.warnings.push_back(
+            {"concave-faces", std::to_string(concave) + (concave == 1 ? " face is" : " faces are") +
+                                  " not convex: some triangles of the fan from the first "
+                                  "corner lie on each other"});
     const std::size_t dropped = how.options.drop_nan ? drop_non_finite(file) : 0;
     if (dropped > 0)
         file.warnings.push_back({"non-finite", std::to_string(dropped) +

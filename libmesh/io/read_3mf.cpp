@@ -38,7 +38,12 @@ constexpr const char* package_relationships = "_rels/.rels";
 mesh_file read_3mf(const source& in) {
     zip_archive archive(in);
     const std::string root = root_of(in, archive);
-    return place_3mf(in, parse_3mf(in, archive, root));
+    mesh_file file = place_3mf(in, parse_3mf(in, archive, root));
+    if (archive.bytes_ahead() > 0)
+        file.warnings.push_back(
+            {"bytes-ahead", std::to_string(archive.bytes_ahead()) +
+                                " bytes ahead of the archive were passed over"});
+    return file;
 }
 
 }  // namespace treeform::detail::io

@@ -89,6 +89,11 @@ class obj_reader {
             file_.warnings.push_back(
                 {"skipped-elements",
                  std::to_string(skipped_elements_) + " point and line elements were not read"});
+        if (odd_vertices_ > 0)
+            file_.warnings.push_back(
+                {"skipped-numbers", std::to_string(odd_vertices_) +
+                                        " vertices have further numbers, such as weights, which "
+                                        "were not read"});
         faces_.remark(file_.warnings);
         text_.remark(file_.warnings);
         file_.attributes.corners = corners_.take(file_.warnings);
@@ -135,8 +140,8 @@ class obj_reader {
         return text_.number("a coordinate");
     }
 
-    /// One more number is the weight of a rational curve's point, which is no coordinate; three or
-    /// more are a color.
+    /// One more number is the weight of a rational curve's point, which is no coordinate; three are a
+    /// color. What else there is, is counted.
     void rest_of_vertex() {
         double more[3] = {};
         std::size_t count = 0;
@@ -144,6 +149,7 @@ class obj_reader {
             const double value = text_.number("a number");
             if (count < 3) more[count] = value;
         }
+        if (count > 3 || (count == 1 && more[0] != 1.0) || count == 2) ++odd_vertices_;
         if (count < 3) return;
         has_colors_ = true;
         if (colors_.size() == 3 * file_.mesh.points.size())
@@ -255,6 +261,7 @@ class obj_reader {
     std::set<std::string> known_material_files_{};
     bool new_part_ = false;
     std::size_t skipped_elements_ = 0;
+    std::size_t odd_vertices_ = 0;
     bool has_other_lines_ = false;  ///< than comments, vertices, faces, elements, names
     bool has_colors_ = false;
     std::vector<double> colors_{};  ///< [3 * vertices] as long as every vertex has one

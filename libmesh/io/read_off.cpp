@@ -31,8 +31,10 @@ struct extra_numbers {
     std::size_t width = 0;
     std::size_t widest = 0;
     std::size_t rows = 0;
-    bool even = true;   ///< every row so far has `width` of them
-    bool whole = true;  ///< none was written with a point or an exponent
+    bool even = true;  ///< every row so far has `width` of them
+    /// By place in a row: whether no row has a number with a point or an exponent there. Shorter where
+    /// that is not known.
+    std::vector<bool> whole{};
     std::vector<double> values{};
     std::vector<std::uint64_t> begin{};  ///< [rows + 1] once there are values
 
@@ -146,9 +148,13 @@ class off_reader {
     void read_extras(extra_numbers& extras) {
         while (!text_.line_done()) {
             const char* const start = text_.at;
+            const std::size_t place =
+                extras.values.size() - (extras.begin.empty() ? 0 : extras.begin.back());
             extras.values.push_back(text_.number("a number"));
+            if (place >= extras.whole.size()) extras.whole.resize(place + 1, true);
             for (const char* c = start; c < text_.at; ++c)
-                extras.whole = extras.whole && (is_digit(*c) || *c == '-' || *c == '+');
+                extras.whole[place] =
+                    extras.whole[place] && (is_digit(*c) || *c == '-' || *c == '+');
         }
         extras.end_row();
     }
@@ -190,19 +196,23 @@ class off_reader {
         store_columns("vertex", vertices_extra_, names);
     }
 
-    /// One column for each number of a row; small whole numbers as bytes, as colors are.
+    /// One column for each number of a row; what is ahead of texture coordinates as bytes where all of
+    /// it are small whole numbers, as colors are.
     void store_columns(std::string_view name, const extra_numbers& extras,
                        const std::vector<std::string>& names) {
         if (extras.rows == 0 || names.empty()) return;
         const std::size_t width = names.size();
-        bool bytes = extras.whole && width > 1;
-        for (const double x : extras.values) bytes = bytes && x >= 0 && x <= 255;
+        const auto colors = static_cast<std::size_t>(std::ranges::find(names, "s") - names.begin());
+        bool bytes = width > 1 && colors <= extras.whole.size();
+        for (std::size_t i = 0; bytes && i < extras.values.size(); ++i)
+            bytes = i % width >= colors ||
+                    (extras.whole[i % width] && extras.values[i] >= 0 && extras.values[i] <= 255);
         element& e = obtain_element(file_.attributes, name, extras.rows);
         std::vector<double> values(extras.rows);
         for (std::size_t c = 0; c < width; ++c) {
             for (std::size_t row = 0; row < extras.rows; ++row)
                 values[row] = extras.values[row * width + c];
-            if (bytes) {
+            if (bytes && c < colors) {
                 const std::vector<std::uint8_t> small(values.begin(), values.end());
                 e.columns.push_back(make_column<std::uint8_t>(names[c], small));
             } else {

@@ -1,4 +1,5 @@
 #include <libmesh/io/face_sink.hpp>
+#include <libmesh/io/name_giver.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/scene_depth.hpp>
 #include <treeform/mesh/read.hpp>
@@ -78,7 +79,9 @@ class scene_reader {
             file_.warnings.push_back(
                 {"skipped-elements", std::to_string(dropped_) + " points and lines were not read"});
         file_.warnings.push_back(
-            {"precision", "precision: float; vertices as the loader splits them"});
+            {"precision",
+             "precision: float; vertices as the loader splits them, without normals, colors, "
+             "texture coordinates and materials"});
         return std::move(file_);
     }
 
@@ -101,7 +104,7 @@ class scene_reader {
                 add_mesh(*scene_.mMeshes[node.mMeshes[i]], now.place);
             if (file_.stored_faces > before)
                 file_.attributes.parts.push_back(
-                    {.object = std::string(node.mName.C_Str()),
+                    {.object = node.mName.length == 0 ? "" : names_.name(node.mName.C_Str()),
                      .first_face = static_cast<std::uint32_t>(before)});
             for (unsigned i = node.mNumChildren; i > 0; --i) {
                 const aiNode* const child = node.mChildren[i - 1];
@@ -137,6 +140,7 @@ class scene_reader {
     const aiScene& scene_;
     mesh_file file_{};
     face_sink faces_;
+    name_giver names_{};
     std::size_t dropped_ = 0;
 };
 

@@ -136,6 +136,8 @@ class xyz_reader {
     /// One line of names, or one line with the number of points, may come first.
     void skip_heading() {
         if (done()) return;
+        if (text_.starts_with("sep=")) (void)text_.rest_of_line();  // for spreadsheets
+        if (done()) return;
         const char* start = text_.at;
         const bool starts_with_number = parse_number(text_.at, text_.end).end != nullptr;
         std::string_view first = text_.rest_of_line();
@@ -180,6 +182,7 @@ class xyz_reader {
     void learn_columns() {
         std::vector<std::string> names = split_heading(heading_);
         if (heading_.empty()) names.clear();
+        while (!names.empty() && names.back().empty()) names.pop_back();
         const char* const start = text_.at;
         if (names.empty() && !chosen_.empty()) {
             const std::size_t count = split_heading(text_.rest_of_line()).size();
@@ -258,28 +261,36 @@ class xyz_reader {
     }
 
     [[nodiscard]] double number(std::string_view what) {
-        const parsed<double> n = parse_number(text_.at, text_.end);
-        if (n.end != nullptr && n.end != text_.end && *n.end == separator_) return text_.take(n);
-        return text_.number(what);
+        const bool quoted = text_.at < text_.end && *text_.at == '"';
+        const parsed<double> n = parse_number(text_.at + (quoted ? 1 : 0), text_.end);
+        if (!ends_cell(n, quoted)) return text_.number(what);
+        const double value = text_.take(n);
+        if (quoted) ++text_.at;
+        return value;
     }
 
-    [[nodiscard]] bool cell_ends(const char* at) const {
+    /// Whether a cell ends behind the number, or behind a quote there.
+    [[nodiscard]] bool ends_cell(const parsed<double>& n, bool quoted) const {
+        if (n.end == nullptr || (quoted && (n.end == text_.end || *n.end != '"'))) return false;
+        const char* const at = n.end + (quoted ? 1 : 0);
         return at == text_.end || is_space(*at) || *at == separator_;
     }
 
     /// What is no number is NaN. `place` is among the values behind the coordinates.
     void take_cell(std::size_t place) {
         if (facts_.size() <= place) facts_.resize(place + 1);
-        const char* const start = text_.at;
-        const parsed<double> n = parse_number(text_.at, text_.end);
-        if (n.end == nullptr || !cell_ends(n.end)) {
-            const bool decimal_comma =
-                n.end != nullptr && *n.end == ',' && n.end + 1 < text_.end && is_digit(n.end[1]);
+        const bool quoted = text_.at < text_.end && *text_.at == '"';
+        const char* const start = text_.at + (quoted ? 1 : 0);
+        const parsed<double> n = parse_number(start, text_.end);
+        if (!ends_cell(n, quoted)) {
+            const bool decimal_comma = !quoted && n.end != nullptr && *n.end == ',' &&
+                                       n.end + 1 < text_.end && is_digit(n.end[1]);
             if (decimal_comma) static_cast<void>(text_.number("a number"));  // says what is wrong
             pass_word();
             return add_gap(place);
         }
         text_cell c{.value = text_.take(n)};
+        if (quoted) ++text_.at;
         text_column& fact = facts_[place];
         fact.least = std::min(fact.least, c.value);
         fact.greatest = std::max(fact.greatest, c.value);

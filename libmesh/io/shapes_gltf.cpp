@@ -122,6 +122,8 @@ class decoder {
                 if (survey_.with_colors > 0) add_colors(a.color);
             }
             add_faces(shape);
+            const auto& material = shape.primitive->material;
+            made_.materials.resize(made_.faces.size(), material ? *material + 1 : 0);
         }
         return std::move(made_);
     }
@@ -258,6 +260,7 @@ outline_gltf outline_of(buffers_gltf& buffers, const model_gltf& model, std::siz
         const std::uint64_t points = model.accessors[*a.position].count;
         const std::uint64_t corners = p.indices ? model.accessors[*p.indices].count : points;
         survey.morphs = survey.morphs || p.morphs;
+        survey.unread_of_faces.insert(p.face_properties.begin(), p.face_properties.end());
         const auto [at, is_new] = first_point.emplace(a, outline.points);
         if (is_new) {
             survey_points(buffers, model, p, a, survey);

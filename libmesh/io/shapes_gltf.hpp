@@ -44,7 +44,8 @@ struct survey_gltf {
     std::uint64_t corners_left_over = 0;  ///< after whole triangles
     std::uint64_t without_positions = 0;  ///< primitives
     bool morphs = false;
-    std::set<std::string> unread{};   ///< names of attributes
+    std::set<std::string> unread{};  ///< names of attributes
+    std::set<std::string> unread_of_faces{};
     std::set<std::size_t> checked{};  ///< accessors whose bytes are there
 
     [[nodiscard]] std::size_t channels() const { return has_alpha ? 4 : 3; }
@@ -57,6 +58,7 @@ struct local_mesh_gltf {
     std::vector<point3> normals{};                ///< [V] or empty
     std::vector<std::array<float, 2>> texture{};  ///< [V] or empty; from the lower left corner
     std::vector<std::byte> colors{};              ///< [V][channels] or empty
+    std::vector<std::size_t> materials{};         ///< [F] number from 1; 0: none
 };
 
 /// Looks at what the mesh announces, and whether the bytes for that are there; adds to the survey.

@@ -78,8 +78,8 @@ struct text {
         return {first, static_cast<std::size_t>(last - first)};
     }
 
-    /// The number at this place, which must end where a blank or newline begins: "1.#IND" is
-    /// no number.
+    /// The number at this place, which must end where a blank, newline or comment begins: "1.#IND"
+    /// is no number.
     [[nodiscard]] double number(std::string_view what) {
         const parsed<double> n = parse_number(at, end);
         if (n.end == nullptr || !delimited(n.end)) fail_number(what, n.end);
@@ -108,7 +108,9 @@ struct text {
     [[noreturn]] void fail(std::string_view reason) const { file.fail_line(at, reason); }
 
   private:
-    [[nodiscard]] bool delimited(const char* p) const { return p == end || is_space(*p); }
+    [[nodiscard]] bool delimited(const char* p) const {
+        return p == end || is_space(*p) || (*p == '#' && p[-1] != '.');
+    }
     [[noreturn]] void fail_number(std::string_view what, const char* stop) const {
         const std::string subject(what);
         if (at == end) fail("the file ends where " + subject + " should stand");

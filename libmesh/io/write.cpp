@@ -64,9 +64,17 @@ std::vector<const column*> scalar_columns(const mesh_file& file, std::string_vie
 }
 
 std::vector<const column*> color_columns(const element* e) {
-    constexpr std::string_view names[] = {"red", "green", "blue", "alpha"};
-    auto found = scalar_columns(e, names);
-    return found.empty() ? scalar_columns(e, std::span(names).first(3)) : found;
+    std::vector<const column*> found;
+    for (const std::string_view name : {"red", "green", "blue", "alpha"}) {
+        const column* c = e == nullptr ? nullptr : find_column(*e, name);
+        for (std::size_t i = 0; c == nullptr && e != nullptr && i < e->columns.size(); ++i) {
+            const auto* const known = attribute::find_known(e->columns[i].name);
+            if (known != nullptr && known->in[0].name == name) c = &e->columns[i];
+        }
+        if (c == nullptr || c->list_length || c->role != column_role::data) break;
+        found.push_back(c);
+    }
+    return found.size() < 3 ? std::vector<const column*>() : found;
 }
 
 std::vector<const column*> color_columns(const mesh_file& file, std::string_view element_name) {
@@ -219,11 +227,9 @@ class writing {
         return changed ? std::optional(std::move(made)) : std::nullopt;
     }
 
-    /// That of the file, unless its columns are to stay as they are. GLB and 3MF have types of colors
-    /// that their writers choose.
+    /// That of the file, unless its columns are to stay as they are.
     [[nodiscard]] std::string_view source_format() const {
-        const bool stay = format_.extension == "glb" || format_.extension == "3mf";
-        return options_.keep_names || stay ? format_.extension : std::string_view(file_.format);
+        return options_.keep_names ? format_.extension : std::string_view(file_.format);
     }
 
     const mesh_file& file_;

@@ -10,8 +10,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -55,6 +57,19 @@ struct written_object {
     return objects;
 }
 
+/// Different names of parts that have faces; none is one, too.
+[[nodiscard]] std::size_t count_named(const mesh_file& file) {
+    std::set<std::pair<std::string, std::string>> names;
+    const auto& parts = file.attributes.parts;
+    if (!parts.empty() && parts[0].first_face > 0) names.emplace();
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const std::size_t end =
+            p + 1 < parts.size() ? parts[p + 1].first_face : stored_face_count(file);
+        if (parts[p].first_face < end) names.emplace(parts[p].object, parts[p].group);
+    }
+    return names.size();
+}
+
 /// The unit that was read, or that of models which name none.
 [[nodiscard]] std::string unit_of(const mesh_file& file) {
     for (const std::string& line : file.attributes.obj_info)
@@ -70,7 +85,7 @@ class model_writer {
         : job_(job),
           archive_(archive),
           objects_(objects_of(job.file)),
-          looks_(job.file),
+          looks_(job),
           local_(job.file.mesh.points.size()) {}
 
     /// No less than the model takes.
@@ -101,6 +116,11 @@ class model_writer {
             job_.result.warnings.push_back(
                 {"colors-dropped",
                  "colors of points left out: their faces have colors or materials"});
+        if (count_named(job_.file) > objects_.size())
+            job_.result.warnings.push_back(
+                {"left-out", "names of parts left out: those that share points are one object"});
+        if (looks_.rounds_colors())
+            job_.result.warnings.push_back({"colors", "colors are rounded to 8 bits"});
         if (looks_.lacks_colors())
             job_.result.warnings.push_back(
                 {"materials",

@@ -101,10 +101,7 @@ struct view_glb {
 class document_glb {
   public:
     explicit document_glb(const write_job& job)
-        : job_(job),
-          layout_(lay_out(job)),
-          attributes_(job.file),
-          numbers_(numbers_of_faces(job.file)) {
+        : job_(job), layout_(lay_out(job)), attributes_(job), numbers_(numbers_of_faces(job.file)) {
         offset_ = choose_offset(job, box_of(job.file.mesh.points));
         for (const part_glb& p : layout_.parts) {
             with_normals_.push_back(attributes_.has_normals(p));
@@ -275,11 +272,12 @@ class document_glb {
         }
     }
 
-    [[nodiscard]] static json describe_material(const color_glb& rgba) {
+    [[nodiscard]] json describe_material(const color_glb& rgba) const {
         json material = {{"doubleSided", true}};
-        material["pbrMetallicRoughness"] = {
-            {"baseColorFactor", {linear(rgba[0]), linear(rgba[1]), linear(rgba[2]), rgba[3]}},
-            {"metallicFactor", 0.0}};
+        json& look = material["pbrMetallicRoughness"];
+        if (layout_.has_colors)
+            look["baseColorFactor"] = {linear(rgba[0]), linear(rgba[1]), linear(rgba[2]), rgba[3]};
+        look["metallicFactor"] = 0.0;
         if (rgba[3] < 1.0) material["alphaMode"] = "BLEND";
         return material;
     }

@@ -185,10 +185,15 @@ class pcd_writer {
 
     void put_header() {
         job_.out.put("# .PCD v0.7 - Point Cloud Data file format\n");
-        for (std::string line : job_.file.attributes.comments) {
+        const auto put_comment = [&](std::string line) {
             std::replace_if(line.begin(), line.end(), is_newline, ' ');
             put_line("# ", line);
-        }
+        };
+        std::ranges::for_each(job_.file.attributes.comments, put_comment);
+        for (const std::string& line : job_.file.attributes.obj_info)
+            if (!line.starts_with("num_cols ") && !line.starts_with("num_rows ") &&
+                !line.starts_with("viewpoint "))
+                put_comment(line);
         const auto type = [&](const field& f) {
             return type_and_size(*columns_[f.first], is_text());
         };

@@ -110,7 +110,9 @@ void write_stl_text(const write_job& job) {
     part now = next_part > 0 ? parts[0] : part{};
     const auto put_name = [&](std::string_view keyword) {
         job.out.put(keyword);
-        if (!now.object.empty()) job.out.put(' ' + one_line(now.object));
+        const bool has_both = !now.object.empty() && !now.group.empty();
+        const std::string name = now.object + (has_both ? "/" : "") + now.group;
+        if (!name.empty()) job.out.put(' ' + one_line(name));
         job.out.put('\n');
     };
     put_name("solid");

@@ -172,7 +172,7 @@ void put_bits(sink& out, const column& c, std::size_t i) {
                                                         std::string_view element,
                                                         std::span<const std::string_view> names);
 
-/// Columns red, green, blue, and alpha where there is one.
+/// Columns red, green, blue, and alpha where there is one, by these names or others that mean the same.
 [[nodiscard]] std::vector<const column*> color_columns(const element* e);
 [[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
                                                        std::string_view element);

@@ -152,8 +152,7 @@ zip_archive::directory zip_archive::find_directory() const {
          ++tail) {
         const char* const end = in_.end() - tail;
         if (field32(end, 0) != end_mark || field16(end, 20) > tail - end_size) continue;
-        const directory all{
-            .at = field32(end, 16), .size = field32(end, 12), .count = field16(end, 10)};
+        directory all{.at = field32(end, 16), .size = field32(end, 12), .count = field16(end, 10)};
         const std::uint64_t place = in_.size() - tail;
         if (all.at == elsewhere32 || all.size == elsewhere32 || all.count == elsewhere16)
             return find_large_directory(place);
@@ -161,6 +160,9 @@ zip_archive::directory zip_archive::find_directory() const {
             in_.fail("an archive of several files, which is not read");
         if (all.size > place || all.at > place - all.size)
             in_.fail("the directory of the archive is damaged");
+        // Something else may stand between the directory and its last record.
+        if (all.size >= 4 && field32(end - all.size, 0) == entry_mark)
+            all.ahead = place - all.size - all.at;
         return all;
     }
     in_.fail("no ZIP archive, or one that is damaged or cut short");
@@ -175,22 +177,26 @@ zip_archive::directory zip_archive::find_large_directory(std::uint64_t end) cons
     const std::uint64_t place = field64(locator, 8);
     if (field32(locator, 4) != 0 || field32(locator, 16) > 1)
         in_.fail("an archive of several files, which is not read");
-    if (end - locator_size < large_end_size || place > end - locator_size - large_end_size ||
-        field32(in_.begin() + place, 0) != large_end_mark)
+    if (end - locator_size < large_end_size || place > end - locator_size - large_end_size)
         damaged();
-    const char* const record = in_.begin() + place;
-    const directory all{
-        .at = field64(record, 48), .size = field64(record, 40), .count = field64(record, 32)};
+    const char* record = in_.begin() + place;
+    if (field32(record, 0) != large_end_mark) record = locator - large_end_size;
+    if (field32(record, 0) != large_end_mark) damaged();
+    const directory all{.at = field64(record, 48),
+                        .size = field64(record, 40),
+                        .count = field64(record, 32),
+                        .ahead = static_cast<std::uint64_t>(record - in_.begin()) - place};
     if (all.size > place || all.at > place - all.size) damaged();
     return all;
 }
 
 void zip_archive::list(const directory& all) {
     if (all.count == 0) in_.fail("an archive without members");
-    directory_at_ = all.at;
-    const std::uint64_t end = all.at + all.size;
+    ahead_ = all.ahead;
+    directory_at_ = all.ahead + all.at;
+    const std::uint64_t end = directory_at_ + all.size;
     std::uint64_t count = 0;
-    for (std::uint64_t at = all.at; at < end; ++count) at = add_member(at, end);
+    for (std::uint64_t at = directory_at_; at < end; ++count) at = add_member(at, end);
     if (count != all.count) in_.fail("the directory of the archive is damaged");
 }
 
@@ -245,12 +251,12 @@ void zip_archive::check(std::string_view name, const member& m) {
 /// header where they are elsewhere, or stand behind the bytes.
 std::string_view zip_archive::packed_bytes(std::string_view name, const member& m) const {
     const auto misfit = [&] { fail(name, "its header does not fit the directory of the archive"); };
-    if (m.at > directory_at_ || directory_at_ - m.at < member_size) misfit();
-    const char* const header = in_.begin() + m.at;
+    if (m.at > directory_at_ - ahead_ || directory_at_ - ahead_ - m.at < member_size) misfit();
+    const std::uint64_t room = directory_at_ - ahead_ - m.at;
+    const char* const header = in_.begin() + ahead_ + m.at;
     const std::uint64_t name_size = field16(header, 26);
     const std::uint64_t before = member_size + name_size + field16(header, 28);
-    if (field32(header, 0) != member_mark || directory_at_ - m.at < before) misfit();
-    if (directory_at_ - m.at - before < m.packed) misfit();
+    if (field32(header, 0) != member_mark || room < before || room - before < m.packed) misfit();
     const auto differs = [&](std::uint64_t at, std::uint64_t value) {
         const std::uint32_t here = field32(header, at);
         return here != 0 && here != elsewhere32 && here != value;

@@ -17,7 +17,8 @@ namespace treeform::detail::io {
 /// directory has them all.
 ///
 /// Names are those of a package (OPC): without a leading slash, and alike in capitals and small
-/// letters.
+/// letters. Places count from where the archive begins, which may be behind other bytes: the
+/// directory ends where its last record is.
 class zip_archive {
   public:
     /// `in` must outlive the archive.
@@ -27,6 +28,7 @@ class zip_archive {
     explicit zip_archive(const source& in);
 
     [[nodiscard]] bool holds(std::string_view name) const;
+    [[nodiscard]] std::uint64_t bytes_ahead() const { return ahead_; }
 
     /// The bytes of a member. Memory grows with what arrives, not with what the archive announces.
     ///
@@ -48,6 +50,7 @@ class zip_archive {
         std::uint64_t at = 0;
         std::uint64_t size = 0;
         std::uint64_t count = 0;
+        std::uint64_t ahead = 0;  ///< bytes, where `at` is counted from
     };
 
     [[nodiscard]] directory find_directory() const;
@@ -60,7 +63,8 @@ class zip_archive {
     [[noreturn]] void fail(std::string_view name, std::string_view reason) const;
 
     const source& in_;
-    std::uint64_t directory_at_ = 0;
+    std::uint64_t ahead_ = 0;
+    std::uint64_t directory_at_ = 0;           ///< behind these
     std::map<std::string, member> members_{};  ///< by their names in small letters
     std::uint64_t packed_read_ = 0;
 };

@@ -73,6 +73,21 @@ static void test_weld_files(void) {
         treeform_free(result);
         treeform_free(box);
     }
+    {
+        const treeform_named_column turned[] = {{"x", "3"}, {"y", "2"}, {"z", "1"}};
+        options.columns = turned;
+        options.column_count = 3;
+        OK(treeform_weld_stream(inputs, 1, output, &options, &result));
+        treeform_free(result);
+        OK(treeform_read(output, NULL, &made));
+        OK(treeform_file_look(made, &view));
+        CHECK(view->mesh.point_count == 100 && view->mesh.points[99 * 3 + 2] == 9.0);
+        treeform_free(view);
+        treeform_free(made);
+        options.columns = NULL;
+        INVALID("columns", treeform_weld_stream(inputs, 1, output, &options, &result));
+        options.column_count = 0;
+    }
     options.progress = stop;
     options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "", treeform_weld_stream(inputs, 1, output, &options, &result));

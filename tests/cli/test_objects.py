@@ -16,9 +16,10 @@ def turned_over(mesh):
 
 
 class Objects(BooleanTest):
-    def package(self, name, objects, transforms=None, zip64=False, streamed=False):
+    def package(self, name, objects, transforms=None, zip64=False, streamed=False,
+                unit="millimeter"):
         """A 3MF of named boxes, each (name, low, high); streamed archives cannot go back."""
-        text, items = MODEL + "<resources>", ""
+        text, items = MODEL.replace("millimeter", unit) + "<resources>", ""
         for number, (label, low, high) in enumerate(objects, 1):
             points, faces = box(low, high)
             text += (f'<object id="{number}" name="{label}"><mesh><vertices>' +
@@ -122,6 +123,15 @@ class Objects(BooleanTest):
         self.assertEqual(self.volume_of("union", name="mixed.obj"), 1.5)
 
     # ---- archives ----
+
+    def test_files_of_different_units_are_said_to_be(self):
+        self.package("a.3mf", [("a", (0, 0, 0), (1, 1, 1))])
+        self.package("b.3mf", [("b", (2, 0, 0), (3, 1, 1))], unit="inch")
+        run = self.run_tool("union", "a.3mf", "b.3mf", "-o", "x.ply", status=0)
+        self.assertIn("b.3mf has the unit inch, a file before it the unit millimeter: numbers are "
+                      "taken as they are", run.err)
+        run = self.run_tool("union", "a.3mf", "a.3mf", "-o", "y.ply", status=0)
+        self.assertNotIn("unit", run.err)
 
     def test_archives_with_zip64_and_streamed_ones_are_read(self):
         for how in ({"zip64": True}, {"streamed": True}, {"zip64": True, "streamed": True}):

@@ -17,7 +17,7 @@ TOOL_LINES = 900      # of C++ in the folder of a tool: what more it needs belon
 PAGE_LINES = 330      # of the page of a tool, page.cpp, which counts apart
 MORE_TOOL_LINES = {"tf-weld": 1700, "tf-selfintersect": 1150, "tf-boolean": 1045, "tf-place": 950,
                    "common": 4200, "picture": 2000, "assembly": 1200,
-                   "c": 7600,  # a function for each of the library's, and its docstring
+                   "c": 7620,  # a function for each of the library's, and its docstring
                    "python": 4300}  # every verb once, pictures, work by many processes
 
 # Rooms of libmesh, top down; an include points down this list, and not across a line of it.

@@ -140,3 +140,29 @@ def test_points_are_withheld_in_las(tmp_path):
     made = tf.read(tmp_path / "b.las")
     assert len(made.vertices) == 2000 > done.kept
     assert np.sum(made.attributes.vertex["withheld"] == 0) == done.kept
+
+
+def test_columns_of_text_are_named(tmp_path):
+    (tmp_path / "a.csv").write_text("h,n,e\n1,2,3\n1,2,3\n4,5,6\n")
+    columns = {"x": "e", "y": "n", "z": 1}
+    tf.weld_stream(tmp_path / "a.csv", tmp_path / "b.ply", columns=columns)
+    assert tf.read(tmp_path / "b.ply").vertices.tolist() == [[3, 2, 1], [6, 5, 4]]
+    with tf.StreamWeld(tmp_path / "a.csv", columns=columns) as work:
+        assert work.scatter() == 1
+        work.remove_folder()
+    with pytest.raises(tf.FileError, match="none"):
+        tf.weld_stream(tmp_path / "a.csv", tmp_path / "b.ply", columns={"x": "none"})
+
+
+def test_las_of_other_time_types_is_joined_where_that_is_asked_for(tmp_path):
+    for name, step in (("a.las", 0), ("b.las", 1)):
+        extra = tf.Attributes()
+        extra.set_vertex("gps_time", np.array([1.5, 2.5]))
+        tf.write(tmp_path / name, tf.Mesh([[step, 0, 0], [step, 1, 0]], [], extra))
+    other = bytearray((tmp_path / "b.las").read_bytes())
+    other[6] ^= 1  # the type of its times
+    (tmp_path / "b.las").write_bytes(other)
+    files = [tmp_path / "a.las", tmp_path / "b.las"]
+    with pytest.raises(ValueError, match="time"):
+        tf.weld_stream(files, tmp_path / "all.las")
+    assert tf.weld_stream(files, tmp_path / "all.las", mixed=True).kept == 4

@@ -102,21 +102,21 @@ std::vector<std::string> names_of(const char* const* names, std::size_t count) {
     return result;
 }
 
-std::vector<tf::named_column> columns_of(const treeform_named_column* columns, std::size_t count,
-                                         const char* what) {
-    std::vector<tf::named_column> all;
-    if (count > 0) (void)glue::need(columns, what);
-    for (std::size_t i = 0; i < count; ++i)
-        all.push_back({&glue::need(columns[i].name, what), &glue::need(columns[i].source, what)});
-    return all;
-}
-
 std::optional<std::array<double, 3>> axes_of(const double* axes) {
     if (!axes) return std::nullopt;
     return std::array{axes[0], axes[1], axes[2]};
 }
 
 }  // namespace
+
+std::vector<tf::named_column> glue::columns_of(const treeform_named_column* columns,
+                                               std::size_t count, const char* what) {
+    std::vector<tf::named_column> all;
+    if (count > 0) (void)glue::need(columns, what);
+    for (std::size_t i = 0; i < count; ++i)
+        all.push_back({&glue::need(columns[i].name, what), &glue::need(columns[i].source, what)});
+    return all;
+}
 
 tf::write_options glue::write_options_of(const treeform_write_options* options) {
     const auto o = chosen(options, treeform_write_options_init);
@@ -126,7 +126,7 @@ tf::write_options glue::write_options_of(const treeform_write_options* options) 
     if (o.precision != -1) result.precision = precision(o.precision);
     result.progress = progress(o);
     if (o.drop_count > 0) result.drop = texts(o.drop, o.drop_count, "drop");
-    result.rename = columns_of(o.rename, o.rename_count, "rename");
+    result.rename = glue::columns_of(o.rename, o.rename_count, "rename");
     result.las_scale = axes_of(o.las_scale);
     result.las_offset = axes_of(o.las_offset);
     return result;
@@ -320,7 +320,7 @@ treeform_code treeform_read_as(const char* path, const treeform_read_options* op
         glue::start(file);
         const auto o = glue::chosen(options, treeform_read_options_init);
         glue::give(tf::read(&glue::need(path, "path"), glue::text(o.format),
-                            {.columns = columns_of(o.columns, o.column_count, "columns"),
+                            {.columns = glue::columns_of(o.columns, o.column_count, "columns"),
                              .drop_nan = o.drop_nan != 0}),
                    file);
     });

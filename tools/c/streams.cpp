@@ -32,6 +32,8 @@ tf::cloud_inputs inputs_of(const char* const* inputs, std::size_t count,
         from.paths.emplace_back(one);
     if (from.paths.empty()) throw std::invalid_argument("no inputs to weld");
     from.format = glue::text(o.format);
+    from.columns = glue::columns_of(o.columns, o.column_count, "columns");
+    from.mixed = o.mixed != 0;
     return from;
 }
 

@@ -127,11 +127,27 @@ tf::mesh_file job::read(const std::string& input, json& about) {
         for (auto* names : {&all.material_files, &all.texture_files})
             *names = seen_from_output(std::move(*names), input, *output);
     }
+    compare_units(input, file);
     about["format"] = file.format;
     about["sha256"] = digest.empty() ? json(nullptr) : json(digest);
     about["precision_in"] = name_of(file.stored_as);
     call_ended();
     return file;
+}
+
+/// Once: numbers of different units are no lengths that go together.
+void job::compare_units(const std::string& input, const tf::mesh_file& file) {
+    constexpr std::string_view word = "unit ";
+    for (const std::string& line : file.attributes.obj_info) {
+        if (!line.starts_with(word) || unit_ == line) continue;
+        if (unit_.empty()) {
+            unit_ = line;
+        } else if (!warned_of_units_) {
+            warned_of_units_ = true;
+            warn("units", name_of_input(input) + " has the " + line + ", a file before it the " +
+                              unit_ + ": numbers are taken as they are");
+        }
+    }
 }
 
 job::timer::timer(double& sum) : sum_(sum), start_(now()) {}

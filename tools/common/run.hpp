@@ -90,10 +90,13 @@ class job {
     };
     [[nodiscard]] read_ahead read_one(const std::string& input) const;
     [[nodiscard]] read_ahead take(const std::string& input);
+    void compare_units(const std::string& input, const tf::mesh_file& file);
 
     std::vector<read_ahead> ahead_;
     std::uint64_t size_ = 0;  ///< what has been read, for people who wait
     bool has_faces_ = false;
+    std::string unit_{};  ///< the line of the first file that has one
+    bool warned_of_units_ = false;
 };
 
 /// Parses the command line and calls `body` for each input. What `body` returns or throws becomes

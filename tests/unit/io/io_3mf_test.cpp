@@ -256,7 +256,15 @@ TEST_CASE("3mf: objects of the type 'other' are not made, supports are") {
     const tf::mesh_file file = read_3mf(
         test::package_3mf(model(resources, "<item objectid=\"1\"/><item objectid=\"2\"/>")));
     CHECK(file.mesh.faces.size() == 4);
-    CHECK(codes(file) == "not-built ");
+    CHECK(codes(file) == "not-built support ");
+}
+
+TEST_CASE("3mf: items that are not to be printed are read, which is said") {
+    const tf::mesh_file file = read_3mf(test::package_3mf(
+        model(object(1, "", test::tetrahedron_3mf),
+              "<item objectid=\"1\" printable=\"0\"/><item objectid=\"1\" printable=\"1\"/>")));
+    CHECK(file.mesh.faces.size() == 8);
+    CHECK(codes(file) == "support ");
 }
 
 TEST_CASE("3mf: a prefix of the core, spaces in numbers and UTF-16 change nothing") {

@@ -313,7 +313,7 @@ TEST_CASE(
 }
 
 TEST_CASE("writing: formats that do not hold names of texture files say so") {
-    tf::mesh_file file = read_obj(square + "f 1 2 3\n");
+    tf::mesh_file file = read_obj(square + "f 1 2 3 4\n");
     file.attributes.texture_files = {"a.png"};
     for (const char* const format : {"ply", "obj", "stl", "off", "glb"}) {
         CAPTURE(format);
@@ -338,7 +338,7 @@ TEST_CASE("writing: formats that do not hold materials say so") {
         std::filesystem::remove(path);
         return all;
     };
-    const std::string face = square + "f 1 2 3\n";
+    const std::string face = square + "f 1 2 3 4\n";
     for (const char* const format : {"ply", "stl", "off", "glb"}) {
         CAPTURE(format);
         CHECK(codes("usemtl oak\n" + face, format) == std::vector<std::string>{"materials"});
@@ -394,7 +394,7 @@ TEST_CASE("writing: no name makes lines of its own") {
     CHECK(read_obj(written_mesh(file, "ply"), "a.ply").attributes.texture_files ==
           again.attributes.material_files);
     const auto parts = read_obj(written_mesh(file, "stl", true), "a.stl").attributes.parts;
-    CHECK(parts == std::vector<tf::part>{{.object = flat}});
+    CHECK(parts == std::vector<tf::part>{{.object = flat + "/" + flat}});
 }
 
 TEST_CASE(

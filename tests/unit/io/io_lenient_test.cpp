@@ -233,3 +233,65 @@ TEST_CASE("ply: strips in bytes, and those that cannot be read") {
                                  "tristrips"),
                         "a.ply") == "a.ply: faces and triangle strips in one file are not read");
 }
+
+TEST_CASE("lenient: numbers of OBJ vertices that are neither coordinates nor a color are counted") {
+    const auto said = [](const std::string& more) {
+        return warnings(read_named("v 0 0 0\nv 1 0 0" + more + "\nv 0 1 0\nf 1 2 3\n", "a.obj"));
+    };
+    CHECK(said("").empty());
+    CHECK(said(" 1").empty());  // the usual weight
+    const std::string one =
+        "skipped-numbers: 1 vertices have further numbers, such as weights, which were not read\n";
+    CHECK(said(" 2") == one);
+    CHECK(said(" 1 1") == one);
+    CHECK(said(" 0.5 0.5 0.5").find("skipped-numbers") == std::string::npos);
+    CHECK(said(" 0.5 0.5 0.5 1").find(one) != std::string::npos);
+}
+
+TEST_CASE("lenient: fields of PCD that are said to have no values take no room") {
+    const std::string header =
+        "VERSION 0.7\nFIELDS x y z _ t _\nSIZE 4 4 4 2 1 1\nTYPE F F F U U U\nCOUNT 1 1 1 0 1 3\n"
+        "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA binary\n";
+    std::string rows(32, '\0');
+    rows[12] = 7;
+    rows[28] = 8;
+    const tf::mesh_file file = read_named(header + rows, "a.pcd");
+    const tf::column* const t = tf::find_column(file.attributes.elements.at(0), "t");
+    REQUIRE(t != nullptr);
+    CHECK(tf::number_at(*t, 0) == 7);
+    CHECK(tf::number_at(*t, 1) == 8);
+    CHECK(file.warnings.empty());
+}
+
+TEST_CASE("lenient: CSV that tells spreadsheets its separator") {
+    for (const char* text : {"sep=;\nx;y;z\n1;2;3\n", "sep=,\r\nx,y,z\r\n1,2,3\r\n"}) {
+        const tf::mesh_file file = read_named(text, "a.csv");
+        CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
+        CHECK(file.warnings.empty());
+    }
+    CHECK_FALSE(named_refusal("sep=;\n", "a.csv").empty());
+}
+
+TEST_CASE("lenient: CSV with numbers between quotes, and a comma behind the last name") {
+    const tf::mesh_file file =
+        read_named("\"x\",\"y\",\"z\",\"id\",\n\"1\",2,\"3\",\"7\"\n4,5,6,\"8\"\n", "a.csv");
+    CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
+    const tf::column* const id = tf::find_column(file.attributes.elements.at(0), "id");
+    REQUIRE(id != nullptr);
+    CHECK(tf::number_at(*id, 0) == 7);
+    CHECK(tf::number_at(*id, 1) == 8);
+    CHECK(file.warnings.empty());
+    CHECK_FALSE(named_refusal("x,y,z\n\"1,2,3\n", "a.csv").empty());
+}
+
+TEST_CASE("lenient: faces that are not convex are counted, others and flat corners are not") {
+    const std::string points =
+        "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 2 2 0.1\nv 1 0 0\n";
+    const auto said = [&](const std::string& faces) {
+        return warnings(read_named(points + faces, "a.obj"));
+    };
+    CHECK(said("f 1 2 3 7 6\nf 1 8 2 3\nf 1 2 3\n").empty());  // nearly flat; a corner on an edge
+    CHECK(said("f 1 2 3 4 5 6\n").empty());  // all of it is seen from the first corner
+    CHECK(said("f 6 1 2 3 4 5\nf 1 2 3\nf 5 4 3 2 1 6\n")
+              .starts_with("concave-faces: 2 faces are not convex"));
+}

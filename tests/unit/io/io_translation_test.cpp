@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 #include <support/las_bytes.hpp>
 #include <support/own_folder.hpp>
+#include <support/translated.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,53 +26,15 @@ namespace tf = treeform;
 
 namespace {
 
-using sentences = std::vector<std::string>;
-
-tf::mesh_file read_translated(const std::string& bytes, const std::string& format,
-                              const tf::read_options& options = {}) {
-    return tf::read(std::as_bytes(std::span(bytes)), "memory." + format, format, options);
-}
-
-/// A file as bytes, and what was said of it.
-struct translated_file {
-    std::string bytes{};
-    sentences warnings{};
-};
-
-translated_file put_translated(const tf::mesh_file& file, const std::string& format,
-                               tf::write_options how = {}) {
-    const test::own_folder folder("io_translation");
-    const auto path = folder.path / ("file." + format);
-    how.format = format;
-    translated_file made;
-    for (const tf::io_warning& w : tf::write(path, file, how).warnings)
-        made.warnings.push_back(w.code + ": " + w.text);
-    made.bytes = test::bytes_of(path);
-    return made;
-}
-
-tf::mesh_file passed_through(const tf::mesh_file& file, const std::string& format) {
-    return read_translated(put_translated(file, format).bytes, format);
-}
-
-const tf::column* translated_column(const tf::mesh_file& file, std::string_view name) {
-    const tf::element* const e = tf::find_element(file.attributes, "vertex");
-    return e == nullptr ? nullptr : tf::find_column(*e, name);
-}
-
-std::vector<double> translated_numbers(const tf::mesh_file& file, std::string_view name) {
-    std::vector<double> values;
-    if (const tf::column* const c = translated_column(file, name))
-        for (std::size_t i = 0; i < tf::value_count(*c); ++i)
-            values.push_back(tf::number_at(*c, i));
-    return values;
-}
-
-template <class T>
-void add_translated(tf::mesh_file& file, const char* name, std::vector<T> values) {
-    tf::obtain_element(file.attributes, "vertex", file.mesh.points.size())
-        .columns.push_back(tf::make_column<T>(name, values));
-}
+using test::add_translated;
+using test::is_named_in;
+using test::passed_through;
+using test::put_translated;
+using test::read_translated;
+using test::sentences;
+using test::translated_column;
+using test::translated_file;
+using test::translated_numbers;
 
 /// Points with all that formats have names of their own for.
 tf::mesh_file colored_cloud() {
@@ -89,12 +52,6 @@ tf::mesh_file colored_cloud() {
 }
 
 const sentences all_of_cloud{"red", "green", "blue", "nx", "ny", "nz", "curvature", "intensity"};
-
-bool is_named_in(const sentences& warnings, const std::string& property) {
-    return std::ranges::any_of(warnings, [&](const std::string& w) {
-        return (" " + w).find(" " + property) != std::string::npos;
-    });
-}
 
 }  // namespace
 
@@ -128,48 +85,6 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "translation: meshes keep normals, texture coordinates and colors between PLY, OBJ, OFF") {
-    tf::mesh_file given = colored_cloud();
-    given.mesh.faces = {{0, 1, 2}, {2, 1, 0}};
-    given.stored_faces = 2;
-    auto& columns = tf::obtain_element(given.attributes, "vertex", 3).columns;
-    columns.resize(6);
-    add_translated<float>(given, "s", {0, 0.5, 1});
-    add_translated<float>(given, "t", {0.25, 0.75, 0});
-    // Texture coordinates of corners are written as such; here each point has one.
-    const auto texture = [](const tf::mesh_file& file) {
-        std::vector<std::array<double, 2>> all;
-        const tf::corner_values& c = file.attributes.corners;
-        const std::vector<double> s = translated_numbers(file, "s"),
-                                  t = translated_numbers(file, "t");
-        for (std::size_t f = 0; f < file.mesh.faces.size(); ++f)
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (!s.empty()) {
-                    all.push_back({s[file.mesh.faces[f][k]], t[file.mesh.faces[f][k]]});
-                } else if (!c.texture_of_corner.empty()) {
-                    const auto& row = c.texture[c.texture_of_corner[f][k]];
-                    all.push_back({row[0], row[1]});
-                }
-            }
-        return all;
-    };
-    for (const std::string first : {"ply", "obj", "off"})
-        for (const std::string second : {"ply", "obj", "off"}) {
-            CAPTURE(first);
-            CAPTURE(second);
-            const translated_file one = put_translated(given, first);
-            const translated_file two = put_translated(read_translated(one.bytes, first), second);
-            const tf::mesh_file end = passed_through(read_translated(two.bytes, second), "ply");
-            CHECK(end.mesh == given.mesh);
-            CHECK(texture(end) == texture(given));
-            for (const char* name : {"red", "green", "blue", "nx", "ny", "nz"}) {
-                CAPTURE(name);
-                CHECK(translated_numbers(end, name) == translated_numbers(given, name));
-            }
-        }
-}
-
 TEST_CASE("translation: names and types are those that others read") {
     const std::string pcd = put_translated(colored_cloud(), "pcd", {.ascii = true}).bytes;
     CHECK(pcd.find("FIELDS x y z rgb normal_x normal_y normal_z curvature intensity\n") !=
@@ -188,6 +103,11 @@ TEST_CASE("translation: names and types are those that others read") {
     CHECK(translated_numbers(las, "NormalZ") == std::vector<double>{1, 0, 0});
     const std::string obj = put_translated(colored_cloud(), "obj").bytes;
     CHECK(obj.starts_with("v 0 0 0 1 0.5019607843137255 0\nvn 0 0 1\n"));
+    tf::mesh_file remarked = colored_cloud();
+    remarked.attributes.obj_info = {"made by hand", "viewpoint 1 2 3 1 0 0 0"};
+    const tf::mesh_file told = passed_through(remarked, "pcd");
+    CHECK(told.attributes.comments == sentences{"made by hand"});
+    CHECK(told.attributes.obj_info == sentences{"viewpoint 1 2 3 1 0 0 0"});
     // A file stays as it is in its own format, and where that is asked for.
     CHECK(put_translated(packed, "pcd").bytes == put_translated(clear, "pcd").bytes);
     CHECK(translated_column(

@@ -80,6 +80,19 @@ TEST_CASE("zip: a member of many blocks, and a comment at the end, are read") {
               .empty());
 }
 
+TEST_CASE("zip: bytes ahead of an archive are passed over with a warning") {
+    const std::string usual = test::package_3mf(packed_model);
+    for (const test::zip_form& form : all_zip_forms())
+        for (const std::string& ahead : {std::string("#!"), std::string(100000, 'x'), usual}) {
+            const std::string bytes = ahead + test::package_3mf(packed_model, {}, form);
+            const tf::mesh_file file = tf::read(std::as_bytes(std::span(bytes)), "a.3mf", {});
+            CHECK(tf::signed_volume(file.mesh) == doctest::Approx(1.0 / 6.0));
+            REQUIRE(file.warnings.size() == 1);
+            CHECK(file.warnings[0].text ==
+                  std::to_string(ahead.size()) + " bytes ahead of the archive were passed over");
+        }
+}
+
 TEST_CASE("zip: an archive of any form that is cut after any byte is refused") {
     for (const test::zip_form& form : all_zip_forms()) {
         const std::string whole = test::package_3mf(packed_model, {}, form);

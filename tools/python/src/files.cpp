@@ -82,15 +82,6 @@ static void all_fields(State& state, file_data& d) {
 
 namespace {
 
-/// Pairs of names as Python has them: the new one, and that in the file.
-using name_pairs = std::vector<std::pair<std::string, std::string>>;
-
-std::vector<tf::named_column> columns_of(const name_pairs& pairs) {
-    std::vector<tf::named_column> columns;
-    for (const auto& [name, source] : pairs) columns.push_back({name, source});
-    return columns;
-}
-
 /// What `take` has read.
 template <class Take>
 py::tuple read_by(bool join, const Take& take) {

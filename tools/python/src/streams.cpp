@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "file_data.hpp"
 #include "job.hpp"
 #include "steps.hpp"
 #include "words.hpp"
@@ -68,9 +69,11 @@ stream_settings settings_of(std::vector<std::filesystem::path> inputs, double to
                             const std::string& order, const std::string& order_by, bool keep_seams,
                             const std::vector<std::string>& across, bool keep_degenerate,
                             bool as_las, std::uint64_t memory, const std::string& folder,
-                            std::uint64_t points_per_tile) {
+                            std::uint64_t points_per_tile, const name_pairs& columns, bool mixed) {
     stream_settings made;
     made.inputs.paths = std::move(inputs);
+    made.inputs.columns = columns_of(columns);
+    made.inputs.mixed = mixed;
     made.options = {.tolerance = tolerance,
                     .relative = relative,
                     .rule = choice<tf::weld_rule>("rule", weld_rule_words, rule),

@@ -16,9 +16,10 @@ from ._mesh import Mesh, MeshLike, as_mesh, listed
 from ._progress import Progress
 from ._results import Result
 
-__all__ = ["PartsLike", "Path", "Written", "path_of", "read", "write"]
+__all__ = ["Columns", "PartsLike", "Path", "Written", "named_columns", "path_of", "read", "write"]
 
 Path = Union[str, "os.PathLike[str]"]
+Columns = Mapping[str, Union[str, int]]
 
 
 def path_of(path: Path) -> str:
@@ -29,8 +30,12 @@ def path_of(path: Path) -> str:
     return text
 
 
+def named_columns(columns: Columns | None) -> list[tuple[str, str]]:
+    return [(a, str(b)) for a, b in (columns or {}).items()]
+
+
 def read(path: Union[Path, IO[bytes]], format: str = "", *, join: bool = True,
-         columns: Mapping[str, str | int] | None = None, drop_nan: bool = False,
+         columns: Columns | None = None, drop_nan: bool = False,
          progress: Progress = None) -> Mesh:
     """The mesh or cloud in a file, or in what is open for reading bytes, such as BytesIO: STL, OBJ,
     PLY, OFF, 3MF, GLB, glTF, PCD, LAS, LAZ, XYZ, CSV, PTS; DAE and others where treeform was built
@@ -56,7 +61,7 @@ def read(path: Union[Path, IO[bytes]], format: str = "", *, join: bool = True,
     >>> treeform.read(io.BytesIO(b"v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n"), format="obj")
     Mesh(3 vertices, 1 faces)
     """
-    named = [(a, str(b)) for a, b in (columns or {}).items()]
+    named = named_columns(columns)
     if isinstance(path, (str, os.PathLike)):
         points, faces, data = _core.read(path_of(path), format, join, named, drop_nan,
                                          progress=progress)

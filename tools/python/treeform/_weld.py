@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import need, settings
-from ._files import Path, path_of
+from ._files import Columns, Path, named_columns, path_of
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
 from ._results import Result
@@ -158,7 +158,8 @@ class WeldStreamResult(Result):
 def _settings(files: Union[Path, Iterable[Path]], tolerance: float, relative: bool, rule: str,
               keep: str, keep_by: str, order: str, order_by: str, same: _Same | None,
               keep_seams: bool, across: Iterable[str], keep_degenerate: bool, as_las: bool,
-              memory: int, folder: Path, points_per_tile: int) -> _core.StreamSettings:
+              memory: int, folder: Path, points_per_tile: int, columns: Columns | None,
+              mixed: bool) -> _core.StreamSettings:
     paths = [files] if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
     if not paths:
         raise ValueError("files: there are none")
@@ -169,7 +170,7 @@ def _settings(files: Union[Path, Iterable[Path]], tolerance: float, relative: bo
         _arrays.word(keep_by, "keep_by"), _arrays.word(order, "order"),
         _arrays.word(order_by, "order_by"), keep_seams, _arrays.several(across, "across"),
         keep_degenerate, as_las, _arrays.number(memory, "memory", 0), path_of(folder),
-        _arrays.number(points_per_tile, "points_per_tile", 0))
+        _arrays.number(points_per_tile, "points_per_tile", 0), named_columns(columns), mixed)
 
 
 def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float = 0.0, *,
@@ -178,8 +179,8 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
                 same: _Same | None = None, keep_seams: bool = False, across: Iterable[str] = (),
                 keep_degenerate: bool = False, as_las: bool = False, removed: Path = "",
                 label: str = "", withhold: bool = False, memory: int = 0, folder: Path = "",
-                points_per_tile: int = 0, team: Team | None = None,
-                progress: Progress = None) -> WeldStreamResult:
+                points_per_tile: int = 0, columns: Columns | None = None, mixed: bool = False,
+                team: Team | None = None, progress: Progress = None) -> WeldStreamResult:
     """Welds clouds, or a mesh, that may be larger than memory, from files to a file, with the same
     bytes as `weld` of the whole.
 
@@ -192,6 +193,8 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     decided.
     memory: bytes that the process may take; 0: three quarters of the machine's. folder: for tiles;
     empty: beside the first input. Where a run was killed, the same call goes on.
+    columns: as for `read`. mixed: LAS files may have other reference systems or time types than the
+    first, whose are written.
     team: processes that do it together, each its share, in a folder that all see: anything with
     `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where one
     fails or is interrupted, all raise once each has come to where they tell each other something.
@@ -208,7 +211,8 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     (3, 2)
     """
     how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
-                    keep_seams, across, keep_degenerate, as_las, memory, folder, points_per_tile)
+                    keep_seams, across, keep_degenerate, as_las, memory, folder, points_per_tile,
+                    columns, mixed)
     return in_team(team, lambda all: WeldStreamResult(**_core.weld_stream(
         how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
         progress=progress)))
@@ -250,17 +254,19 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
                  keep_by: str = "", order: str = "given", order_by: str = "",
                  same: _Same | None = None, keep_seams: bool = False, across: Iterable[str] = (),
                  keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
-                 folder: Path = "", points_per_tile: int = 0, progress: Progress = None) -> None:
+                 folder: Path = "", points_per_tile: int = 0, columns: Columns | None = None,
+                 mixed: bool = False, progress: Progress = None) -> None:
         files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
         across = _arrays.several(across, "across")
         how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
                         keep_seams, across, keep_degenerate, as_las, memory, folder,
-                        points_per_tile)
+                        points_per_tile, columns, mixed)
         super().__init__(
             _core.weld_of(how, progress=progress), files, tolerance, relative=relative,
             rule=rule, keep=keep, keep_by=keep_by, order=order, order_by=order_by, same=same,
             keep_seams=keep_seams, across=across, keep_degenerate=keep_degenerate, as_las=as_las,
-            memory=memory, folder=folder, points_per_tile=points_per_tile)
+            memory=memory, folder=folder, points_per_tile=points_per_tile, columns=columns,
+            mixed=mixed)
 
     def scatter(self, *, progress: Progress = None) -> int:
         """Gives each tile its points, unless they have them. Returns the number of tiles."""

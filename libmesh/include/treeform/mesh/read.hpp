@@ -64,8 +64,9 @@ namespace treeform {
 ///   fans are triangles. COLOR_0 becomes columns red, green, blue and alpha of points, in the type and
 ///   with the numbers of the file; NORMAL nx, ny and nz, turned with the node; the texture coordinates
 ///   that the color of the material takes, with KHR_texture_transform, s and t = 1 - v, since t counts
-///   from the lower edge elsewhere. Materials, other attributes and lines are not read, morph
-///   targets and skins not applied. Files that a glTF names are read from its folder and those in it.
+///   from the lower edge elsewhere. Colors of materials become columns red, green, blue and alpha of
+///   faces, of 8 bits. Textures, other attributes and lines are not read, morph targets and skins not
+///   applied. Files that a glTF names are read from its folder and those in it.
 ///   Extensions that a file requires are refused by name, except for KHR_mesh_quantization and those
 ///   that only change how a surface looks. glTF 1.0 is left to assimp.
 ///

@@ -79,7 +79,7 @@ struct write_result {
 ///   back within two units in their last place, else the finest that 32 bits allow.
 /// - GLB: a node and a mesh with the points that they use for faces of one object and group in a row,
 ///   with their name; in these, one primitive for each color of faces (columns red, green, blue and
-///   alpha, if any, of the element "face"). Other columns of faces with whole numbers from 0 on become
+///   alpha, if any, of the element "face"), which materials have. Other columns of faces with whole numbers from 0 on become
 ///   accessors that the primitive's `extras.face_properties` names. Columns of points: red, green,
 ///   blue and alpha become COLOR_0, of 8 and 16 bits as they are, others as floats from 0 to 1; nx,
 ///   ny and nz NORMAL, with length 1; s and t, u and v or texture_u and texture_v TEXCOORD_0, with

@@ -40,6 +40,10 @@ typedef struct treeform_weld_stream_options {
     const char* const* across;  ///< [across_count]
     size_t across_count;
     int32_t keep_degenerate;
+    const treeform_named_column* columns;  ///< [column_count] as in `treeform_read_options`
+    size_t column_count;
+    int32_t
+        mixed;  ///< join LAS of other reference systems or time types, which are then the first's
 } treeform_weld_stream_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_options* options,
