@@ -187,9 +187,10 @@ class alignment {
         const double cost = quality_at(task_, samples_, other.map, best_.width, last).cost;
         if (ways_) {
             // at a bound, a place may be right by chance alone
-            const double factor = best_.at_bound && !other.at_bound ? 1.1 : 1.0 - 1e-6;
             const double here = ways_->cost_at(task_, best_.map);
-            if (!(ways_->cost_at(task_, other.map) < factor * here)) return false;
+            const double most = best_.at_bound && !other.at_bound ? here * 1.1 + 1e-20
+                                                                  : here * (1.0 - 1e-6) - 1e-20;
+            if (!(ways_->cost_at(task_, other.map) < most)) return false;
         } else if (!(cost < best_.at.cost * (1.0 - 1e-6) - 1e-20)) {
             return false;
         }
@@ -375,7 +376,7 @@ align_result alignment::judged() {
     align_result result{.matrix = options_.start};
     enter_matrix(result, best_.map, moved);
     result.rms = (task_.welsch ? end : plain_quality()).rms / frame_.by;
-    result.rms_at_start = (task_.welsch ? at_start : before_).rms / frame_.by;
+    result.rms_at_start = before_.rms / frame_.by;
     result.overlap = end.overlap;
     result.inliers = inliers();
     const evidence found = evidence_here();

@@ -47,9 +47,9 @@ void add_align_options(command_line& line, tf::align_options& options) {
                 });
     line.option(o.weights,
                 {"--weights", "W",
-                 "fit: equal | welsch | auto. welsch: far pairs count less;\n"
-                 "finds out by itself what has no partner, up to half of\n"
-                 "MOVING. auto: equal, but on a fixed cloud welsch",
+                 "fit: equal | welsch | auto: equal, on a cloud welsch.\n"
+                 "welsch: far pairs count less; finds out by itself what\n"
+                 "has no partner, up to half of MOVING",
                  "auto"},
                 weights);
     line.option(o.method,

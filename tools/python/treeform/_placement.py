@@ -343,7 +343,7 @@ class Alignment(MeshResult):
     matrix: (4, 4) new = M old, with `start` included.
     mesh: The moved mesh; of a cloud, one without faces.
     rms: Root mean square of the distances that count, after.
-    rms_at_start: The same before.
+    rms_at_start: The same before, without weights.
     overlap: Share of the moving points with a partner within `max_distance`, after.
     inliers: Moving points within 4.5 medians of the distances that count.
     correlation: Of the signed distances of neighbors: near 0 for noise, near 1 where regions are

@@ -116,10 +116,10 @@ struct align_result {
     point3 pivot{};        ///< center of the box of the moving points
     point3 pivot_moved{};  ///< where it goes
     double scale = 1.0;    ///< found in addition to that of `start`
-    /// Root mean square of the distances that count, after, by weights if they were asked for; 0 for
-    /// none.
+    /// Root mean square of the distances that count, after, by weights if there are; 0 for none. Of
+    /// two clouds by `plane_to_plane`, the distances to the planes, as far as both sides agree.
     double rms = 0.0;
-    double rms_at_start = 0.0;
+    double rms_at_start = 0.0;  ///< the same before, without weights
     /// Share of all moving points whose nearest fixed point is within `max_distance`, after.
     double overlap = 0.0;
     /// How many of the moving points are within 4.5 medians of the distances that count.
