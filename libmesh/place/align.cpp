@@ -194,8 +194,6 @@ class alignment {
         } else if (!(cost < best_.at.cost * (1.0 - 1e-6) - 1e-20)) {
             return false;
         }
-        other.width = best_.width;
-        other.at.cost = cost;
         best_ = other;
         return true;
     }
@@ -273,9 +271,9 @@ class alignment {
     /// cloud may be held by its points alone.
     [[nodiscard]] bool is_known(const evidence& found) const {
         if (best_.at_bound) return false;
-        if (found.left.rms <= exact) return true;
+        if (!target_.is_cloud() || found.left.rms <= exact) return true;
         return std::max(found.uncertainty, found.move) <= bearable * frame_.diagonal &&
-               !(target_.is_cloud() && found.freedoms.front().stiffness < not_held);
+               found.freedoms.front().stiffness >= not_held;
     }
 
     /// Whether what remains is noise, or too little for a doubt.

@@ -86,9 +86,9 @@ enum class align_end : std::uint8_t {
     /// side, by more than can be told from the right place. Often a wrong local optimum, or parts
     /// without a partner.
     ///
-    /// Or the points do not tell where they belong: `uncertainty` is above 0.2% of the diagonal of
-    /// the fixed box, those not fitted would move all further than that, something slides on a
-    /// cloud, or the scale is at its bound.
+    /// Or the scale is at its bound, or the points of a cloud do not tell where they belong:
+    /// `uncertainty` is above 0.2% of the diagonal of the fixed box, those not fitted would move all
+    /// further than that, or something slides.
     doubtful,
     nothing_to_align,  ///< no points, or none has a partner
 };
