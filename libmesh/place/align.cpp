@@ -2,38 +2,42 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/align_frame.hpp>
 #include <libmesh/place/align_judge.hpp>
+#include <libmesh/place/align_scale.hpp>
 #include <libmesh/place/align_search.hpp>
 #include <libmesh/place/align_starts.hpp>
 #include <libmesh/place/align_target.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/detail/morton_order.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace treeform {
 namespace {
 
+using detail::place::align_frame;
 using detail::place::align_target;
+using detail::place::both_ways;
 using detail::place::endless;
 using detail::place::freedom;
 using detail::place::matching;
 using detail::place::Matrix3d;
+using detail::place::moving_points;
 using detail::place::partner;
 using detail::place::quality;
 using detail::place::residuals;
 using detail::place::search_result;
 using detail::place::search_task;
 using detail::place::similarity;
+using detail::place::to_point;
 using detail::place::Vector3d;
 
 void refuse(const std::string& what) { throw std::invalid_argument("treeform::align: " + what); }
@@ -56,90 +60,13 @@ void check(points_view moving, mesh_view fixed, const align_options& o) {
     if (!o.start.finite()) refuse("an entry of the start is not finite");
 }
 
-Vector3d to_eigen(const point3& p) { return {p.x, p.y, p.z}; }
-point3 to_point(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-/// Both sides about their centers, in lengths of a power of two near the fixed diagonal, so that
-/// nothing depends on the unit or on how far the origin is. The linear part of the start is applied
-/// to the moving points; what remains of the start is `offset`.
-struct frame {
-    double by = 1.0;
-    double diagonal = 0.0;  ///< of the fixed box, in these lengths
-    point3 center{};        ///< of the fixed box
-    point3 pivot{};         ///< of the moving box
-    Matrix3d linear = Matrix3d::Identity();
-    Vector3d offset = Vector3d::Zero();
-
-    frame(points_view moving, points_view fixed, const transform<3>& start) {
-        const auto middle = [](const box3& box) {
-            return point3{0.5 * box.min.x + 0.5 * box.max.x, 0.5 * box.min.y + 0.5 * box.max.y,
-                          0.5 * box.min.z + 0.5 * box.max.z};
-        };
-        const box3 box = *bounding_box(fixed);
-        center = middle(box);
-        pivot = middle(*bounding_box(moving));
-        int exponent = 0;
-        std::frexp(treeform::diagonal(box), &exponent);
-        by = std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
-        diagonal = treeform::diagonal(box) * by;
-        for (int r = 0; r < 3; ++r)
-            for (int c = 0; c < 3; ++c)
-                linear(r, c) = start.rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
-        offset = by * (to_eigen(start(pivot)) - to_eigen(center));
-    }
-
-    [[nodiscard]] point3 fixed(const point3& p) const {
-        return {(p.x - center.x) * by, (p.y - center.y) * by, (p.z - center.z) * by};
-    }
-    [[nodiscard]] Vector3d moving(const point3& p) const {
-        return by * (linear * (to_eigen(p) - to_eigen(pivot)));
-    }
+/// What all points say of a place.
+struct evidence {
+    residuals left{};
+    std::vector<freedom> freedoms{};
+    double uncertainty = 0.0;
+    double move = 0.0;  ///< by the judges alone
 };
-
-transform<3> matrix_of(const frame& f, const similarity& map, const point3& pivot_moved) {
-    const Matrix3d linear = map.scale * map.rotation * f.linear;
-    const Vector3d shift = to_eigen(pivot_moved) - linear * to_eigen(f.pivot);
-    transform<3> m;
-    for (int r = 0; r < 3; ++r)
-        m.rows[static_cast<std::size_t>(r)] = {linear(r, 0), linear(r, 1), linear(r, 2), shift(r)};
-    return m;
-}
-
-/// All moving points in an order of space.
-std::vector<Vector3d> in_order(const frame& f, points_view moving) {
-    std::vector<Vector3d> all(moving.size());
-    const auto at = [&](std::size_t i) { return f.moving(moving[i]); };
-    const auto order = detail::morton_order<3>(moving.size(), [&](std::size_t i) {
-        const Vector3d p = at(i);
-        return std::array<double, 3>{p.x(), p.y(), p.z()};
-    });
-    for (std::size_t i = 0; i < order.size(); ++i) all[i] = at(order[i]);
-    return all;
-}
-
-std::vector<Vector3d> some_of(const std::vector<Vector3d>& all, std::size_t most) {
-    if (most == 0 || all.size() <= most) return all;
-    std::vector<Vector3d> some;
-    for (std::size_t i = 0; i < most; ++i)
-        some.push_back(all[static_cast<std::size_t>(
-            static_cast<double>(i) * static_cast<double>(all.size()) / static_cast<double>(most))]);
-    return some;
-}
-
-align_target target_in(const frame& f, mesh_view fixed) {
-    std::vector<point3> points;
-    points.reserve(fixed.points.size());
-    for (const point3& p : fixed.points) points.push_back(f.fixed(p));
-    return {std::move(points), {fixed.faces.begin(), fixed.faces.end()}};
-}
-
-/// Where the fixed side is and how it lies: by area, of a cloud by points.
-detail::place::inertia inertia_in(const frame& f, mesh_view fixed) {
-    std::vector<Vector3d> points;
-    for (const point3& p : fixed.points) points.push_back(to_eigen(f.fixed(p)));
-    return fixed.faces.empty() ? detail::place::inertia_of(points)
-                               : detail::place::inertia_of(points, fixed.faces);
-}
 
 /// One alignment, in its frame.
 class alignment {
@@ -149,41 +76,44 @@ class alignment {
           fixed_(fixed),
           frame_(moving, fixed.points, options.start),
           target_(target_in(frame_, fixed)),
-          all_(in_order(frame_, moving)),
-          samples_(some_of(all_, options.samples)),
-          few_(some_of(samples_, few_samples)),
+          all_(in_order(frame_, moving, target_.is_cloud())),
           task_{.fixed = target_,
                 .max_distance = options.max_distance * frame_.by,
                 .overlap = options.overlap,
-                .planes = options.method == align_method::point_to_plane ||
-                          (options.method == align_method::automatic && !target_.is_cloud()),
-                .welsch = options.weights == align_weights::welsch,
+                .planes = options.method != align_method::point_to_point,
+                .welsch = options.weights == align_weights::welsch ||
+                          (options.weights == align_weights::automatic && target_.is_cloud()),
                 .scale = options.scale,
                 .accelerate = options.accelerate,
                 .max_iterations = options.max_iterations,
                 .tolerance = options.tolerance},
           work_(options.progress) {
-        if (task_.planes) target_.find_normals();
+        target_.find_planes();
+        if (task_.planes && target_.is_cloud() && options.method != align_method::point_to_plane)
+            find_planes(all_);
+        samples_ = some_of(fitted_of(all_), options.samples);
+        few_ = some_of(samples_, few_samples);
+        if (task_.scale) ways_.emplace(few_, frame_, fixed_);
     }
 
     [[nodiscard]] align_result found() {
         if (!work_.reach(0.1)) return {.status = status::cancelled};
-        similarity present;
-        present.shift = frame_.offset;
-        const quality before = quality_at(task_, all_, present, endless, of_all_);
-        if (!std::isfinite(before.cost))
+        present_.shift = frame_.offset;
+        before_ = quality_at(task_, all_, present_, endless, of_all_);
+        if (!std::isfinite(before_.cost))
             throw std::overflow_error("treeform::align: the distances are too large to be squared");
         if (!work_.reach(0.2)) return {.status = status::cancelled};
-        best_ = search_from(present, 0.2, 0.6);
-        const auto tried = options_.starts > 1
-                               ? others_than(present, few_, options_.starts, 0.6, 0.7)
-                               : std::vector<detail::place::tried_start>{};
+        best_ = search_from(present_, 0.2, 0.5);
+        if (task_.scale) take_if_better(as_large_as_fixed(), 0.5, 0.6);
+        const auto tried = options_.starts > 1 ? others_than(few_, options_.starts, 0.6, 0.7)
+                                               : std::vector<detail::place::tried_start>{};
         for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
             if (take_if_better(tried[i].end.map, 0.7, 0.75))
                 best_start_ = static_cast<unsigned>(tried[i].number);
         if (task_.planes && !work_.cancelled()) slide_if_better();
+        if (!work_.cancelled()) look_around_in_doubt();
         if (work_.cancelled()) return {.status = status::cancelled};
-        align_result result = judged(present, before);
+        align_result result = judged();
         if (work_.cancelled() || !work_.reach(1.0)) return {.status = status::cancelled};
         return result;
     }
@@ -192,20 +122,25 @@ class alignment {
     static constexpr std::size_t few_samples = 1000;
     static constexpr std::size_t coarse_samples = 5000;
     static constexpr std::size_t doubt_samples = 500;
-    static constexpr std::size_t refined = 3;    ///< of other starts, the best
-    static constexpr std::size_t doubts = 24;    ///< starts to try in doubt
-    static constexpr double little_held = 0.02;  ///< stiffness of motions that are tried out
-    static constexpr double exact = 1e-9;        ///< distances that are none
-    static constexpr double like_noise = 0.15;   ///< correlation of neighbors
-    static constexpr double bearable = 2e-3;     ///< share of the diagonal that regions may be off
+    static constexpr std::size_t refined = 3;      ///< of other starts, the best
+    static constexpr std::size_t doubts = 24;      ///< starts to try in doubt
+    static constexpr double little_held = 0.02;    ///< stiffness of motions that are tried out
+    static constexpr double not_held = 1e-4;       ///< stiffness of motions that mean nothing
+    static constexpr double exact = 1e-9;          ///< distances that are none
+    static constexpr double like_noise = 0.15;     ///< correlation of neighbors
+    static constexpr double like_thickness = 0.6;  ///< share of it that neighbors may be off
+    static constexpr double bearable = 2e-3;  ///< share of the diagonal that regions may be off
+    static constexpr double growth = 2.0;     ///< of the scale from a start, at most
 
     /// With a part of the samples first, if they are many: that gets near the end.
     [[nodiscard]] search_result search_from(similarity start, double from, double to) {
         const auto go_on = [&](unsigned i) { return work_.step(from, to, i, 20.0); };
         search_task fine = task_;
+        fine.least_scale = start.scale / growth;
+        fine.most_scale = start.scale * growth;
         unsigned before = 0;
         if (samples_.size() >= 4 * coarse_samples) {
-            search_task coarse = task_;
+            search_task coarse = fine;
             coarse.tolerance = std::max(task_.tolerance, 1e-4);
             coarse.max_iterations /= 2;
             matching last;
@@ -220,15 +155,27 @@ class alignment {
         search_result end =
             search(fine, samples_, start, last, [&](unsigned i) { return go_on(before + i); });
         end.iterations += before;
+        end.at_bound = task_.scale && (end.map.scale <= fine.least_scale * (1.0 + exact) ||
+                                       end.map.scale >= fine.most_scale * (1.0 - exact));
         return end;
     }
 
+    /// The present place, with the moving side grown to the extent of the fixed one.
+    [[nodiscard]] similarity as_large_as_fixed() const {
+        const auto moving = detail::place::inertia_of(samples_.points);
+        const auto fixed = inertia_in(frame_, fixed_);
+        similarity start = present_;
+        if (moving.radius > 0.0 && fixed.radius > 0.0) start.scale = fixed.radius / moving.radius;
+        start.shift = fixed.center - start.scale * (start.rotation * moving.center);
+        return start;
+    }
+
     /// Other places than the present one, as few samples find them, the best first.
-    [[nodiscard]] std::vector<detail::place::tried_start> others_than(const similarity& present,
-                                                                      std::span<const Vector3d> few,
+    [[nodiscard]] std::vector<detail::place::tried_start> others_than(const moving_points& few,
                                                                       std::size_t count,
                                                                       double from, double to) {
-        const auto starts = detail::place::starts_of(detail::place::inertia_of(samples_),
+        const similarity present = task_.scale ? as_large_as_fixed() : present_;
+        const auto starts = detail::place::starts_of(detail::place::inertia_of(samples_.points),
                                                      inertia_in(frame_, fixed_), present, count);
         return try_starts(task_, few, starts,
                           [&](std::size_t i) { return work_.step(from, to, i, 20.0); });
@@ -238,9 +185,15 @@ class alignment {
         search_result other = search_from(start, from, to);
         matching last;
         const double cost = quality_at(task_, samples_, other.map, best_.width, last).cost;
-        if (!(cost < best_.at.cost * (1.0 - 1e-6) - 1e-20)) return false;
-        other.width = best_.width;
-        other.at.cost = cost;
+        if (ways_) {
+            // at a bound, a place may be right by chance alone
+            const double here = ways_->cost_at(task_, best_.map);
+            const double most = best_.at_bound && !other.at_bound ? here * 1.1 + 1e-20
+                                                                  : here * (1.0 - 1e-6) - 1e-20;
+            if (!(ways_->cost_at(task_, other.map) < most)) return false;
+        } else if (!(cost < best_.at.cost * (1.0 - 1e-6) - 1e-20)) {
+            return false;
+        }
         best_ = other;
         return true;
     }
@@ -266,6 +219,23 @@ class alignment {
             take_if_better(there, 0.78, 0.8);
     }
 
+    /// What ended in doubt may have started beside the right place.
+    void look_around_in_doubt() {
+        if (task_.max_iterations == 0) return;
+        static_cast<void>(quality_at(task_, all_, best_.map, best_.width, of_all_));
+        const evidence found = evidence_here();
+        if (found.freedoms.empty() || (is_known(found) && is_noise(found.left))) return;
+        const Vector3d center = detail::place::inertia_of(few_.points).center;
+        similarity around = present_;
+        around.scale = best_.map.scale;
+        around.shift += (present_.scale - around.scale) * (around.rotation * center);
+        const auto starts = detail::place::starts_near(around(center), around, frame_.diagonal);
+        const auto tried = try_starts(
+            task_, few_, starts, [&](std::size_t i) { return work_.step(0.8, 0.82, i, 20.0); });
+        for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
+            take_if_better(tried[i].end.map, 0.82, 0.85);
+    }
+
     /// The task without what the last weights leave out, to compare places close by: what belongs to
     /// nothing costs more than they differ by.
     [[nodiscard]] search_task without_outliers(const std::vector<partner>& partners) const {
@@ -284,23 +254,45 @@ class alignment {
         return std::clamp(1.0 - 4.0 / std::sqrt(static_cast<double>(points)), 0.5, 0.9);
     }
 
+    /// By the last partners of all points.
+    [[nodiscard]] evidence evidence_here() const {
+        const auto judges = detail::place::judges_among(of_all_.partners);
+        evidence found;
+        found.left =
+            detail::place::residuals_of(judges.size() < few_samples ? of_all_.partners : judges);
+        found.freedoms = detail::place::freedoms_of(of_all_.partners, best_.map.shift);
+        found.uncertainty = detail::place::uncertainty_of(
+            detail::place::residuals_of(of_all_.partners), found.freedoms, not_held);
+        found.move = detail::place::move_by(judges, task_.scale);
+        return found;
+    }
+
+    /// Whether the points tell where they belong. What slides on a mesh may do so; what slides on a
+    /// cloud may be held by its points alone.
+    [[nodiscard]] bool is_known(const evidence& found) const {
+        if (best_.at_bound) return false;
+        if (!target_.is_cloud() || found.left.rms <= exact) return true;
+        return std::max(found.uncertainty, found.move) <= bearable * frame_.diagonal &&
+               found.freedoms.front().stiffness >= not_held;
+    }
+
     /// Whether what remains is noise, or too little for a doubt.
     [[nodiscard]] bool is_noise(const residuals& left) const {
         if (left.rms <= exact) return true;
-        if (left.common() <= 0.5 * target_.spacing()) return true;
+        if (left.common() <= like_thickness * left.noise) return true;
         const double by_chance = 4.0 / std::sqrt(static_cast<double>(left.pairs + 1));
         return left.pairs >= 400 && left.correlation <= std::max(like_noise, by_chance);
     }
 
     /// Whether some other start ends at a better place than the best, by the same weights.
-    [[nodiscard]] bool other_is_better(const similarity& present) {
-        const std::vector<Vector3d> few = some_of(few_, doubt_samples);
+    [[nodiscard]] bool other_is_better() {
+        const moving_points few = some_of(few_, doubt_samples);
         const auto cost_at = [&](const similarity& map) {
             matching last;
             return quality_at(task_, few, map, best_.width, last).cost;
         };
         const double here = cost_at(best_.map);
-        const auto tried = others_than(present, few, doubts, 0.85, 0.98);
+        const auto tried = others_than(few, doubts, 0.88, 0.98);
         for (std::size_t i = 0; i < std::min(tried.size(), refined); ++i) {
             matching last;
             const auto end = search(task_, few, tried[i].end.map, last,
@@ -310,15 +302,17 @@ class alignment {
         return false;
     }
 
-    [[nodiscard]] align_end end_of(const similarity& present, const residuals& left) {
+    [[nodiscard]] align_end end_of(const evidence& found) {
         if (!best_.converged) return align_end::out_of_iterations;
-        if (is_noise(left)) return align_end::converged;
-        if (left.common() > bearable * frame_.diagonal || other_is_better(present))
+        if (!is_known(found)) return align_end::doubtful;
+        if (is_noise(found.left)) return align_end::converged;
+        if (target_.is_cloud() || found.left.common() > bearable * frame_.diagonal ||
+            other_is_better())
             return align_end::doubtful;
         return align_end::converged;
     }
 
-    [[nodiscard]] align_result judged(const similarity& present, const quality& before);
+    [[nodiscard]] align_result judged();
     /// Of all points where they were looked for last, by no weights but those of trimming.
     [[nodiscard]] quality plain_quality() const {
         auto partners = of_all_.partners;
@@ -331,11 +325,14 @@ class alignment {
 
     const align_options& options_;
     mesh_view fixed_;
-    frame frame_;
+    align_frame frame_;
     align_target target_;
-    std::vector<Vector3d> all_, samples_, few_;
+    moving_points all_, samples_, few_;
     search_task task_;
+    std::optional<both_ways> ways_;  ///< if the scale is looked for
     detail::base::work_progress work_;
+    similarity present_;
+    quality before_;  ///< there
     matching of_all_;
     search_result best_;
     unsigned best_start_ = 0;
@@ -358,37 +355,36 @@ void alignment::enter_matrix(align_result& result, const similarity& map, bool m
     result.scale = map.scale;
 }
 
-align_result alignment::judged(const similarity& present, const quality& before) {
+align_result alignment::judged() {
     const auto at = [&](const similarity& map) {
         return quality_at(task_, all_, map, best_.width, of_all_);
     };
-    const quality at_start = best_.width < endless ? at(present) : before;
+    const quality at_start = best_.width < endless ? at(present_) : before_;
     quality end = at(best_.map);
     const bool moved = end.cost < at_start.cost;
-    const bool as_good = end.cost <= at_start.cost * (1.0 + 1e-12) + 1e-28;
+    // Of points that were not fitted, chance decides which of two good places is better.
+    const double chance = samples_.size() < all_.size() ? 1e-3 : 1e-12;
+    const bool as_good = end.cost <= at_start.cost * (1.0 + chance) + 1e-28;
     if (!moved) {
-        best_.map = present;
+        best_.map = present_;
         best_start_ = 0;
-        end = at(present);
+        end = at(present_);
     }
-    if (!work_.reach(0.85)) return {};
-    if (!task_.planes && target_.is_cloud()) {
-        target_.find_normals();
-        end = at(best_.map);
-    }
+    if (!work_.reach(0.88)) return {};
     align_result result{.matrix = options_.start};
     enter_matrix(result, best_.map, moved);
     result.rms = (task_.welsch ? end : plain_quality()).rms / frame_.by;
-    result.rms_at_start = (task_.welsch ? at_start : before).rms / frame_.by;
+    result.rms_at_start = before_.rms / frame_.by;
     result.overlap = end.overlap;
     result.inliers = inliers();
-    const residuals left = detail::place::residuals_of(of_all_.partners);
-    result.correlation = left.correlation;
-    for (const freedom& one : detail::place::freedoms_of(of_all_.partners, best_.map.shift))
+    const evidence found = evidence_here();
+    result.correlation = found.left.correlation;
+    result.uncertainty = found.uncertainty / frame_.by;
+    for (const freedom& one : found.freedoms)
         result.freedoms.push_back(
             {to_point(frame_.by * one.turn), to_point(one.shift), one.stiffness});
     if (!result.freedoms.empty()) {
-        result.end = end_of(present, left);
+        result.end = end_of(found);
         if (!as_good) result.end = align_end::out_of_iterations;
     }
     result.converged = result.end == align_end::converged;

@@ -16,7 +16,9 @@ struct residuals {
     /// Of neighbors: products over squares, in [-1, 1]; 0 without neighbors.
     double correlation = 0.0;
     double rms = 0.0;
+    double noise = 0.0;     ///< how thick both sides are: root mean square; 0 of meshes
     std::size_t pairs = 0;  ///< of neighbors
+    double points = 0.0;    ///< that count, by weight
 
     /// Root mean square of the part that neighbors have in common.
     [[nodiscard]] double common() const;
@@ -37,5 +39,21 @@ struct freedom {
 /// about a line on which they all are; none without partners.
 [[nodiscard]] std::vector<freedom> freedoms_of(const std::vector<partner>& weighed,
                                                const Vector3d& center);
+
+/// How far the points may be from where they belong: the standard deviation that the distances leave,
+/// as a root mean square over the points. Neighbors that are off to the same side count as fewer.
+/// Motions of a stiffness below `least` are left out.
+[[nodiscard]] double uncertainty_of(const residuals& left, const std::vector<freedom>& freedoms,
+                                    double least);
+
+/// Every fourth of the points is not fitted, where there are many: they are what a fit is judged by.
+constexpr std::size_t judge_every = 4;
+[[nodiscard]] inline bool is_judge(std::size_t i) { return i % judge_every == judge_every / 2; }
+
+/// Those of the partners.
+[[nodiscard]] std::vector<partner> judges_among(const std::vector<partner>& weighed);
+
+/// How far the judges alone would move all of them: root mean square. 0 where none counts.
+[[nodiscard]] double move_by(const std::vector<partner>& judges, bool scale);
 
 }  // namespace treeform::detail::place

@@ -97,7 +97,7 @@ descent descent_of(const search_task& task, bool narrow) {
 }
 
 /// The quality of the start, and by what width.
-quality first_quality(const search_task& task, std::span<const Vector3d> samples,
+quality first_quality(const search_task& task, const moving_points& samples,
                       const similarity& start, double& width, matching& last) {
     const quality plain = quality_at(task, samples, start, endless, last);
     if (!task.welsch) return plain;
@@ -145,22 +145,27 @@ std::optional<similarity> step_from(const search_task& task, const std::vector<p
     return step.finite() ? std::optional(step) : std::nullopt;
 }
 
+similarity within_bounds(const search_task& task, similarity map) {
+    map.scale = std::clamp(map.scale, task.least_scale, task.most_scale);
+    return map;
+}
+
 bool same_place(const similarity& a, const similarity& b) {
     return a.rotation == b.rotation && a.shift == b.shift && a.scale == b.scale;
 }
 
 }  // namespace
 
-quality quality_at(const search_task& task, std::span<const Vector3d> samples,
-                   const similarity& map, double width, matching& last) {
+quality quality_at(const search_task& task, const moving_points& samples, const similarity& map,
+                   double width, matching& last) {
     task.fixed.match(samples, map, task.max_distance, last);
     const std::size_t count = share_of(task.overlap, samples.size());
     weigh(last.partners, count, width);
     return quality_of(last.partners, count, width, task.max_distance);
 }
 
-search_result search(const search_task& task, std::span<const Vector3d> samples,
-                     const similarity& start, matching& last, function_ref<bool(unsigned)> go_on) {
+search_result search(const search_task& task, const moving_points& samples, const similarity& start,
+                     matching& last, function_ref<bool(unsigned)> go_on) {
     search_result best{start};
     similarity map = start;
     std::optional<similarity> plain;  // where a plain step led to, if `map` is by acceleration
@@ -203,11 +208,11 @@ search_result search(const search_task& task, std::span<const Vector3d> samples,
         const std::optional<similarity> step = step_from(task, last.partners);
         if (!step) return best;
         settled = displacement(*step) <= still_move;
-        const similarity next = after(*step, map);
+        const similarity next = within_bounds(task, after(*step, map));
         cost_before = here.cost;
         plain.reset();
         if (task.accelerate && !settled) {
-            const similarity guess = faster.next(map, next);
+            const similarity guess = within_bounds(task, faster.next(map, next));
             if (!same_place(guess, next)) plain = next;
             map = guess;
         } else {

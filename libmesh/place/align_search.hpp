@@ -19,6 +19,7 @@ struct search_task {
     bool planes = true;
     bool welsch = false;
     bool scale = false;
+    double least_scale = 0.0, most_scale = endless;
     bool accelerate = true;
     unsigned max_iterations = 100;
     double tolerance = 1e-6;
@@ -27,6 +28,7 @@ struct search_task {
 struct search_result {
     similarity map;
     bool converged = false;
+    bool at_bound = false;  ///< the scale is as small or large as it may be
     unsigned iterations = 0;
     double width = endless;  ///< of Welsch's function at the end
     quality at{};            ///< of `map`, by that width
@@ -34,12 +36,12 @@ struct search_result {
 
 /// Steps from `start` on, and of the places on the way the best. `samples` are in an order of
 /// space; `go_on` is asked before each step. `last` holds nothing, or partners of the same samples.
-[[nodiscard]] search_result search(const search_task& task, std::span<const Vector3d> samples,
+[[nodiscard]] search_result search(const search_task& task, const moving_points& samples,
                                    const similarity& start, matching& last,
                                    function_ref<bool(unsigned)> go_on);
 
 /// The partners of the samples at `map`, with their weights, and how good they are.
-[[nodiscard]] quality quality_at(const search_task& task, std::span<const Vector3d> samples,
+[[nodiscard]] quality quality_at(const search_task& task, const moving_points& samples,
                                  const similarity& map, double width, matching& last);
 
 }  // namespace treeform::detail::place

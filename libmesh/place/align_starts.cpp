@@ -8,6 +8,7 @@ namespace treeform::detail::place {
 namespace {
 
 constexpr unsigned steps_of_try = 15;
+constexpr double most_of_robust = 0.6;  ///< share that has a partner, where weights find it out
 
 /// `count` turns, spread evenly over all of them.
 std::vector<Matrix3d> spread_turns(std::size_t count) {
@@ -31,6 +32,10 @@ similarity placed_turned(const Matrix3d& turn, double scale, const Vector3d& cen
     return {scale, turn, to - scale * (turn * center)};
 }
 
+similarity about_center(const Vector3d& center, const Matrix3d& turn) {
+    return {1.0, turn, center - turn * center};
+}
+
 template <class At, class Weight>
 inertia inertia_by(std::size_t count, const At& at, const Weight& weight) {
     inertia of;
@@ -46,6 +51,7 @@ inertia inertia_by(std::size_t count, const At& at, const Weight& weight) {
         sums += weight(i) * arm * arm.transpose();
     }
     of.axes = eigen_of(sums).vectors;
+    if (weights > 0.0) of.radius = std::sqrt(sums.trace() / weights);
     if (is_mirrored(of.axes)) of.axes.col(0) *= -1.0;
     return of;
 }
@@ -82,6 +88,29 @@ std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
     return starts;
 }
 
+std::vector<similarity> starts_near(const Vector3d& center, const similarity& present,
+                                    double diagonal) {
+    constexpr double angle = 0.25, way = 0.08;
+    std::vector<similarity> starts{present};
+    const auto add = [&](const Vector3d& turn, const Vector3d& shift) {
+        similarity start = after(about_center(center, rotation_by(angle * turn)), present);
+        start.shift += way * diagonal * shift;
+        starts.push_back(start);
+    };
+    const Vector3d none = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k)
+        for (const double sign : {1.0, -1.0}) {
+            const Vector3d along = sign * Vector3d::Unit(k);
+            add(none, along);
+            add(along, none);
+            for (const double other : {1.0, -1.0}) {
+                add(along, other * Vector3d::Unit((k + 1) % 3));
+                add(along, other * Vector3d::Unit((k + 2) % 3));
+            }
+        }
+    return starts;
+}
+
 std::vector<similarity> starts_along(std::span<const freedom> motions, double most,
                                      const similarity& at, double diagonal) {
     std::vector<similarity> starts{at};
@@ -98,7 +127,7 @@ std::vector<similarity> starts_along(std::span<const freedom> motions, double mo
     return starts;
 }
 
-std::vector<tried_start> try_starts(const search_task& task, std::span<const Vector3d> few,
+std::vector<tried_start> try_starts(const search_task& task, const moving_points& few,
                                     std::span<const similarity> starts,
                                     function_ref<bool(std::size_t)> go_on) {
     search_task quick = task;
@@ -106,10 +135,13 @@ std::vector<tried_start> try_starts(const search_task& task, std::span<const Vec
     quick.tolerance = std::max(task.tolerance, 1e-3);
     quick.welsch = false;
     quick.scale = false;
+    if (task.welsch) quick.overlap = std::min(task.overlap, most_of_robust);
     std::vector<tried_start> tried;
     for (std::size_t i = 1; i < starts.size() && go_on(i); ++i) {
         matching last;
         tried.push_back({i, search(quick, few, starts[i], last, [](unsigned) { return true; })});
+        search_result& end = tried.back().end;
+        end.at = quality_at(quick, few, end.map, endless, last);
     }
     std::stable_sort(tried.begin(), tried.end(), [](const tried_start& a, const tried_start& b) {
         return a.end.at.cost < b.end.at.cost;

@@ -17,6 +17,7 @@ namespace treeform::detail::place {
 struct inertia {
     Vector3d center = Vector3d::Zero();
     Matrix3d axes = Matrix3d::Identity();  ///< columns, right-handed, along the longest last
+    double radius = 0.0;                   ///< root mean square of the distances to the center
 };
 [[nodiscard]] inertia inertia_of(std::span<const Vector3d> points);
 /// By area: each face as if in its center.
@@ -27,6 +28,11 @@ struct inertia {
 /// \source Alexa, Super-Fibonacci Spirals: Fast, Low-Discrepancy Sampling of SO(3), CVPR (2022)
 [[nodiscard]] std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
                                                 const similarity& present, std::size_t count);
+
+/// `present`, and places around it: shifted by 8% of `diagonal` along the axes, turned by 14 degrees
+/// about lines through `center`, moved already, and both.
+[[nodiscard]] std::vector<similarity> starts_near(const Vector3d& center, const similarity& present,
+                                                  double diagonal);
 
 /// `at`, and places from there along the motions with a stiffness below `most`: 0.1% to 6% of
 /// `diagonal` away in the root mean square, both ways.
@@ -41,8 +47,7 @@ struct tried_start {
 
 /// All starts but the first tried with `few` samples, the best end first, of equals the first.
 /// Stops early, with what there is, when `go_on` says so.
-[[nodiscard]] std::vector<tried_start> try_starts(const search_task& task,
-                                                  std::span<const Vector3d> few,
+[[nodiscard]] std::vector<tried_start> try_starts(const search_task& task, const moving_points& few,
                                                   std::span<const similarity> starts,
                                                   function_ref<bool(std::size_t)> go_on);
 

@@ -35,6 +35,14 @@ using system7 = Eigen::Matrix<double, 7, 8>;
 
 }  // namespace
 
+Eigen::Matrix<double, 3, 6> moves_of(const Vector3d& arm) {
+    Eigen::Matrix<double, 3, 6> moves;
+    moves << 0.0, arm.z(), -arm.y(), 1.0, 0.0, 0.0,  //
+        -arm.z(), 0.0, arm.x(), 0.0, 1.0, 0.0,       //
+        arm.y(), -arm.x(), 0.0, 0.0, 0.0, 1.0;
+    return moves;
+}
+
 std::size_t share_of(double overlap, std::size_t count) {
     return std::max<std::size_t>(
         static_cast<std::size_t>(std::ceil(overlap * static_cast<double>(count) - 1e-9)), 1);
@@ -116,8 +124,15 @@ similarity plane_step(const std::vector<partner>& partners, bool scale) {
         vector<7> row;
         row << cross_product(arm, p.normal), p.normal, scale ? arm.dot(p.normal) : 0.0;
         system7 one;
-        one.leftCols<7>() = p.weight * row * row.transpose();
-        one.col(7) = p.weight * row * (p.to - p.from).dot(p.normal);
+        const double along = p.weight * (p.hold - p.slack);
+        one.leftCols<7>() = along * row * row.transpose();
+        one.col(7) = along * row * (p.to - p.from).dot(p.normal);
+        if (p.slack > 0.0) {
+            Eigen::Matrix<double, 3, 7> moves;
+            moves << moves_of(arm), scale ? arm : Vector3d(Vector3d::Zero());
+            one.leftCols<7>() += p.weight * p.slack * moves.transpose() * moves;
+            one.col(7) += p.weight * p.slack * moves.transpose() * (p.to - p.from);
+        }
         return one;
     });
     const auto [values, vectors] = eigen_of(square<7>(sums.leftCols<7>()));

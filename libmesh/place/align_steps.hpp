@@ -35,6 +35,9 @@ struct partner {
     Vector3d from = Vector3d::Zero(), to = Vector3d::Zero(), normal = Vector3d::Zero();
     double distance = endless;  ///< of none
     double weight = 0.0;        ///< 0: does not count
+    double hold = 1.0;          ///< how much the squared distance along the normal counts
+    double slack = 0.0;         ///< and that across it
+    double noise = 0.0;         ///< how thick both sides are here
 };
 
 /// The sum of `of(partner)` over all that count.
@@ -48,6 +51,9 @@ template <class Sum, class Of>
     for (const Sum& s : sums) zero += s;
     return zero;
 }
+
+/// By x = (turn, shift), a point at `arm` from the center of the turn moves by this times x.
+[[nodiscard]] Eigen::Matrix<double, 3, 6> moves_of(const Vector3d& arm);
 
 /// How many of `count` the share `overlap` is; at least 1.
 [[nodiscard]] std::size_t share_of(double overlap, std::size_t count);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -11,11 +12,9 @@
 namespace treeform::detail::place {
 namespace {
 
-/// Points that a plane of a cloud is fitted to.
-constexpr std::size_t points_of_plane = 12;
-
-Vector3d vector_of(const point3& p) { return {p.x, p.y, p.z}; }
-std::array<double, 3> array_of(const point3& p) { return {p.x, p.y, p.z}; }
+/// What distances across the normals count for, on planes: enough where nothing else holds points,
+/// as of a flat cloud on itself, and too little to hold points on the rings of a scanner.
+constexpr double slack_on_planes = 1e-3;
 
 /// In the plane of a face but beside it, a point would be left there by the normal of the face.
 /// On the surface, except for rounding, directions say nothing.
@@ -27,54 +26,36 @@ Vector3d normal_between(const Vector3d& from, const Vector3d& to, double distanc
     return off / (above < 0.0 ? -distance : distance);
 }
 
-/// Scanners put what they do not see at the origin, thousands of times: a search would look at all
-/// of them, since all are as near.
-void leave_out_equal(std::vector<point3>& points) {
-    const auto key = [](const point3& p) { return std::tuple(p.x, p.y, p.z); };
-    std::sort(points.begin(), points.end(),
-              [&](const point3& a, const point3& b) { return key(a) < key(b); });
-    const auto equal = [&](const point3& a, const point3& b) { return key(a) == key(b); };
-    points.erase(std::unique(points.begin(), points.end(), equal), points.end());
-}
-
-Vector3d plane_normal(const std::vector<point3>& points, std::span<const near_point> of) {
-    if (of.size() < 3) return Vector3d::Zero();
-    Vector3d center = Vector3d::Zero();
-    for (const near_point& n : of) center += vector_of(points[n.id]);
-    center /= static_cast<double>(of.size());
-    Matrix3d sums = Matrix3d::Zero();
-    for (const near_point& n : of) {
-        const Vector3d arm = vector_of(points[n.id]) - center;
-        sums += arm * arm.transpose();
-    }
-    return least_direction(sums);
+/// On the plane between those of both sides. The less these agree, the more only the distance
+/// counts; so does what is beyond the neighbors of the fixed point.
+void meet_on_planes(const surfel& there, const Vector3d& normal, double thickness, partner& p) {
+    const Vector3d off = p.from - p.to;
+    const double cosine = there.normal.dot(normal);
+    const Vector3d both = there.normal + (cosine < 0.0 ? -1.0 : 1.0) * normal;
+    const double length = both.norm();
+    p.normal = length > 0.0 ? Vector3d(both / length) : both;
+    p.hold = std::max(2.0 * cosine * cosine - 1.0, 0.0);
+    p.slack = slack_on_planes;
+    p.noise = std::hypot(there.thickness, thickness);
+    const double along = off.dot(p.normal), whole = off.squaredNorm();
+    const double across = std::max(whole - along * along, 0.0);
+    const double beyond = std::max(std::sqrt(across) - there.reach, 0.0);
+    p.distance = std::sqrt((1.0 - p.hold) * whole +
+                           p.hold * (along * along + beyond * beyond + slack_on_planes * across));
 }
 
 }  // namespace
 
 align_target::align_target(std::vector<point3> points, std::vector<face> faces)
     : points_(std::move(points)), faces_(std::move(faces)) {
-    if (!is_cloud()) {
+    if (is_cloud())
+        cloud_ = searched_cloud(std::move(points_));
+    else
         on_faces_ = nearness::closest_point_query({points_, faces_});
-        return;
-    }
-    leave_out_equal(points_);
-    among_points_ = point_search<3>(points_, array_of);
-    normals_.assign(points_.size(), Vector3d::Zero());
 }
 
-void align_target::find_normals() {
-    if (!is_cloud() || spacing_ > 0.0) return;
-    std::vector<std::array<double, 3>> places;
-    for (const point3& p : points_) places.push_back(array_of(p));
-    const auto near = among_points_.k_nearest(places, points_of_plane);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        if (near[i].size() > 1) sum += near[i][1].distance * near[i][1].distance;
-    spacing_ = std::max(std::sqrt(sum / static_cast<double>(places.size())), 1e-300);
-    for_chunks(places.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) normals_[i] = plane_normal(points_, near[i]);
-    });
+void align_target::find_planes() {
+    if (is_cloud() && surfels_.empty()) surfels_ = cloud_.surfels_at(cloud_.points());
 }
 
 Vector3d align_target::normal_of_face(std::uint32_t f) const {
@@ -85,13 +66,13 @@ Vector3d align_target::normal_of_face(std::uint32_t f) const {
     return length > 0.0 ? Vector3d(n / length) : Vector3d(Vector3d::Zero());
 }
 
-void align_target::match(std::span<const Vector3d> points, const similarity& map, double radius,
+void align_target::match(const moving_points& points, const similarity& map, double radius,
                          matching& last) const {
     const std::size_t count = points.size();
     last.moved.resize(count);
     for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Vector3d p = map(points[i]);
+            const Vector3d p = map(points.points[i]);
             last.moved[i] = {p.x(), p.y(), p.z()};
         }
     });
@@ -99,7 +80,7 @@ void align_target::match(std::span<const Vector3d> points, const similarity& map
         throw std::overflow_error("treeform::align: the moving points are too far away");
     last.partners.resize(count);
     if (is_cloud())
-        match_cloud(radius, last);
+        match_cloud(points, map, radius, last);
     else
         match_mesh(radius, last);
 }
@@ -130,65 +111,78 @@ void align_target::match_mesh(double radius, matching& last) const {
     });
 }
 
-/// Finds the partner among what was near when the point was looked for last; false where it may be
-/// another one, since the point has moved too far from there.
-bool align_target::is_still_near(const matching::last_search& before, partner& p) const {
-    std::uint32_t nearest = 0;
-    double least = endless;
+namespace {
+
+/// The nearest of what was near when the point was looked for last; none where it may be another
+/// one, since the point has moved too far from there.
+std::optional<near_point> still_nearest(const std::vector<point3>& points,
+                                        const matching::last_search& before, const Vector3d& from) {
+    near_point nearest{0, endless};
     for (std::uint32_t k = 0; k < before.count; ++k) {
         const std::uint32_t id = before.near[k];
-        const double squared = (p.from - vector_of(points_[id])).squaredNorm();
-        if (squared < least || (squared == least && id < nearest)) {
-            least = squared;
-            nearest = id;
-        }
+        const double squared = (from - vector_of(points[id])).squaredNorm();
+        if (squared < nearest.distance || (squared == nearest.distance && id < nearest.id))
+            nearest = {id, squared};
     }
-    const double distance = std::sqrt(least);
-    if (!(distance < (before.others - (p.from - before.at).norm()) * (1.0 - 1e-12) - 1e-14))
-        return false;
-    p.to = vector_of(points_[nearest]);
-    p.distance = distance;
-    p.normal = normals_[nearest];
-    return true;
+    nearest.distance = std::sqrt(nearest.distance);
+    const double reach = (before.others - (from - before.at).norm()) * (1.0 - 1e-12) - 1e-14;
+    return nearest.distance < reach ? std::optional(nearest) : std::nullopt;
 }
 
-void align_target::match_cloud(double radius, matching& last) const {
+}  // namespace
+
+void align_target::meet(const moving_points& points, const similarity& map, std::size_t i,
+                        const near_point& nearest, partner& p) const {
+    p.to = vector_of(cloud_.points()[nearest.id]);
+    p.distance = nearest.distance;
+    if (surfels_.empty()) return;
+    const surfel& there = surfels_[nearest.id];
+    p.normal = there.normal;
+    p.noise = there.thickness;
+    if (points.surfels.empty()) return;
+    const surfel& here = points.surfels[i];
+    meet_on_planes(there, map.rotation * here.normal, map.scale * here.thickness, p);
+}
+
+void align_target::match_cloud(const moving_points& points, const similarity& map, double radius,
+                               matching& last) const {
     const std::size_t count = last.moved.size();
     last.last.resize(count);
+    last.near.resize(count);
     for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             partner& p = last.partners[i];
             p = {};
             p.from = vector_of(last.moved[i]);
-            static_cast<void>(is_still_near(last.last[i], p));
+            const auto nearest = still_nearest(cloud_.points(), last.last[i], p.from);
+            last.near[i] = nearest.value_or(near_point{0, endless});
         }
     });
     last.searched.clear();
     for (std::size_t i = 0; i < count; ++i)
-        if (!(last.partners[i].distance < endless))
+        if (!(last.near[i].distance < endless))
             last.searched.push_back(static_cast<std::uint32_t>(i));
     std::vector<std::array<double, 3>> queries;
     queries.reserve(last.searched.size());
     for (const std::uint32_t i : last.searched) queries.push_back(array_of(last.moved[i]));
     constexpr std::size_t wanted = std::tuple_size_v<decltype(matching::last_search::near)>;
-    const auto found = among_points_.k_nearest(queries, wanted, radius);
+    const auto found = cloud_.search().k_nearest(queries, wanted, radius);
     for_chunks(queries.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t q = begin; q < end; ++q) {
             const auto near = found[q];
-            partner& p = last.partners[last.searched[q]];
             auto& entry = last.last[last.searched[q]];
-            entry.at = p.from;
+            entry.at = last.partners[last.searched[q]].from;
             entry.count = static_cast<std::uint32_t>(near.size());
             for (std::size_t k = 0; k < near.size(); ++k) entry.near[k] = near[k].id;
             entry.others = near.size() == wanted ? near.back().distance : radius;
-            if (near.empty()) continue;
-            p.to = vector_of(points_[near[0].id]);
-            p.distance = near[0].distance;
-            p.normal = normals_[near[0].id];
+            if (!near.empty()) last.near[last.searched[q]] = near[0];
         }
     });
-    for (partner& p : last.partners)
-        if (p.distance > radius) p.distance = endless;
+    for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (last.near[i].distance <= radius && last.near[i].distance < endless)
+                meet(points, map, i, last.near[i], last.partners[i]);
+    });
 }
 
 }  // namespace treeform::detail::place

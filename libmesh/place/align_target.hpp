@@ -4,8 +4,8 @@
 
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/place/align_steps.hpp>
+#include <libmesh/place/align_surface.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/point_search.hpp>
 
 #include <array>
 #include <cstddef>
@@ -14,6 +14,13 @@
 #include <vector>
 
 namespace treeform::detail::place {
+
+/// Points to align, in an order of space, and the planes there if those count, too.
+struct moving_points {
+    std::vector<Vector3d> points;
+    std::vector<surfel> surfels;  ///< [P], or none
+    [[nodiscard]] std::size_t size() const { return points.size(); }
+};
 
 /// The partners of points at one place, and what of them helps to find those at the next.
 struct matching {
@@ -30,6 +37,7 @@ struct matching {
         double others = 0.0;
     };
     std::vector<last_search> last;
+    std::vector<near_point> near;  ///< [P] likewise, what is nearest
 };
 
 /// A mesh, or a cloud, in the frame of the alignment.
@@ -39,30 +47,29 @@ class align_target {
     align_target(std::vector<point3> points, std::vector<face> faces);
 
     [[nodiscard]] bool is_cloud() const { return faces_.empty(); }
-    /// Distance from which two points of a cloud are neighbors: the root mean square of those to
-    /// the nearest other point, known once there are normals. 0 of a mesh.
-    [[nodiscard]] double spacing() const { return spacing_; }
-    /// Fits planes to the points of a cloud. Normals are zero before, and where there is no plane.
-    void find_normals();
+    /// Fits planes to the points of a cloud. There are none before.
+    void find_planes();
 
     /// The partners of `points`, in an order of space and at `map`, those that have one within
     /// `radius`. What `last` holds is of the same points, or nothing.
     /// \throws std::overflow_error when a point is not finite there
-    void match(std::span<const Vector3d> points, const similarity& map, double radius,
+    void match(const moving_points& points, const similarity& map, double radius,
                matching& last) const;
 
   private:
     void match_mesh(double radius, matching& last) const;
-    void match_cloud(double radius, matching& last) const;
-    [[nodiscard]] bool is_still_near(const matching::last_search& before, partner& p) const;
+    void match_cloud(const moving_points& points, const similarity& map, double radius,
+                     matching& last) const;
+    /// Makes the fixed point the partner of moving point i.
+    void meet(const moving_points& points, const similarity& map, std::size_t i,
+              const near_point& nearest, partner& p) const;
     [[nodiscard]] Vector3d normal_of_face(std::uint32_t f) const;
 
     std::vector<point3> points_;
     std::vector<face> faces_;
-    std::vector<Vector3d> normals_;  ///< [V] of a cloud
-    double spacing_ = 0.0;
     nearness::closest_point_query on_faces_;
-    point_search<3> among_points_;
+    searched_cloud cloud_;
+    std::vector<surfel> surfels_;  ///< [V] of a cloud, once there are planes
 };
 
 }  // namespace treeform::detail::place

@@ -25,10 +25,10 @@ eigen_system<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric) {
     return solved<Eigen::Dynamic>(symmetric);
 }
 
-Vector3d least_direction(const Matrix3d& symmetric) {
+eigen_system<3> eigen_in_closed_form(const Matrix3d& symmetric) {
     Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
     solver.computeDirect(symmetric);
-    return solver.eigenvectors().col(0);
+    return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 singular_system singular_of(const Matrix3d& matrix) {

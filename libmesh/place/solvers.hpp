@@ -27,8 +27,8 @@ struct eigen_system {
 [[nodiscard]] eigen_system<7> eigen_of(const square<7>& symmetric);
 [[nodiscard]] eigen_system<Eigen::Dynamic> eigen_of(const Eigen::MatrixXd& symmetric);
 
-/// The vector of the least eigenvalue, in closed form: faster, and less precise.
-[[nodiscard]] Vector3d least_direction(const Matrix3d& symmetric);
+/// Faster, and less precise.
+[[nodiscard]] eigen_system<3> eigen_in_closed_form(const Matrix3d& symmetric);
 
 /// matrix = left diag(values) right^T; `mirrored` if left right^T is no rotation.
 struct singular_system {

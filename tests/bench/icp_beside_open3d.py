@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""icp_beside_open3d.py TF_PLACE MOVING FIXED [TIMES]: the same two clouds aligned by tf-place fit and
-by Open3D's ICP (Debian's python3-open3d), in turn, on all cores.
+"""icp_beside_open3d.py TF_PLACE FOLDER [OPTION...]: the pairs that tests/stress writes to
+TREEFORM_PAIRS_DIR, fitted by `tf-place fit` and by Open3D's ICP (Debian's python3-open3d), in turn,
+on all cores.
 
-Prints the median time of the alignment alone (of treeform's report; of Open3D's call, with its
-search tree) and the root mean square of what is left, measured alike for both: from each point of
-MOVING to the nearest of FIXED. Skipped, with status 77, where Open3D is not installed."""
+Open3D is told to look for partners within a tenth of the diagonal, as far as the pairs are apart, to
+fit planes to the 20 nearest points, and to take up to 100 steps. A mesh that is fixed is for Open3D a cloud
+of 20,000 points spread over it, made before its time is taken. Times are of planes, index and
+search; of treeform as it reports them. Prints a table; the options go to tf-place. Skipped, with
+status 77, where Open3D is not installed."""
 
 import json
-import statistics
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -20,48 +23,92 @@ except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
 
-
-def left_over(moving, fixed, matrix):
-    """The root mean square of the nearest three quarters of the distances: both have no partner for
-    the rest."""
-    moved = open3d.geometry.PointCloud(moving).transform(matrix)
-    distances = numpy.sort(numpy.asarray(moved.compute_point_cloud_distance(fixed)))
-    return float(numpy.sqrt(numpy.mean(distances[: 3 * len(distances) // 4] ** 2)))
+registration = open3d.pipelines.registration
 
 
-def by_treeform(tool, moving, fixed, *options):
+class Pair:
+    def __init__(self, start):
+        name, right, scanner, *rows = start.with_suffix(".txt").read_text().splitlines()
+        self.name = name
+        self.right, self.turn = map(float, right.split())
+        self.scanner = numpy.array([*map(float, scanner.split()), 1.0])
+        self.truth = numpy.vstack([[float(x) for x in row.split()] for row in rows] +
+                                  [[0, 0, 0, 1]])
+        self.moving_name = f"{start}_moving.ply"
+        self.fixed_name = f"{start}_fixed.ply"
+        self.moving = open3d.io.read_point_cloud(self.moving_name)
+        self.fixed = open3d.io.read_point_cloud(self.fixed_name)
+        with open(self.fixed_name, "rb") as file:
+            if b"element face" in file.read(1000):
+                mesh = open3d.io.read_triangle_mesh(self.fixed_name)
+                self.fixed = mesh.sample_points_uniformly(20000)
+
+    def is_right(self, matrix):
+        """As in tests/stress/fit_pairs.cpp."""
+        off = matrix - self.truth
+        if numpy.isfinite(self.turn):
+            cosine = (numpy.trace(matrix[:3, :3].T @ self.truth[:3, :3]) - 1) / 2
+            return (numpy.linalg.norm(off @ self.scanner) <= self.right and
+                    numpy.arccos(numpy.clip(cosine, -1, 1)) <= self.turn)
+        points = numpy.asarray(self.moving.points)
+        moved = points @ off[:3, :3].T + off[:3, 3]
+        return numpy.sqrt(numpy.mean(numpy.sum(moved**2, axis=1))) <= self.right
+
+
+def by_treeform(tool, pair, options):
     with tempfile.NamedTemporaryFile(suffix=".json") as report:
-        subprocess.run([tool, "fit", moving, "--fixed", fixed, "-n", "-o", "x.ply", "-q", *options,
-                        "-f", "-r", report.name], check=False)
+        run = subprocess.run([tool, "fit", pair.moving_name, "--fixed", pair.fixed_name, "-n", "-q",
+                              "-o", "x.ply", *options, "-f", "-r", report.name], check=False)
         said = json.load(open(report.name))
-    entry = said["files"][0]
     seconds = said["seconds"]["prepare"] + said["seconds"]["search"]
-    return seconds, numpy.array(entry["matrix"]).reshape(4, 4)
+    return seconds, numpy.array(said["files"][0]["matrix"]).reshape(4, 4), run.returncode == 0
 
 
-def by_open3d(moving, fixed, distance, iterations):
+def by_open3d(pair, planes_of_both):
+    moving = open3d.geometry.PointCloud(pair.moving)
+    fixed = open3d.geometry.PointCloud(pair.fixed)
+    box = fixed.get_axis_aligned_bounding_box()
+    reach = 0.1 * float(numpy.linalg.norm(box.get_extent()))
+    criteria = registration.ICPConvergenceCriteria(max_iteration=100)
     start = time.perf_counter()
-    found = open3d.pipelines.registration.registration_icp(
-        moving, fixed, distance, numpy.eye(4),
-        open3d.pipelines.registration.TransformationEstimationPointToPoint(),
-        open3d.pipelines.registration.ICPConvergenceCriteria(max_iteration=iterations))
-    return time.perf_counter() - start, found.transformation
+    if planes_of_both:
+        found = registration.registration_generalized_icp(
+            moving, fixed, reach, numpy.eye(4),
+            registration.TransformationEstimationForGeneralizedICP(), criteria)
+    else:
+        fixed.estimate_normals(open3d.geometry.KDTreeSearchParamKNN(20))
+        found = registration.registration_icp(
+            moving, fixed, reach, numpy.eye(4),
+            registration.TransformationEstimationPointToPlane(), criteria)
+    return time.perf_counter() - start, found.transformation, None
 
 
 def main():
-    tool, moving_name, fixed_name = sys.argv[1:4]
-    times = int(sys.argv[4]) if len(sys.argv) > 4 else 5
-    moving = open3d.io.read_point_cloud(moving_name)
-    fixed = open3d.io.read_point_cloud(fixed_name)
-    box = fixed.get_axis_aligned_bounding_box()
-    reach = 0.05 * float(numpy.linalg.norm(box.get_extent()))
-    ours, theirs = [], []
-    for _ in range(times):
-        ours.append(by_treeform(tool, moving_name, fixed_name, "--max-distance", str(reach)))
-        theirs.append(by_open3d(moving, fixed, reach, 100))
-    for name, runs in (("treeform", ours), ("Open3D " + open3d.__version__, theirs)):
-        seconds = statistics.median(t for t, _ in runs)
-        print(f"{name:16} {seconds:8.3f} s   rms {left_over(moving, fixed, runs[-1][1]):.6g}")
+    tool, folder, *options = sys.argv[1:]
+    starts = sorted(pathlib.Path(folder).glob("*.txt"), key=lambda path: int(path.stem))
+    name = "Open3D " + open3d.__version__
+    ways = {
+        "tf-place fit " + " ".join(options): lambda pair: by_treeform(tool, pair, options),
+        name + ", point to plane": lambda pair: by_open3d(pair, False),
+        name + ", generalized": lambda pair: by_open3d(pair, True),
+    }
+    found = dict.fromkeys(ways, 0)
+    mistaken = dict.fromkeys(ways, 0)
+    seconds = {way: [] for way in ways}
+    for start in starts:
+        pair = Pair(start.with_suffix(""))
+        for way, fit in ways.items():
+            took, matrix, said_right = fit(pair)
+            right = pair.is_right(matrix)
+            found[way] += right
+            mistaken[way] += bool(said_right) and not right
+            seconds[way].append(took)
+    print(f"| of {len(starts)} pairs | found | wrong, status 0 | s, all | s, median |")
+    print("|---|---:|---:|---:|---:|")
+    for way in ways:
+        wrong = mistaken[way] if way.startswith("tf-place") else "says nothing"
+        print(f"| {way} | {found[way]} | {wrong} | {sum(seconds[way]):.1f} | "
+              f"{numpy.median(seconds[way]):.3f} |")
 
 
 if __name__ == "__main__":

@@ -221,6 +221,7 @@ static void test_align(void) {
     options.start = shift;
     OK(treeform_align(moving, fixed, &options, &result));
     CHECK(result->rms < 1e-6 && result->rms_at_start > 1e-4 && result->end == 0);
+    CHECK(result->uncertainty < 1e-6);
     CHECK(result->freedom_count == 6 && result->freedoms[0].stiffness < 0.02);
     CHECK(result->point_count == arrays.point_count && near(result->scale, 1.0));
     treeform_free(result);

@@ -124,7 +124,12 @@ def test_align():
         assert found.rms < 1e-6 < found.rms_at_start
         assert np.allclose(found.vertices, ball.vertices, atol=1e-4)
     started = tf.align(scan, ball, start=np.linalg.inv(matrix))
-    assert started.rms < 1e-12
+    assert started.rms < 1e-12 and started.uncertainty < 1e-12
+    for method in ("automatic", "plane_to_plane", "point_to_point"):
+        cloud = tf.align(scan, ball.vertices, method=method, weights="equal")
+        assert np.allclose(cloud.vertices, ball.vertices, atol=1e-3)
+    twice = tf.align(2 * scan, ball.vertices, scale=True)
+    assert twice and twice.scale == pytest.approx(0.5, rel=1e-3)
     with pytest.raises(ValueError, match="overlap"):
         tf.align(scan, ball, overlap=2.0)
 

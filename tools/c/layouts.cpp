@@ -75,9 +75,9 @@ tf::pack_options options_of(const treeform_pack_options* options) {
 tf::align_options options_of(const treeform_align_options* options) {
     const auto o = glue::chosen(options, treeform_align_options_init);
     tf::align_options how;
-    how.method = glue::choice<tf::align_method>(o.method, 3, "method");
+    how.method = glue::choice<tf::align_method>(o.method, 4, "method");
     how.overlap = o.overlap;
-    how.weights = glue::choice<tf::align_weights>(o.weights, 2, "weights");
+    how.weights = glue::choice<tf::align_weights>(o.weights, 3, "weights");
     how.max_distance = o.max_distance;
     how.scale = o.scale != 0;
     how.max_iterations = o.max_iterations;
@@ -111,6 +111,7 @@ void fill(glue::answer<treeform_align_result>& made, const tf::align_result& fro
     r.iterations = from.iterations;
     r.start = from.start;
     r.message = made.keep(from.message()).c_str();
+    r.uncertainty = from.uncertainty;
 }
 
 }  // namespace
@@ -183,6 +184,7 @@ void treeform_align_options_init(treeform_align_options* options, size_t size) {
     const tf::align_options from;
     treeform_align_options defaults{};
     defaults.method = TREEFORM_ALIGN_AUTOMATIC;
+    defaults.weights = TREEFORM_WEIGHTS_AUTOMATIC;
     defaults.overlap = from.overlap;
     defaults.max_distance = from.max_distance;
     defaults.max_iterations = from.max_iterations;

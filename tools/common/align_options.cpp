@@ -14,8 +14,8 @@ namespace tools {
 namespace {
 
 /// By `align_method` and `align_weights`.
-constexpr std::array<const char*, 3> metrics{"plane", "point", "auto"};
-constexpr std::array<const char*, 2> weights{"equal", "welsch"};
+constexpr std::array<const char*, 4> metrics{"plane", "point", "auto", "planes"};
+constexpr std::array<const char*, 3> weights{"equal", "welsch", "auto"};
 
 unsigned parse_number_of(std::string_view option, std::string_view text, std::uint64_t least) {
     const std::uint64_t count = parse_count(option, text);
@@ -47,14 +47,15 @@ void add_align_options(command_line& line, tf::align_options& options) {
                 });
     line.option(o.weights,
                 {"--weights", "W",
-                 "fit: equal, or welsch: far pairs count less; finds out\n"
-                 "by itself what has no partner, up to half of MOVING",
-                 "equal"},
+                 "fit: equal | welsch | auto: equal, on a cloud welsch.\n"
+                 "welsch: far pairs count less; finds out by itself what\n"
+                 "has no partner, up to half of MOVING",
+                 "auto"},
                 weights);
     line.option(o.method,
                 {"--metric", "M",
-                 "fit: distances to a plane | point | auto: planes, but\n"
-                 "of a fixed cloud points",
+                 "fit: distances to a plane | point | planes of both\n"
+                 "clouds | auto: plane, but of a fixed cloud planes",
                  "auto"},
                 metrics);
     line.option({"--starts", "N",
@@ -92,6 +93,7 @@ json align_entry(const tf::align_result& r) {
             {"overlap", r.overlap},
             {"inliers", r.inliers},
             {"correlation", r.correlation},
+            {"uncertainty", r.uncertainty},
             {"scale", r.scale},
             {"converged", r.converged},
             {"end", tf::name_of(r.end)},
@@ -110,6 +112,7 @@ std::string align_sentence(const tf::align_result& r) {
         case tf::align_end::doubtful:
             return "in doubt " + r.message() +
                    "; neighbors are off to the same side (correlation " + brief(r.correlation) +
+                   ") or too little holds the place (uncertainty " + brief(r.uncertainty) +
                    "): a wrong place, or parts without a partner; --starts 100, --weights welsch "
                    "or --overlap may help";
         case tf::align_end::out_of_iterations:

@@ -343,11 +343,13 @@ class Alignment(MeshResult):
     matrix: (4, 4) new = M old, with `start` included.
     mesh: The moved mesh; of a cloud, one without faces.
     rms: Root mean square of the distances that count, after.
-    rms_at_start: The same before.
+    rms_at_start: The same before, without weights.
     overlap: Share of the moving points with a partner within `max_distance`, after.
     inliers: Moving points within 4.5 medians of the distances that count.
     correlation: Of the signed distances of neighbors: near 0 for noise, near 1 where regions are
         off.
+    uncertainty: How far the points may be from where they belong, by what remains: the standard
+        deviation as a root mean square over the points.
     scale: Found in addition to that of `start`.
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
     converged: Whether it has, and nothing speaks against the place.
@@ -364,6 +366,7 @@ class Alignment(MeshResult):
     overlap: float
     inliers: int
     correlation: float
+    uncertainty: float
     scale: float
     end: str
     converged: bool
@@ -377,15 +380,16 @@ class Alignment(MeshResult):
 
 
 def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float = 1.0,
-          weights: str = "equal", max_distance: float = np.inf, scale: bool = False,
+          weights: str = "automatic", max_distance: float = np.inf, scale: bool = False,
           max_iterations: int = 100, tolerance: float = 1e-6, starts: int = 1,
           samples: int = 100_000, start: ArrayLike | None = None, precision: str = "float64",
           progress: Progress = None) -> Alignment:
     """The rigid motion that brings a mesh or cloud (n, 3) near another one: iterative closest
     point, from where it is or from several places.
 
-    method: 'point_to_plane', 'point_to_point' or 'automatic' (planes of a mesh, points of a cloud).
-    overlap: the share of the moving points that have a partner. weights: 'equal' or 'welsch'.
+    method: 'point_to_plane', 'point_to_point', 'plane_to_plane' (of two clouds) or 'automatic'
+    (planes of a mesh, planes of both clouds). overlap: the share of the moving points that have a
+    partner. weights: 'equal', 'welsch' or 'automatic' (Welsch's on a cloud).
     max_distance: ignore partners further apart. scale: find a uniform scale, too.
     starts: places to start from, turned all around. samples: points used in the steps; 0 is all.
     start: (4, 4) applied first.

@@ -332,24 +332,33 @@ TREEFORM_C_API treeform_code treeform_pack(const treeform_mesh* const* parts, si
 
 /// What each step of ICP makes small, and how pairs count.
 typedef int32_t treeform_align_method;
-enum { TREEFORM_POINT_TO_PLANE = 0, TREEFORM_POINT_TO_POINT = 1, TREEFORM_ALIGN_AUTOMATIC = 2 };
+enum {
+    TREEFORM_POINT_TO_PLANE = 0,
+    TREEFORM_POINT_TO_POINT = 1,
+    TREEFORM_ALIGN_AUTOMATIC = 2,  ///< planes of a mesh, planes of both clouds
+    TREEFORM_PLANE_TO_PLANE = 3    ///< of both clouds
+};
 typedef int32_t treeform_align_weights;
-enum { TREEFORM_WEIGHTS_EQUAL = 0, TREEFORM_WEIGHTS_WELSCH = 1 };
+enum {
+    TREEFORM_WEIGHTS_EQUAL = 0,
+    TREEFORM_WEIGHTS_WELSCH = 1,
+    TREEFORM_WEIGHTS_AUTOMATIC = 2  ///< equal on a fixed mesh, Welsch's on a fixed cloud
+};
 
 /// How to align.
 typedef struct treeform_align_options {
     size_t size;
-    treeform_align_method method;  ///< default: automatic
-    double overlap;                ///< share of the moving points that have a partner; default 1
-    treeform_align_weights weights;
-    double max_distance;      ///< ignore partners further apart; default: infinite
-    int32_t scale;            ///< find a uniform scale, too
-    uint32_t max_iterations;  ///< default 100
-    double tolerance;         ///< default 1e-6
-    uint32_t starts;          ///< default 1
-    int32_t accelerate;       ///< default 1
-    uint64_t samples;         ///< default 100000; 0 is all
-    const double* start;      ///< [12] applied to the moving points first; or null
+    treeform_align_method method;    ///< default: automatic
+    double overlap;                  ///< share of the moving points that have a partner; default 1
+    treeform_align_weights weights;  ///< default: automatic
+    double max_distance;             ///< ignore partners further apart; default: infinite
+    int32_t scale;                   ///< find a uniform scale, too
+    uint32_t max_iterations;         ///< default 100
+    double tolerance;                ///< default 1e-6
+    uint32_t starts;                 ///< default 1
+    int32_t accelerate;              ///< default 1
+    uint64_t samples;                ///< default 100000; 0 is all
+    const double* start;             ///< [12] applied to the moving points first; or null
     treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
@@ -394,6 +403,7 @@ typedef struct treeform_align_result {
     uint32_t iterations;
     uint32_t start;
     const char* message;
+    double uncertainty;  ///< how far the points may be off: standard deviation, root mean square
 } treeform_align_result;
 
 /// The rigid motion that brings the points of `moving` near `fixed`, a mesh or cloud. Returns
