@@ -93,8 +93,7 @@ struct boolean_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// Where rounding makes faces meet, nothing further apart is joined, in the mesh's own length
-    /// unit, nor anything further than 2^-10 of the largest coordinate. How far the result moved is
-    /// `certificate::max_displacement`. Not negative.
+    /// unit, nor further than 2^-10 of the largest coordinate. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Otherwise coplanar faces that were cut, or that overlap, are merged, exactly and before
     /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a straight
