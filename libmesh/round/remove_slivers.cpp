@@ -28,6 +28,12 @@ using ids = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
 
+/// Changes that help nothing but those that follow. Few are enough: what they do not open is cut.
+constexpr int most_sideways = 100;
+/// Pairs of faces that are held against each other, for each pair that meets and beyond. Real parts
+/// take some 1000 a pair; where one face meets thousands, it is better to cut.
+constexpr std::size_t looks_a_pair = std::size_t{1} << 12, fewest_looks = std::size_t{1} << 20;
+
 /// `point` becomes the corner `at`; or the edge, or the face, between these gets it; or the edge is
 /// turned, to the one from `point` to `across`.
 struct sliver_change {
@@ -65,7 +71,7 @@ class sliver_removal {
         for (const face_pair& pair : meeting) {
             bad.insert(bad.end(), {pair.a, pair.b});
             if (pair.a == pair.b) continue;
-            sideways_ += 2;
+            looks_ += looks_a_pair;
             meets_[pair.a].push_back(pair.b);
             meets_[pair.b].push_back(pair.a);
         }
@@ -73,7 +79,7 @@ class sliver_removal {
     }
 
     slivers_removed run() {
-        while (!next_.empty()) {
+        while (!next_.empty() && looks_ > 0) {
             const auto [size, f] = next_.top();
             next_.pop();
             if (!tree_.contains(f) || !is_bad(f)) continue;
@@ -315,6 +321,7 @@ class sliver_removal {
     }
 
     [[nodiscard]] bool meet(const face& f, const face& g) {
+        looks_ -= looks_ > 0 ? 1 : 0;
         return intersect::classify_pair(points_, f, g, counters_).has_value();
     }
 
@@ -427,7 +434,8 @@ class sliver_removal {
     using place_in_line = std::pair<double, std::uint32_t>;
     std::priority_queue<place_in_line, std::vector<place_in_line>, std::greater<>> next_{};
     predicate_counters counters_{};
-    std::size_t sideways_ = 100;  ///< changes left that may help nothing but those that follow
+    int sideways_ = most_sideways;      ///< left
+    std::size_t looks_ = fewest_looks;  ///< left
     std::uint64_t changes_ = 0;
     double moved_ = 0.0;
 };
