@@ -124,6 +124,8 @@ class TilesOfMeshes(WeldTest):
             entry = self.entry(*command, "-o", out, *also, "-f", *tiled, status=0)
             self.assertEqual(entry["tiles"] is None, not tiled)
             entry["tiles"] = 0
+            # Shapes of faces are looked at in memory alone.
+            entry["warnings"] = [w for w in entry["warnings"] if w["code"] != "concave-faces"]
             found.append([entry] + [self.read_bytes(n) for n in (out, *also[1::2])])
             for name in (out, *also[1::2]):
                 os.remove(self.path(name))
