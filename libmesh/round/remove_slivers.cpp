@@ -30,9 +30,6 @@ constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
 
 /// Changes that help nothing but those that follow. Few are enough: what they do not open is cut.
 constexpr int most_sideways = 100;
-/// Pairs of faces that are held against each other, for each pair that meets and beyond. Real parts
-/// take some 1000 a pair; where one face meets thousands, it is better to cut.
-constexpr std::size_t looks_a_pair = std::size_t{1} << 12, fewest_looks = std::size_t{1} << 20;
 
 /// `point` becomes the corner `at`; or the edge, or the face, between these gets it; or the edge is
 /// turned, to the one from `point` to `across`.
@@ -71,15 +68,16 @@ class sliver_removal {
         for (const face_pair& pair : meeting) {
             bad.insert(bad.end(), {pair.a, pair.b});
             if (pair.a == pair.b) continue;
-            looks_ += looks_a_pair;
             meets_[pair.a].push_back(pair.b);
             meets_[pair.b].push_back(pair.a);
         }
+        std::ranges::sort(bad);
+        bad.erase(std::ranges::unique(bad).begin(), bad.end());
         for (const std::uint32_t f : bad) line_up(f);
     }
 
     slivers_removed run() {
-        while (!next_.empty() && looks_ > 0) {
+        while (!next_.empty() && looks_ < limits_.looks) {
             const auto [size, f] = next_.top();
             next_.pop();
             if (!tree_.contains(f) || !is_bad(f)) continue;
@@ -95,6 +93,7 @@ class sliver_removal {
         slivers_removed result;
         result.changes = changes_;
         result.moved = moved_;
+        result.looks = looks_;
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
             if (!tree_.contains(f)) continue;
             result.faces.push_back(faces_[f]);
@@ -152,16 +151,18 @@ class sliver_removal {
 
     /// Those that bring the corners of a face to what it is near: to each other and its edges, and
     /// to faces that it meets; and the corners of these to the face.
-    [[nodiscard]] std::vector<sliver_change> changes_of(std::uint32_t f) const {
+    [[nodiscard]] std::vector<sliver_change> changes_of(std::uint32_t f) {
         std::vector<sliver_change> changes;
         add_changes(f, f, changes);
         add_turns(f, changes);
         const auto met = meets_.find(f);
-        if (met != meets_.end())
+        if (met != meets_.end()) {
+            looks_ += met->second.size();
             for (const std::uint32_t g : met->second) {
                 add_changes(f, g, changes);
                 add_changes(g, f, changes);
             }
+        }
         std::sort(changes.begin(), changes.end());
         return changes;
     }
@@ -321,7 +322,7 @@ class sliver_removal {
     }
 
     [[nodiscard]] bool meet(const face& f, const face& g) {
-        looks_ -= looks_ > 0 ? 1 : 0;
+        ++looks_;
         return intersect::classify_pair(points_, f, g, counters_).has_value();
     }
 
@@ -434,8 +435,8 @@ class sliver_removal {
     using place_in_line = std::pair<double, std::uint32_t>;
     std::priority_queue<place_in_line, std::vector<place_in_line>, std::greater<>> next_{};
     predicate_counters counters_{};
-    int sideways_ = most_sideways;      ///< left
-    std::size_t looks_ = fewest_looks;  ///< left
+    int sideways_ = most_sideways;  ///< left
+    std::uint64_t looks_ = 0;
     std::uint64_t changes_ = 0;
     double moved_ = 0.0;
 };

@@ -6,6 +6,7 @@
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct sliver_limits {
     double reach = 0.0;  ///< what is no further apart than this may be joined
     double thin = 0.0;   ///< faces of less height are as bad as faces that meet
     bool solid = true;   ///< the faces bound a solid: what covers each other back to back goes
+    /// About as many pairs of faces are held against each other.
+    std::uint64_t looks = std::numeric_limits<std::uint64_t>::max();
 };
 
 struct slivers_removed {
@@ -24,6 +27,7 @@ struct slivers_removed {
     std::vector<std::uint8_t> is_new;  ///< [F] 0 for faces that are as they were
     std::uint64_t changes = 0;
     double moved = 0.0;  ///< furthest apart of what was joined
+    std::uint64_t looks = 0;
 };
 
 /// Where rounding makes faces meet, one of them is nearly always thinner than points were moved: a
@@ -42,7 +46,7 @@ struct slivers_removed {
 /// \param  meeting  all pairs of faces that meet; (f, f) for those without an area or that may be
 ///                  thin
 /// \cost   O(F) for a tree over the faces; for each pair a few changes, each as many searches in
-///         the tree as there are faces at it, and at most 4096 pairs of faces looked at
+///         the tree as there are faces at it
 /// \same   on any number of threads
 /// \source Milenkovic and Sacks, Two approximate Minkowski sum algorithms, IJCGA 20 (2010),
 ///         separate features before they round them
