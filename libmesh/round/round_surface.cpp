@@ -110,8 +110,9 @@ class rounding {
         for (int round = 1; reach <= limit; ++round) {
             if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
             if (round % rounds_of_reach == 0) reach *= 4.0;
-            if (pairs_.size() > 3 * faces_given_ + 1000)
-                continue;  // far more than there was to cut
+            const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
+            if (result_.surface.faces.size() > most) return;
+            if (pairs_.size() > most) continue;
             ++result_.rounds;
             if (!cut_again() || !settle()) return;
             if (check() || is_cancelled()) return;
