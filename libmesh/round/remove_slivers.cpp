@@ -72,7 +72,7 @@ class sliver_removal {
             meets_[pair.b].push_back(pair.a);
         }
         std::ranges::sort(bad);
-        bad.erase(std::ranges::unique(bad).begin(), bad.end());
+        bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
         for (const std::uint32_t f : bad) line_up(f);
     }
 

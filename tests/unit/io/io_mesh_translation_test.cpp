@@ -69,7 +69,8 @@ std::vector<double> corner_numbers(const tf::mesh_file& file, const std::string&
             if (!values.empty())
                 all.push_back(values[file.mesh.faces[f][k]]);
             else if (name[0] == 'n' && !own.normal_of_corner.empty())
-                all.push_back(own.normals[own.normal_of_corner[f][k]][name[1] - 'x']);
+                all.push_back(own.normals[own.normal_of_corner[f][k]]
+                                         [static_cast<std::size_t>(name[1] - 'x')]);
             else if ((name == "s" || name == "t") && !own.texture_of_corner.empty())
                 all.push_back(own.texture[own.texture_of_corner[f][k]][name == "s" ? 0 : 1]);
         }

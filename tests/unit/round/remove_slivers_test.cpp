@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>
+#include <support/soups.hpp>
 
 #include <cmath>
 #include <cstdint>
