@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <new>
 #include <system_error>
 
 namespace tools {
@@ -39,6 +40,12 @@ bool move_into_place(const fs::path& from, const fs::path& to, bool force) {
     return link(from.c_str(), to.c_str()) == 0 && unlink(from.c_str()) == 0;
 }
 
+/// The last call that failed says why.
+[[noreturn]] void refuse_by_errno(const fs::path& path) {
+    if (errno == ENOMEM) throw std::bad_alloc();
+    refuse(path, std::string("cannot be written: ") + std::generic_category().message(errno));
+}
+
 }  // namespace
 
 bool written_directly(const fs::path& path) {
@@ -65,7 +72,7 @@ output_place::output_place(fs::path path, bool force)
     check_output(path_, force_);
     if (written_directly(path_)) return;
     if (!folder_.make_folder((folder_of(target_) / ".unfinished-XXXXXX").string()))
-        refuse(path_, std::string("cannot be written: ") + std::generic_category().message(errno));
+        refuse_by_errno(path_);
     writable_ = fs::path(folder_.path()) / target_.filename();
 }
 
@@ -125,8 +132,7 @@ void output_file::commit() {
 }
 
 void output_file::fail() const {
-    refuse(place_.path() == "-" ? fs::path("standard output") : place_.path(),
-           std::string("cannot be written: ") + std::generic_category().message(errno));
+    refuse_by_errno(place_.path() == "-" ? fs::path("standard output") : place_.path());
 }
 
 }  // namespace tools

@@ -2,6 +2,7 @@
 
 #include "tools/common/free_memory.hpp"
 #include "tools/common/output_file.hpp"
+#include "tools/common/sudden_end.hpp"
 #include "tools/common/table.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
@@ -181,6 +182,7 @@ class session {
         const std::string said = named ? text : one.name + ": " + text;
         if (options_.failed) options_.failed(said);
         out_.error(said);
+        if (by_limit) set_words_for_memory({});
     }
 
     common_options& options_;

@@ -149,6 +149,7 @@ void end_suddenly(int status, const char* words) {
         for (;;) pause();
     for (const remembered_path& slot : paths)
         if (slot.is == remembered_path::there) remove_all_at(AT_FDCWD, slot.name.data(), 0);
+    if (*words == '\0') std::_Exit(status);
     for (const std::string_view part :
          {std::string_view(program_invocation_short_name), std::string_view(": error: "),
           std::string_view(words), std::string_view("\n")})

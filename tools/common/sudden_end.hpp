@@ -31,11 +31,12 @@ class unfinished_path {
 };
 [[nodiscard]] bool has_unfinished();
 
-/// What is said where memory runs out, after the name of the program; at most 255 bytes.
+/// What is said where memory runs out, after the name of the program; at most 255 bytes. Nothing
+/// where it is empty, as it is once that has been said.
 void set_words_for_memory(const std::string& words);
 
-/// Removes what is unfinished, says `words` after the name of the program, and ends the process. The
-/// first thread that comes here does; others wait for the end.
+/// Removes what is unfinished, says `words`, if any, after the name of the program, and ends the
+/// process. The first thread that comes here does; others wait for the end.
 [[noreturn]] void end_suddenly(int status, const char* words);
 
 }  // namespace tools
