@@ -93,7 +93,7 @@ def to_open3d(vertices: Floats, faces: Ids, tensor: bool) -> Any:
         if _is_cloud(vertices, faces):
             return open3d.t.geometry.PointCloud(points)
         return open3d.t.geometry.TriangleMesh(points, open3d.core.Tensor(faces.astype(np.int64)))
-    points = open3d.utility.Vector3dVector(vertices)
+    points = open3d.utility.Vector3dVector(vertices.copy())
     if _is_cloud(vertices, faces):
         return open3d.geometry.PointCloud(points)
     return open3d.geometry.TriangleMesh(points,
