@@ -31,7 +31,7 @@ struct slivers_removed {
 };
 
 /// Where rounding makes faces meet, one of them is nearly always thinner than points were moved: a
-/// sliver. Others lie on each other but for that much. Four changes mend nearly all of it, each
+/// sliver. Others lie that close to each other. Four changes mend nearly all of it, each
 /// where things are within reach, nearest first:
 /// - a corner becomes another one;
 /// - an edge gets a corner that is above it, so that a flat triangle goes into its neighbors;

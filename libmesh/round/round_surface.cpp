@@ -130,6 +130,7 @@ class rounding {
         looks_ -= std::min(looks_, left.looks);
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
+        joined_ += left.moved;
         std::vector<std::uint8_t> sound;
         for (std::size_t f = 0; f < left.faces.size(); ++f) {
             if (!sound_.empty())
@@ -162,7 +163,9 @@ class rounding {
         for (const point3& p : result_.surface.points) slack = std::max(slack, half_unit(p));
         const detail::round::surface_moves moves =
             detail::round::displacement(result_.surface, result_.point_of, before_);
-        result_.certificate.max_displacement = std::max(first_move_, moves.moved + slack);
+        // What is gone further away than all rounds have joined has vanished.
+        result_.certificate.max_displacement =
+            std::max({first_move_, moves.moved + slack, std::min(moves.gone, joined_)});
         result_.vanished_reach = moves.gone;
     }
 
@@ -388,6 +391,7 @@ class rounding {
     mesh before_{};  ///< as `exact_` was given, in doubles, once something is mended
     double first_move_ = 0.0;
     std::uint64_t looks_ = 0;  ///< of `take_out_slivers`, left
+    double joined_ = 0.0;      ///< how far apart at most, of all rounds together
     double moved_most_ = 0.0;  ///< in the last rounding
     double moved_ = 0.0;       ///< the same; infinite where points were joined
     bool vanished_ = false;    ///< some faces, so that points may be left that none has
