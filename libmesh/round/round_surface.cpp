@@ -38,8 +38,8 @@ constexpr std::size_t most_listed = 100;
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
-/// Pairs of faces that are held against each other for that, of all rounds, for each face and beyond:
-/// real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
+/// Pairs of faces that are held against each other for that, of all rounds, for each face and
+/// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
 constexpr std::uint64_t looks_a_face = 1024, fewest_looks = std::uint64_t{1} << 20;
 /// Nothing longer than this share of the largest coordinate goes.
 constexpr double longest_reach = 0x1p-10;

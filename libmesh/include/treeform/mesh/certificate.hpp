@@ -75,7 +75,8 @@ struct TREEFORM_API certificate {
     std::uint64_t boundary_edges = 0;
     std::uint64_t misoriented_edges = 0;
     /// Rounding moved no coordinate of a vertex further than this: from where it was, exactly, or,
-    /// where it is new or gone since rounding broke something, from the nearest place of the surface.
+    /// where it is new or gone since rounding broke something, from the nearest place of the
+    /// surface.
     /// Measured; moves on the way do not add up.
     double max_displacement = 0.0;
     treeform::precision precision = treeform::precision::float64;  ///< of the coordinates
