@@ -81,8 +81,7 @@ class alignment {
                 .max_distance = options.max_distance * frame_.by,
                 .overlap = options.overlap,
                 .planes = options.method != align_method::point_to_point,
-                .welsch = options.weights == align_weights::welsch ||
-                          (options.weights == align_weights::automatic && target_.is_cloud()),
+                .welsch = options.weights == align_weights::welsch,
                 .scale = options.scale,
                 .accelerate = options.accelerate,
                 .max_iterations = options.max_iterations,

@@ -288,7 +288,7 @@ fit                    pairs   fit {b} --start made/turn.txt --fixed {b} -o out.
 fit/scale              pairs   fit {b} --start {m} --fixed {a} --scale --overlap 0.5 -o out.obj
 fit/far                small   fit {f} --fixed {f} --start made/turn.txt --max-distance 20% -o \
                                out.stl --matrix -
-fit/starts             small   fit {f} --fixed {f} --start made/turn.txt --starts 9 --weights welsch \
+fit/starts             small   fit {f} --fixed {f} --start made/turn.txt --starts 9 \
                                -o out.ply --matrix m.txt
 fit/trim               small   fit {f} --fixed {f} --start made/turn.txt --trim 0.2 --metric point \
                                --fit-tolerance 1e-4 --iterations 30 -o out.ply --matrix m.txt

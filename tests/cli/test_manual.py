@@ -171,7 +171,7 @@ class Bash(Manual):
         self.assertEqual(self.complete("tf-weld", "--rule", ""), ["chain", "first"])
         self.assertEqual(self.complete("tf-weld", "--units", "c"), ["cm"])
         self.assertEqual(self.complete("tf-repair", "--inside", "n"), ["nonzero"])
-        self.assertEqual(self.complete("tf-place", "fit", "--weights", ""), ["auto", "equal", "welsch"])
+        self.assertEqual(self.complete("tf-place", "fit", "--weights", ""), ["equal", "welsch"])
         self.assertEqual(self.complete("tf-place", "pack", "--rotate", ""),
                          ["45", "90", "any", "none"])
         self.assertEqual(self.complete("tf-selfintersect", "--repair=o"), ["--repair=outer"])

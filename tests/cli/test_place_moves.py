@@ -389,9 +389,9 @@ class Moves(PlaceTest):
         beside = [(x, y, z + 30) for x, y, z in bowl[::3]]  # a third more than there is on the other side
         moved = [(c * x - s * y + 0.2, s * x + c * y, z) for x, y, z in bowl + beside]
         self.put("moved.xyz", "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in moved))
-        entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", "-n", status=1)
+        entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", "--weights", "equal", "-n", status=1)
         self.assertEqual((entry["fit"]["end"], entry["fit"]["converged"]), ("doubtful", False))
-        for options in (["--trim", "0.26"], ["--weights", "welsch"], ["--overlap", "0.7", "--metric", "plane"],
+        for options in ([], ["--trim", "0.26"], ["--overlap", "0.7", "--metric", "plane"],
                         ["--trim", "0.26", "--starts", "6"]):
             with self.subTest(options):
                 entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", *options, "-n", status=0)

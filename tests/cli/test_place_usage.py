@@ -83,7 +83,7 @@ class Usage(PlaceTest):
                     ("--iterations", "many"), ("--fit-tolerance", "-1"), ("--metric", "line"), ("--weights", "some")):
             self.refused("fit", "a.obj", *fixed, *bad)
         for fits in (("--trim", "0.5"), ("--starts", "9"), ("--iterations", "9"), ("--fit-tolerance", "1e-3"),
-                     ("--metric", "point"), ("--weights", "welsch")):
+                     ("--metric", "point"), ("--weights", "equal")):
             self.refused("measure", "a.obj", *fixed, *fits)
         self.refused("fit", "a.obj", *fixed, *fixed)
 

@@ -35,14 +35,14 @@ const std::array<way, 7> ways{
     {{"all", test::scanned::all, {}},
      {"all, starts", test::scanned::all, {.starts = 40}},
      {"part of fixed, overlap", test::scanned::part_of_fixed, {.overlap = 0.6}},
-     {"part of fixed, welsch",
+     {"part of fixed", test::scanned::part_of_fixed, {}},
+     {"part of fixed, equal",
       test::scanned::part_of_fixed,
-      {.weights = tf::align_weights::welsch}},
-     {"part of fixed, untold", test::scanned::part_of_fixed, {}},
+      {.weights = tf::align_weights::equal}},
      {"part of moving", test::scanned::part_of_moving, {}},
-     {"part of moving, welsch",
+     {"part of moving, equal",
       test::scanned::part_of_moving,
-      {.weights = tf::align_weights::welsch}}}};
+      {.weights = tf::align_weights::equal}}}};
 
 /// Of scans of one kind.
 struct verdicts {

@@ -77,7 +77,7 @@ tf::align_options options_of(const treeform_align_options* options) {
     tf::align_options how;
     how.method = glue::choice<tf::align_method>(o.method, 4, "method");
     how.overlap = o.overlap;
-    how.weights = glue::choice<tf::align_weights>(o.weights, 3, "weights");
+    how.weights = glue::choice<tf::align_weights>(o.weights, 2, "weights");
     how.max_distance = o.max_distance;
     how.scale = o.scale != 0;
     how.max_iterations = o.max_iterations;
@@ -184,7 +184,7 @@ void treeform_align_options_init(treeform_align_options* options, size_t size) {
     const tf::align_options from;
     treeform_align_options defaults{};
     defaults.method = TREEFORM_ALIGN_AUTOMATIC;
-    defaults.weights = TREEFORM_WEIGHTS_AUTOMATIC;
+    defaults.weights = TREEFORM_WEIGHTS_WELSCH;
     defaults.overlap = from.overlap;
     defaults.max_distance = from.max_distance;
     defaults.max_iterations = from.max_iterations;

@@ -15,7 +15,7 @@ namespace {
 
 /// By `align_method` and `align_weights`.
 constexpr std::array<const char*, 4> metrics{"plane", "point", "auto", "planes"};
-constexpr std::array<const char*, 3> weights{"equal", "welsch", "auto"};
+constexpr std::array<const char*, 2> weights{"equal", "welsch"};
 
 unsigned parse_number_of(std::string_view option, std::string_view text, std::uint64_t least) {
     const std::uint64_t count = parse_count(option, text);
@@ -47,10 +47,9 @@ void add_align_options(command_line& line, tf::align_options& options) {
                 });
     line.option(o.weights,
                 {"--weights", "W",
-                 "fit: equal | welsch | auto: equal, on a cloud welsch.\n"
-                 "welsch: far pairs count less; finds out by itself what\n"
-                 "has no partner, up to half of MOVING",
-                 "auto"},
+                 "fit: welsch: far pairs count less; finds out by itself\n"
+                 "what has no partner, up to half of MOVING | equal",
+                 "welsch"},
                 weights);
     line.option(o.method,
                 {"--metric", "M",
@@ -113,8 +112,8 @@ std::string align_sentence(const tf::align_result& r) {
             return "in doubt " + r.message() +
                    "; neighbors are off to the same side (correlation " + brief(r.correlation) +
                    ") or too little holds the place (uncertainty " + brief(r.uncertainty) +
-                   "): a wrong place, or parts without a partner; --starts 100, --weights welsch "
-                   "or --overlap may help";
+                   "): a wrong place, or parts without a partner; --starts 100 or --overlap "
+                   "may help";
         case tf::align_end::out_of_iterations:
             return "not converged " + r.message() + "; more --iterations may help";
         default:

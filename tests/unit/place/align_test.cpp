@@ -356,7 +356,11 @@ TEST_CASE("align: what has no partner is found by weights, trimmed by its share,
             three_boxes(),
             {.noise = 1e-5, .degrees = 8, .share = 0.6, .what = test::scanned::part_of_fixed},
             source);
-        CHECK(tf::align(scan.moving, scan.fixed).end == tf::align_end::doubtful);
+        const auto weighed = tf::align(scan.moving, scan.fixed);
+        CHECK(weighed.converged);
+        CHECK(test::error_of(scan, weighed.matrix, false) < 1e-5);
+        const tf::align_options equal{.weights = tf::align_weights::equal};
+        CHECK(tf::align(scan.moving, scan.fixed, equal).end == tf::align_end::doubtful);
         // a share that is too large does no harm, either
         for (const double overlap : {0.5, 0.6, 0.62}) {
             const auto trimmed = tf::align(scan.moving, scan.fixed, {.overlap = overlap});

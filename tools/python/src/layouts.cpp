@@ -19,7 +19,7 @@ namespace {
 constexpr words<4> choice_words{"largest", "nearest_normal", "holding_point", "most_stable"};
 constexpr words<3> mass_words{"solid", "surface", "points"};
 constexpr words<4> method_words{"point_to_plane", "point_to_point", "automatic", "plane_to_plane"};
-constexpr words<3> weight_words{"equal", "welsch", "automatic"};
+constexpr words<2> weight_words{"equal", "welsch"};
 constexpr words<4> align_words{"converged", "out_of_iterations", "doubtful", "nothing_to_align"};
 constexpr words<4> turn_words{"none", "quarter", "eighth", "any"};
 

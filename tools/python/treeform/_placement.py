@@ -380,7 +380,7 @@ class Alignment(MeshResult):
 
 
 def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float = 1.0,
-          weights: str = "automatic", max_distance: float = np.inf, scale: bool = False,
+          weights: str = "welsch", max_distance: float = np.inf, scale: bool = False,
           max_iterations: int = 100, tolerance: float = 1e-6, starts: int = 1,
           samples: int = 100_000, start: ArrayLike | None = None, precision: str = "float64",
           progress: Progress = None) -> Alignment:
@@ -389,7 +389,7 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
 
     method: 'point_to_plane', 'point_to_point', 'plane_to_plane' (of two clouds) or 'automatic'
     (planes of a mesh, planes of both clouds). overlap: the share of the moving points that have a
-    partner. weights: 'equal', 'welsch' or 'automatic' (Welsch's on a cloud).
+    partner. weights: 'welsch', by which far pairs count less, or 'equal'.
     max_distance: ignore partners further apart. scale: find a uniform scale, too.
     starts: places to start from, turned all around. samples: points used in the steps; 0 is all.
     start: (4, 4) applied first.

@@ -44,7 +44,6 @@ enum class align_weights : std::uint8_t {
     /// halved down to where a third of the points is within 2 v; at the end it is 4.5 medians of
     /// what is near. Up to half of the points may have no partner, and nobody needs to say how many.
     welsch,
-    automatic,  ///< equal on a fixed mesh, Welsch's on a fixed cloud
 };
 
 /// How to align.
@@ -53,7 +52,7 @@ struct align_options {
     /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share, the
     /// nearest ones, and ignores the rest.
     double overlap = 1.0;
-    align_weights weights = align_weights::automatic;
+    align_weights weights = align_weights::welsch;
     /// Ignore partners further apart. Not squared, not negative.
     double max_distance = std::numeric_limits<double>::infinity();
     /// Find a uniform scale, too: from that of the start and from the one that makes both sides as

@@ -339,18 +339,14 @@ enum {
     TREEFORM_PLANE_TO_PLANE = 3    ///< of both clouds
 };
 typedef int32_t treeform_align_weights;
-enum {
-    TREEFORM_WEIGHTS_EQUAL = 0,
-    TREEFORM_WEIGHTS_WELSCH = 1,
-    TREEFORM_WEIGHTS_AUTOMATIC = 2  ///< equal on a fixed mesh, Welsch's on a fixed cloud
-};
+enum { TREEFORM_WEIGHTS_EQUAL = 0, TREEFORM_WEIGHTS_WELSCH = 1 };
 
 /// How to align.
 typedef struct treeform_align_options {
     size_t size;
     treeform_align_method method;    ///< default: automatic
     double overlap;                  ///< share of the moving points that have a partner; default 1
-    treeform_align_weights weights;  ///< default: automatic
+    treeform_align_weights weights;  ///< default: Welsch's
     double max_distance;             ///< ignore partners further apart; default: infinite
     int32_t scale;                   ///< find a uniform scale, too
     uint32_t max_iterations;         ///< default 100
