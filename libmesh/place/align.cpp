@@ -129,6 +129,7 @@ class alignment {
     static constexpr double like_noise = 0.15;     ///< correlation of neighbors
     static constexpr double like_thickness = 0.6;  ///< share of it that neighbors may be off
     static constexpr double bearable = 2e-3;  ///< share of the diagonal that regions may be off
+    static constexpr double most_in = 0.9;    ///< share of the points that is as good as all
     static constexpr double growth = 2.0;     ///< of the scale from a start, at most
 
     /// With a part of the samples first, if they are many: that gets near the end.
@@ -301,10 +302,18 @@ class alignment {
         return false;
     }
 
+    /// Whether weights leave out more points than noise has far ones.
+    [[nodiscard]] bool leaves_out_many() const {
+        return task_.welsch && without_outliers(of_all_.partners).overlap < most_in * task_.overlap;
+    }
+
     [[nodiscard]] align_end end_of(const evidence& found) {
         if (!best_.converged) return align_end::out_of_iterations;
         if (!is_known(found)) return align_end::doubtful;
-        if (is_noise(found.left)) return align_end::converged;
+        // What is noise where most points lie may be a part that fits in two places.
+        if (is_noise(found.left))
+            return leaves_out_many() && other_is_better() ? align_end::doubtful
+                                                          : align_end::converged;
         if (target_.is_cloud() || found.left.common() > bearable * frame_.diagonal ||
             other_is_better())
             return align_end::doubtful;

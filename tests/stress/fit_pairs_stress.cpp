@@ -20,14 +20,14 @@
 namespace {
 
 /// Of pairs.
-struct verdicts {
+struct fit_counts {
     unsigned found = 0;      ///< within what is right
     unsigned converged = 0;  ///< and said to be
     unsigned refused = 0;    ///< elsewhere, and not said to be right
     unsigned mistaken = 0;   ///< elsewhere, and said to be
 };
 
-void add(verdicts& all, const test::fit_pair& pair) {
+void add(fit_counts& all, const test::fit_pair& pair) {
     const auto found = tf::align(pair.moving, pair.fixed);
     const double error = pair.error_of(found.matrix);
     const bool right = error <= 1.0;
@@ -47,7 +47,7 @@ TEST_CASE("align: of real pairs nine in ten are found, and no wrong place conver
     NEEDS_MODELS();
     NEEDS_CLOUDS();
     const char* folder = std::getenv("TREEFORM_PAIRS_DIR");
-    verdicts all;
+    fit_counts all;
     std::size_t pairs = 0;
     std::printf("%-32s  moving   fixed    error; 1 is right\n", "");
     test::for_fit_pairs(test::models_folder(), test::clouds_folder(), test::stress_count(2),
