@@ -57,6 +57,10 @@ void check(points_view moving, mesh_view fixed, const align_options& o) {
     if (!(o.max_distance >= 0.0)) refuse("the largest distance is negative or NaN");
     if (!(o.tolerance >= 0.0)) refuse("the tolerance is negative or NaN");
     if (o.starts == 0) refuse("there are no starts");
+    if (!(o.least_scale >= 0.0 && std::isfinite(o.least_scale)))
+        refuse("the least scale is negative or not finite");
+    if (!(o.most_scale > 0.0 && o.most_scale >= o.least_scale))
+        refuse("the largest scale is not positive, or below the least one");
     if (!o.start.finite()) refuse("an entry of the start is not finite");
 }
 
@@ -92,7 +96,10 @@ class alignment {
             find_planes(all_);
         samples_ = some_of(fitted_of(all_), options.samples);
         few_ = some_of(samples_, few_samples);
-        if (task_.scale) ways_.emplace(few_, frame_, fixed_);
+        if (!task_.scale) return;
+        ways_.emplace(few_, frame_, fixed_);
+        task_.least_scale = options.least_scale;
+        task_.most_scale = options.most_scale;
     }
 
     [[nodiscard]] align_result found() {
@@ -102,6 +109,8 @@ class alignment {
         if (!std::isfinite(before_.cost))
             throw std::overflow_error("treeform::align: the distances are too large to be squared");
         if (!work_.reach(0.2)) return {.status = status::cancelled};
+        present_ =
+            within_bounds(task_, present_, detail::place::inertia_of(samples_.points).center);
         best_ = search_from(present_, 0.2, 0.5);
         if (task_.scale) take_if_better(as_large_as_fixed(), 0.5, 0.6);
         const auto tried = options_.starts > 1 ? others_than(few_, options_.starts, 0.6, 0.7)
@@ -136,8 +145,8 @@ class alignment {
     [[nodiscard]] search_result search_from(similarity start, double from, double to) {
         const auto go_on = [&](unsigned i) { return work_.step(from, to, i, 20.0); };
         search_task fine = task_;
-        fine.least_scale = start.scale / growth;
-        fine.most_scale = start.scale * growth;
+        fine.least_scale = std::max(task_.least_scale, start.scale / growth);
+        fine.most_scale = std::min(task_.most_scale, start.scale * growth);
         unsigned before = 0;
         if (samples_.size() >= 4 * coarse_samples) {
             search_task coarse = fine;
@@ -155,8 +164,9 @@ class alignment {
         search_result end =
             search(fine, samples_, start, last, [&](unsigned i) { return go_on(before + i); });
         end.iterations += before;
-        end.at_bound = task_.scale && (end.map.scale <= fine.least_scale * (1.0 + exact) ||
-                                       end.map.scale >= fine.most_scale * (1.0 - exact));
+        end.at_bound = task_.scale && task_.least_scale < task_.most_scale &&
+                       (end.map.scale <= fine.least_scale * (1.0 + exact) ||
+                        end.map.scale >= fine.most_scale * (1.0 - exact));
         return end;
     }
 
@@ -166,6 +176,7 @@ class alignment {
         const auto fixed = inertia_in(frame_, fixed_);
         similarity start = present_;
         if (moving.radius > 0.0 && fixed.radius > 0.0) start.scale = fixed.radius / moving.radius;
+        start.scale = std::clamp(start.scale, task_.least_scale, task_.most_scale);
         start.shift = fixed.center - start.scale * (start.rotation * moving.center);
         return start;
     }
@@ -367,7 +378,8 @@ align_result alignment::judged() {
     const auto at = [&](const similarity& map) {
         return quality_at(task_, all_, map, best_.width, of_all_);
     };
-    const quality at_start = best_.width < endless ? at(present_) : before_;
+    const bool bounded = present_.scale != 1.0;
+    const quality at_start = best_.width < endless || bounded ? at(present_) : before_;
     quality end = at(best_.map);
     const bool moved = end.cost < at_start.cost;
     // Of points that were not fitted, chance decides which of two good places is better.
@@ -380,7 +392,7 @@ align_result alignment::judged() {
     }
     if (!work_.reach(0.88)) return {};
     align_result result{.matrix = options_.start};
-    enter_matrix(result, best_.map, moved);
+    enter_matrix(result, best_.map, moved || bounded);
     result.rms = (task_.welsch ? end : plain_quality()).rms / frame_.by;
     result.rms_at_start = before_.rms / frame_.by;
     result.overlap = end.overlap;

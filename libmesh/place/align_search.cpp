@@ -1,4 +1,5 @@
 #include <libmesh/place/align_search.hpp>
+#include <libmesh/place/align_starts.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,7 @@ constexpr unsigned still_steps = 5;    ///< without a fall of the cost
 constexpr double still_move = 1e-11;   ///< of a step that moves nothing
 constexpr double least_width = 1e-10;  ///< of Welsch's function: distances are as good as 0
 constexpr double least_share = 0.35;   ///< of the points to be within the width
+constexpr double like_bound = 1e-9;    ///< of the scale, by its rounding
 constexpr double nothing = 1e-28;      ///< costs differ by their rounding
 
 using row7 = vector<7>;
@@ -135,19 +137,25 @@ double next_width(const search_task& task, std::vector<partner> partners, bool& 
     return next < 0.9 * width ? next : width;
 }
 
-/// The step to take, none where nothing counts.
-std::optional<similarity> step_from(const search_task& task, const std::vector<partner>& partners) {
+bool is_bounded(const search_task& task, double scale) {
+    return scale >= task.least_scale && scale <= task.most_scale;
+}
+
+/// The step to take from `map`, none where nothing counts. At a bound of the scale, the best of those
+/// that keep it.
+std::optional<similarity> step_from(const search_task& task, const similarity& map,
+                                    const std::vector<partner>& partners) {
     const bool any = std::any_of(partners.begin(), partners.end(),
                                  [](const partner& p) { return p.weight > 0.0; });
     if (!any) return std::nullopt;
-    const similarity step =
-        task.planes ? plane_step(partners, task.scale) : point_step(partners, task.scale);
+    const auto step_by = [&](bool scale) {
+        return task.planes ? plane_step(partners, scale) : point_step(partners, scale);
+    };
+    similarity step = step_by(task.scale);
+    const bool at_bound = map.scale <= task.least_scale * (1.0 + like_bound) ||
+                          map.scale >= task.most_scale * (1.0 - like_bound);
+    if (task.scale && at_bound && !is_bounded(task, step.scale * map.scale)) step = step_by(false);
     return step.finite() ? std::optional(step) : std::nullopt;
-}
-
-similarity within_bounds(const search_task& task, similarity map) {
-    map.scale = std::clamp(map.scale, task.least_scale, task.most_scale);
-    return map;
 }
 
 bool same_place(const similarity& a, const similarity& b) {
@@ -155,6 +163,13 @@ bool same_place(const similarity& a, const similarity& b) {
 }
 
 }  // namespace
+
+similarity within_bounds(const search_task& task, similarity map, const Vector3d& center) {
+    const double scale = std::clamp(map.scale, task.least_scale, task.most_scale);
+    map.shift += (map.scale - scale) * (map.rotation * center);
+    map.scale = scale;
+    return map;
+}
 
 quality quality_at(const search_task& task, const moving_points& samples, const similarity& map,
                    double width, matching& last) {
@@ -167,6 +182,7 @@ quality quality_at(const search_task& task, const moving_points& samples, const 
 search_result search(const search_task& task, const moving_points& samples, const similarity& start,
                      matching& last, function_ref<bool(unsigned)> go_on) {
     search_result best{start};
+    const Vector3d center = inertia_of(samples.points).center;
     similarity map = start;
     std::optional<similarity> plain;  // where a plain step led to, if `map` is by acceleration
     bool settled = false;             // whether the step to `map` moved nothing
@@ -205,14 +221,14 @@ search_result search(const search_task& task, const moving_points& samples, cons
             plain.reset();
             continue;
         }
-        const std::optional<similarity> step = step_from(task, last.partners);
+        const std::optional<similarity> step = step_from(task, map, last.partners);
         if (!step) return best;
         settled = displacement(*step) <= still_move;
-        const similarity next = within_bounds(task, after(*step, map));
+        const similarity next = within_bounds(task, after(*step, map), center);
         cost_before = here.cost;
         plain.reset();
         if (task.accelerate && !settled) {
-            const similarity guess = within_bounds(task, faster.next(map, next));
+            const similarity guess = within_bounds(task, faster.next(map, next), center);
             if (!same_place(guess, next)) plain = next;
             map = guess;
         } else {

@@ -19,7 +19,7 @@ struct search_task {
     bool planes = true;
     bool welsch = false;
     bool scale = false;
-    double least_scale = 0.0, most_scale = endless;
+    double least_scale = 0.0, most_scale = endless;  ///< of the places, also of the start
     bool accelerate = true;
     unsigned max_iterations = 100;
     double tolerance = 1e-6;
@@ -33,6 +33,10 @@ struct search_result {
     double width = endless;  ///< of Welsch's function at the end
     quality at{};            ///< of `map`, by that width
 };
+
+/// The place with its scale brought into the bounds; the point `center` goes where it went.
+[[nodiscard]] similarity within_bounds(const search_task& task, similarity map,
+                                       const Vector3d& center);
 
 /// Steps from `start` on, and of the places on the way the best. `samples` are in an order of
 /// space; `go_on` is asked before each step. `last` holds nothing, or partners of the same samples.

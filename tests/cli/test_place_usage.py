@@ -80,12 +80,17 @@ class Usage(PlaceTest):
         self.refused("drop", "a.obj", "--scale")
         self.refused("fit", "a.obj", *fixed, "--overlap", "2")
         for bad in (("--overlap", "0.5", "--trim", "0.5"), ("--trim", "1"), ("--trim", "-1"), ("--starts", "0"),
+                    ("--scale=2",), ("--scale=3,2",), ("--scale=0,2",), ("--scale=1,2,3",), ("--scale=1,x",),
                     ("--iterations", "many"), ("--fit-tolerance", "-1"), ("--metric", "line"), ("--weights", "some")):
             self.refused("fit", "a.obj", *fixed, *bad)
         for fits in (("--trim", "0.5"), ("--starts", "9"), ("--iterations", "9"), ("--fit-tolerance", "1e-3"),
                      ("--metric", "point"), ("--weights", "equal")):
             self.refused("measure", "a.obj", *fixed, *fits)
         self.refused("fit", "a.obj", *fixed, *fixed)
+
+    def test_a_flag_takes_no_value(self):
+        for flag in ("--in-place", "--quiet", "--help", "--version"):
+            self.assertIn(flag + " takes no value", self.refused("drop", "a.obj", flag + "=3"))
 
     def test_a_report_has_a_line_for_each_contact_and_row(self):
         self.mesh("plate.obj", grid(3))

@@ -130,6 +130,12 @@ def test_align():
         assert np.allclose(cloud.vertices, ball.vertices, atol=1e-3)
     twice = tf.align(2 * scan, ball.vertices, scale=True)
     assert twice and twice.scale == pytest.approx(0.5, rel=1e-3)
+    assert tf.align(2 * scan, ball.vertices, scale=(0.4, 0.6)).scale == twice.scale
+    at_bound = tf.align(2 * scan, ball.vertices, scale=(0.7, 3))
+    assert not at_bound and at_bound.scale == 0.7 and at_bound.end == "doubtful"
+    for bad in (2.0, "some", (1, 2, 3), (2, 1), (-1, 1)):
+        with pytest.raises(ValueError, match="scale"):
+            tf.align(scan, ball, scale=bad)
     with pytest.raises(ValueError, match="overlap"):
         tf.align(scan, ball, overlap=2.0)
 

@@ -80,6 +80,8 @@ tf::align_options options_of(const treeform_align_options* options) {
     how.weights = glue::choice<tf::align_weights>(o.weights, 2, "weights");
     how.max_distance = o.max_distance;
     how.scale = o.scale != 0;
+    how.least_scale = o.least_scale;
+    how.most_scale = o.most_scale;
     how.max_iterations = o.max_iterations;
     how.tolerance = o.tolerance;
     how.starts = o.starts;
@@ -192,6 +194,8 @@ void treeform_align_options_init(treeform_align_options* options, size_t size) {
     defaults.starts = from.starts;
     defaults.accelerate = from.accelerate;
     defaults.samples = from.samples;
+    defaults.least_scale = from.least_scale;
+    defaults.most_scale = from.most_scale;
     defaults.precision = TREEFORM_FLOAT64;
     glue::init(options, size, defaults);
 }

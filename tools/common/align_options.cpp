@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 namespace tools {
 namespace {
@@ -23,6 +24,14 @@ unsigned parse_number_of(std::string_view option, std::string_view text, std::ui
         refuse(std::string(option) + " " + std::string(text) + ": expected " +
                std::to_string(least) + " to 1000000");
     return static_cast<unsigned>(count);
+}
+
+void accept_bounds(tf::align_options& options, std::string_view text) {
+    const std::vector<double> bounds = parse_numbers("--scale", text, 2);
+    if (!(bounds[0] > 0.0 && bounds[0] <= bounds[1]))
+        refuse("--scale=" + std::string(text) + ": expected MIN,MAX, above 0 and in this order");
+    options.least_scale = bounds[0];
+    options.most_scale = bounds[1];
 }
 
 }  // namespace
@@ -72,7 +81,13 @@ void add_align_options(command_line& line, tf::align_options& options) {
          "by less than this share of it",
          "1e-6"},
         [&o](std::string_view text) { o.tolerance = parse_share("--fit-tolerance", text); });
-    line.flag(o.scale, {"--scale", "", "fit: allow uniform scale"});
+    line.flag_with_value({.names = "--scale",
+                          .text = "fit: allow uniform scale, from MIN to MAX if given",
+                          .label = "--scale[=MIN,MAX]"},
+                         [&o](std::optional<std::string_view> text) {
+                             o.scale = true;
+                             if (text) accept_bounds(o, *text);
+                         });
 }
 
 std::span<const char* const> align_option_names() {

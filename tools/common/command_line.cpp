@@ -27,7 +27,7 @@ std::string long_name(const option_text& text) {
 command_line::command_line(std::string name, std::string usage, std::string purpose)
     : text_{.name = std::move(name), .usage = std::move(usage), .purpose = std::move(purpose)},
       parser_(std::make_unique<parser>()) {
-    parser_->app.set_help_flag("-h,--help", "");
+    parser_->app.set_help_flag("-h,--help", "")->disable_flag_override();
 }
 
 command_line::~command_line() = default;
@@ -56,12 +56,12 @@ void command_line::mode(mode_text text, const command_line& own) {
 void command_line::group(std::string title) { text_.groups.push_back({.title = std::move(title)}); }
 
 void command_line::flag(bool& target, option_text text) {
-    parser_->app.add_flag(names_of(text), target);
+    parser_->app.add_flag(names_of(text), target)->disable_flag_override();
     mention(std::move(text));
 }
 
 void command_line::repeatable_flag(int& target, option_text text) {
-    parser_->app.add_flag(names_of(text), target);
+    parser_->app.add_flag(names_of(text), target)->disable_flag_override();
     mention(std::move(text));
 }
 
@@ -114,6 +114,15 @@ void command_line::option(std::optional<distance>& target, option_text text) {
 void command_line::option(option_text text, std::function<void(std::string_view)> accept) {
     parser_->app.add_option_function<std::string>(
         names_of(text), [accept = std::move(accept)](const std::string& value) { accept(value); });
+    mention(std::move(text));
+}
+
+void command_line::flag_with_value(option_text text,
+                                   std::function<void(std::optional<std::string_view>)> accept) {
+    static constexpr const char* bare = "true";  // what the parser makes of --name
+    parser_->app.add_flag(names_of(text))->each([accept = std::move(accept)](const std::string& v) {
+        accept(v == bare ? std::nullopt : std::optional<std::string_view>(v));
+    });
     mention(std::move(text));
 }
 
@@ -174,7 +183,7 @@ void command_line::inputs(std::vector<std::string>& target, std::string text, st
 void command_line::epilogue(std::string text) { text_.epilogue = std::move(text); }
 
 void command_line::version_text(const std::string& text) {
-    parser_->app.set_version_flag("--version", text);
+    parser_->app.set_version_flag("--version", text)->disable_flag_override();
     version_ = text.substr(0, text.find('\n'));
 }
 
@@ -208,6 +217,11 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
     } catch (const CLI::CallForVersion& version) {
         std::puts(version.what());
         return outcome::help_shown;
+    } catch (const CLI::ArgumentMismatch& error) {
+        const std::string what = error.what();  // "check was given a disallowed flag override"
+        const auto name = what.find(" was given a disallowed");
+        tools::refuse(name == std::string::npos ? what + " (see --help)"
+                                                : "--" + what.substr(0, name) + " takes no value");
     } catch (const CLI::ParseError& error) {
         throw failure(bad_usage, "usage", std::string(error.what()) + " (see --help)");
     }

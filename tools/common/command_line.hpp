@@ -51,8 +51,11 @@ class command_line {
     }
     /// `accept` parses the value; what it throws ends the run.
     void option(option_text text, std::function<void(std::string_view)> accept);
-    /// An option whose value, one of `words`, follows "=" if there is one: --name or --name=VALUE.
-    /// `bare` is meant by the first. `accept` gets its number.
+    /// An option whose value follows "=" if there is one: --name or --name=VALUE. `accept` gets the
+    /// value, nothing of the first.
+    void flag_with_value(option_text text,
+                         std::function<void(std::optional<std::string_view>)> accept);
+    /// The same, where it is one of `words`; `bare` is meant by --name. `accept` gets its number.
     void flag_with_value(option_text text, std::span<const char* const> words,
                          const std::string& bare, std::function<void(std::size_t)> accept);
     /// The value is the name of a file to write; "-" is standard output.

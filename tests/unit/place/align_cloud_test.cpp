@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -155,6 +157,42 @@ TEST_CASE("align: a scale of 2 or a half is found, on clouds and on meshes, both
             CHECK(found.converged);
             CHECK(found.scale == doctest::Approx(1.0 / scale).epsilon(cloud ? 2e-3 : 1e-9));
         }
+    }
+}
+
+TEST_CASE("align: a scale stays within its bounds, and is in doubt at one") {
+    test::random source(6);
+    const tf::mesh solid = three_sizes();
+    auto half = test::turn_about({0, 0.6, 0.8}, 0.05, {1, 1, 1}, {0.1, 0.05, -0.1});
+    for (auto& row : half.rows)
+        for (double& entry : row) entry *= 0.5;
+    std::vector<point3> there;
+    for (const point3& p : test::spread_over(source, solid, 1000)) there.push_back(half(p));
+    const std::vector<point3> other = test::spread_over(source, solid, 1000);
+    constexpr double none = std::numeric_limits<double>::infinity();
+    for (const bool cloud : {false, true}) {
+        CAPTURE(cloud);
+        const auto within = [&](double least, double most, unsigned starts = 1) {
+            const tf::align_options how{
+                .scale = true, .least_scale = least, .most_scale = most, .starts = starts};
+            return cloud ? tf::align(there, {other, {}}, how) : tf::align(there, solid, how);
+        };
+        for (const auto& [least, most] : {std::pair{1.5, 3.0}, {1.9, none}, {0.0, 2.1}}) {
+            const auto found = within(least, most);
+            CHECK(found.converged);
+            CHECK(found.scale == doctest::Approx(2.0).epsilon(2e-3));
+        }
+        for (const unsigned starts : {1U, 2U}) {
+            const auto above = within(3.0, 4.0, starts), below = within(0.1, 1.5, starts);
+            CHECK(above.scale == doctest::Approx(3.0).epsilon(1e-9));
+            CHECK(above.end == tf::align_end::doubtful);
+            CHECK(above.matrix != tf::transform<3>{});
+            CHECK(below.scale == doctest::Approx(1.5).epsilon(1e-9));
+            CHECK(below.end == tf::align_end::doubtful);
+        }
+        const auto known = within(2.0, 2.0);
+        CHECK(known.converged);
+        CHECK(known.scale == 2.0);
     }
 }
 

@@ -290,6 +290,12 @@ TEST_CASE("align: what cannot be meant is refused") {
     refused({.max_distance = -1.0});
     refused({.tolerance = nan});
     refused({.starts = 0});
+    refused({.least_scale = -1.0});
+    refused({.least_scale = nan});
+    refused({.least_scale = std::numeric_limits<double>::infinity()});
+    refused({.most_scale = 0.0});
+    refused({.most_scale = nan});
+    refused({.least_scale = 2.0, .most_scale = 1.0});
     tf::align_options start;
     start.start.rows[0][0] = nan;
     refused(start);

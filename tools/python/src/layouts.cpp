@@ -58,14 +58,17 @@ py::object lay_flat(const held_mesh& mesh, const std::string& choose,
 
 py::dict align(const held_mesh& moving, const held_mesh& fixed, const std::string& method,
                double overlap, const std::string& weights, double max_distance, bool scale,
-               unsigned max_iterations, double tolerance, unsigned starts, std::size_t samples,
-               const array_of<double>& start, const std::string& precision) {
+               double least_scale, double most_scale, unsigned max_iterations, double tolerance,
+               unsigned starts, std::size_t samples, const array_of<double>& start,
+               const std::string& precision) {
     tf::align_options options{
         .method = choice<tf::align_method>("method", method_words, method),
         .overlap = overlap,
         .weights = choice<tf::align_weights>("weights", weight_words, weights),
         .max_distance = max_distance,
         .scale = scale,
+        .least_scale = least_scale,
+        .most_scale = most_scale,
         .max_iterations = max_iterations,
         .tolerance = tolerance,
         .starts = starts,

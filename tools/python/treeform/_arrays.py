@@ -62,6 +62,14 @@ def vector(values: ArrayLike, name: str) -> Floats:
     return array
 
 
+def pair(values: Any, name: str) -> Floats:
+    """`values` as two numbers."""
+    array = floats(values, name)
+    if array.shape != (2,):
+        raise ValueError(f"{name}: a pair of numbers is needed, not {values!r}")
+    return array
+
+
 _IDENTITY = np.eye(4)
 
 

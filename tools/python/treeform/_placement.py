@@ -380,7 +380,8 @@ class Alignment(MeshResult):
 
 
 def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float = 1.0,
-          weights: str = "welsch", max_distance: float = np.inf, scale: bool = False,
+          weights: str = "welsch", max_distance: float = np.inf,
+          scale: bool | tuple[float, float] = False,
           max_iterations: int = 100, tolerance: float = 1e-6, starts: int = 1,
           samples: int = 100_000, start: ArrayLike | None = None, precision: str = "float64",
           progress: Progress = None) -> Alignment:
@@ -390,7 +391,8 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     method: 'point_to_plane', 'point_to_point', 'plane_to_plane' (of two clouds) or 'automatic'
     (planes of a mesh, planes of both clouds). overlap: the share of the moving points that have a
     partner. weights: 'welsch', by which far pairs count less, or 'equal'.
-    max_distance: ignore partners further apart. scale: find a uniform scale, too.
+    max_distance: ignore partners further apart. scale: find a uniform scale, too; a pair is its bounds, in
+    addition to the scale of `start`.
     starts: places to start from, turned all around. samples: points used in the steps; 0 is all.
     start: (4, 4) applied first.
 
@@ -403,8 +405,13 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     (True, True)
     """
     body = held_body(moving)
-    made = _core.align(body, held_body(onto), method, overlap, weights, max_distance, scale,
-                       max_iterations, tolerance, starts, samples, _arrays.matrix(start, "start"),
+    least, most = 0.0, np.inf
+    if not isinstance(scale, (bool, np.bool_)):
+        least, most = _arrays.pair(scale, "scale")
+        scale = True
+    made = _core.align(body, held_body(onto), method, overlap, weights, max_distance,
+                       bool(scale),
+                       least, most, max_iterations, tolerance, starts, samples, _arrays.matrix(start, "start"),
                        precision, progress=progress)
     made["mesh"] = _placed(made.pop("points"), body, made["matrix"])
     return Alignment(**made)

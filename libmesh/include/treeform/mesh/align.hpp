@@ -59,6 +59,10 @@ struct align_options {
     /// large, up to twice and down to half of it each. Of these, the better one is where points of
     /// both sides, each by its own size, are nearer to the other side.
     bool scale = false;
+    /// Bounds of `align_result::scale` where it is found: positive, or 0 and infinity for none. A
+    /// start beyond them begins at the nearest. Equal ones are the scale, as known.
+    double least_scale = 0.0;
+    double most_scale = std::numeric_limits<double>::infinity();
     unsigned max_iterations = 100;  ///< from each start
     /// Converged when in 5 steps in a row the cost falls by less than this share of itself, or when
     /// a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of its box.
@@ -152,7 +156,7 @@ struct align_result {
 ///
 /// From each start it is a local optimum: the right one when the motion is small compared with the
 /// features of the shape. The result is never worse than the present position; when nothing better
-/// is found, it is `start`. To compare, the squared distances of all moving points to the nearest
+/// is found, it is `start`, grown or shrunk about its center to the bounds of the scale. To compare, the squared distances of all moving points to the nearest
 /// fixed points are cut off at `max_distance` squared, and the mean is taken over the `overlap`
 /// share that is nearest. With weights, and with an overlap below 1, it is Welsch's function of the
 /// distances, by the v of the end: a share that is somewhat too large does no harm. Directions in

@@ -358,6 +358,8 @@ typedef struct treeform_align_options {
     treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
+    double least_scale;  ///< bounds of the scale found: positive, or 0
+    double most_scale;   ///< and infinite, the defaults, for none
 } treeform_align_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_align_options_init(treeform_align_options* options, size_t size);
