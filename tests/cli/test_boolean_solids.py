@@ -333,19 +333,24 @@ class Solids(BooleanTest):
     def test_touching_parts_have_points_of_their_own(self):
         self.mesh("d.obj", box((2, 2, 0), (3, 3, 2)))
         entry = self.made("union", "a.obj", "d.obj")
-        self.assertEqual(entry["output"]["nonmanifold_edges"], 0)
         self.assertEqual(entry["separated_points"], 2)
         self.assertEqual((entry["output"]["vertices"], entry["output"]["components"]), (16, 2))
         self.assertEqual(len(set(self.solid("out.obj")[0])), 14)
 
-    def test_parts_that_touch_in_an_edge_are_said_where_stl_joins_them(self):
+    def test_parts_that_touch_in_an_edge_are_said_whatever_the_format(self):
         self.mesh("d.obj", box((2, 2, 0), (3, 3, 2)))
-        for name, count in (("out.stl", 1), ("out.off", 0)):
-            entry = self.made("union", "a.obj", "d.obj", name=name)
-            self.assertEqual(entry["output"]["nonmanifold_edges"], count)
-            texts = [w["text"] for w in entry["warnings"] if w["code"] == "nonmanifold"]
-            self.assertEqual(len(texts), count)
-            self.assertTrue(all("tf-repair sets it apart" in text for text in texts))
+        self.mesh("e.obj", box((5, 5, 0), (6, 6, 2)))
+        for format in ("stl", "off", "ply", "obj", "glb", "3mf"):
+            for other, count in (("d.obj", 1), ("e.obj", 0)):
+                entry = self.made("union", "a.obj", other, name="out." + format)
+                self.assertEqual(entry["output"]["nonmanifold_edges"], count)
+                texts = [w["text"] for w in entry["warnings"] if w["code"] == "nonmanifold"]
+                self.assertEqual(len(texts), count)
+                for text in texts:
+                    self.assertIn("1 edge of more than two faces, where the result touches itself", text)
+                    self.assertIn("tf-repair sets it apart", text)
+                    self.assertEqual("STL" in text, format == "stl")
+        self.made("union", "a.obj", "d.obj", name="out.stl")
         done = subprocess.run([MEND, "--check", "out.stl"], cwd=self.folder, capture_output=True)
         self.assertIn("1 edge of more than two faces", done.stdout.decode())
         subprocess.run([MEND, "-q", "out.stl", "-o", "apart.stl"], cwd=self.folder, check=True)

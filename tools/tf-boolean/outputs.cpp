@@ -73,9 +73,9 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
                         {"faces_not_cut", triangles - std::min(triangles, did.cut_faces)},
                         {"faces_not_looked_at", did.skipped_faces}};
     const auto topology = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
-    // STL has no vertex numbers: who reads it joins equal corners.
+    // STL has no vertex numbers: who reads it joins equal corners. Many do so with other formats.
     std::uint64_t nonmanifold = topology.nonmanifold_edges;
-    if (is_stl(work.options)) {
+    if (is_stl(work.options) || (bounds_solid && known)) {
         const tf::mesh seen = tf::join_equal_points(tf::mesh(result.mesh));
         nonmanifold = tf::count_topology(seen.points.size(), seen.faces).nonmanifold_edges;
     }

@@ -57,10 +57,12 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
     if (result.certificate && !output["volume"].is_null() && nonmanifold > 0)
         work.warn("nonmanifold",
                   counted(nonmanifold, "edge", "edges") +
-                      " of more than two faces, where the result touches itself" +
-                      (is_stl(work.options) ? "; STL has no vertex numbers: other formats keep "
-                                              "apart what touches, tf-repair sets it apart"
-                                            : ""));
+                      " of more than two faces, where the result touches itself; " +
+                      (is_stl(work.options) ? "STL has no vertex numbers: other formats keep "
+                                              "apart what touches"
+                                            : "its points are apart, until a reader or another "
+                                              "format joins equal ones") +
+                      "; tf-repair sets it apart");
     if (!settings.splits() && !output["closed"].get<bool>())
         work.warn("open", "the result is a part of an open surface, and open itself");
     if (settings.simplify && !settings.no_attributes && tf::has_vertex_values(sources_of(solids)))
