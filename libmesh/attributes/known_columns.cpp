@@ -137,6 +137,13 @@ bool is_use(std::string_view name, column_use use) {
     return k != nullptr && k->use == use;
 }
 
+std::optional<column_use> use_called(std::string_view name) {
+    if (name == "normal") return normal;
+    if (name == "uv") return texture;
+    if (name == "color") return color;
+    return std::nullopt;
+}
+
 std::optional<std::size_t> normal_axis(std::string_view name) {
     const known_column* const k = find_known(name);
     if (k == nullptr || k->use != normal) return std::nullopt;
@@ -201,7 +208,11 @@ void translation::choose(element& columns, std::span<const std::string> drop,
                 return i;
         throw std::invalid_argument("treeform::write: no property '" + name + "' of points");
     };
-    for (const std::string& name : drop) done[find(name)] = true;
+    for (const std::string& name : drop) {
+        const std::vector<std::string> meant = columns_called(columns, name);
+        for (const std::string& column : meant) done[find(column)] = true;
+        if (meant.empty()) done[find(name)] = true;  // which says that it is not there
+    }
     for (const named_column& r : renamed_) {
         const std::size_t at = find(r.source);
         if (find_column(columns, r.name) != nullptr)
@@ -227,7 +238,7 @@ const value_range* translation::range_of(std::string_view column) const {
 }
 
 void translation::plan(const element& columns, std::vector<bool>& done) {
-    if (!is_same_) plan_colors(columns, done);
+    if (!is_same_ && to_ != "stl") plan_colors(columns, done);  // STL has none
     for (std::size_t i = 0; i < done.size(); ++i)
         if (!done[i]) plan_column(columns, i);
     if (!narrowed_.empty()) say("types", narrowed_ + " written as float32, as PCL reads them");
@@ -262,7 +273,7 @@ void translation::plan_colors(const element& columns, std::vector<bool>& done) {
         return;
     }
     if (keeps_floats_ && has_floats && scale_ == color_scale::unit) return;
-    if (keeps_words_ && scale_ == color_scale::high_byte) return;
+    if (keeps_words_ && scale_ != color_scale::bytes) return;
     for (std::size_t k = 0; k < from.size(); ++k) {
         const column& c = columns.columns[from[k]];
         target t{
@@ -313,9 +324,11 @@ void translation::choose_scale(const std::vector<const column*>& channels) {
                 say("colors", "colors in fields of 16 bits are all below 256: taken for 8 bits");
             return;
         }
-        scale_ = color_scale::high_byte;
+        scale_ = from_words_ == dialect::las ? color_scale::high_byte : color_scale::word;
         if (to_words_ != dialect::las && !keeps_words_)
-            say("colors", "colors of 16 bits are written with 8, the high ones");
+            say("colors",
+                std::string("colors of 16 bits are written with 8, ") +
+                    (from_words_ == dialect::las ? "the high ones, as LAS means them" : "rounded"));
     }
 }
 
@@ -383,6 +396,8 @@ std::uint8_t translation::byte_of(const column& c, std::size_t row) const {
         case color_scale::high_byte:
             return c.type == uint16 ? static_cast<std::uint8_t>(static_cast<unsigned>(value) >> 8)
                                     : nearest_byte(value);
+        case color_scale::word:
+            return nearest_byte(c.type == uint16 ? value / bytes_in_word : value);
         case color_scale::unit:
             return is_floating(c.type) ? nearest_byte(value * 255.0) : nearest_byte(value);
         case color_scale::bytes:
@@ -442,3 +457,18 @@ element translation::apply(const element& rows) const {
 }
 
 }  // namespace treeform::detail::attribute
+
+namespace treeform {
+
+std::vector<std::string> columns_called(const element& e, std::string_view name) {
+    if (const column* const c = find_column(e, name); c && c->role == column_role::data)
+        return {c->name};
+    std::vector<std::string> columns;
+    if (const auto use = detail::attribute::use_called(name))
+        for (const column& c : e.columns)
+            if (c.role == column_role::data && detail::attribute::is_use(c.name, *use))
+                columns.push_back(c.name);
+    return columns;
+}
+
+}  // namespace treeform

@@ -43,6 +43,9 @@ struct known_column {
 inline constexpr std::string_view packed_color = "rgb";
 inline constexpr std::string_view packed_color_with_alpha = "rgba";
 
+/// What 1 in a channel of 8 bits is in one of 16, which are 255 and 65535 where they are full.
+inline constexpr double bytes_in_word = 257.0;
+
 [[nodiscard]] std::span<const known_column> known_columns();
 
 /// The column that a name means in any dialect, in any case, with underscores or without, and behind
@@ -51,6 +54,8 @@ inline constexpr std::string_view packed_color_with_alpha = "rgba";
 
 /// Whether a name is one of a normal or a texture coordinate, or of a color, packed or not.
 [[nodiscard]] bool is_use(std::string_view name, column_use use);
+/// The use that "normal", "uv" and "color" stand for.
+[[nodiscard]] std::optional<column_use> use_called(std::string_view name);
 /// The axis of a name of a normal: 0, 1, 2.
 [[nodiscard]] std::optional<std::size_t> normal_axis(std::string_view name);
 
@@ -84,8 +89,8 @@ class translation {
     [[nodiscard]] const std::vector<io_warning>& warnings() const { return warnings_; }
 
   private:
-    /// How a channel of a color becomes one of 8 bits.
-    enum class color_scale : std::uint8_t { bytes, high_byte, unit };
+    /// How a channel of a color becomes one of 8 bits. In LAS those are the high ones of 16.
+    enum class color_scale : std::uint8_t { bytes, high_byte, word, unit };
     enum class way : std::uint8_t { copied, cast, scaled, channel, packed, unpacked };
     struct target {
         column declared{};

@@ -1,4 +1,5 @@
 #include <libmesh/base/byte_order.hpp>
+#include <libmesh/base/words.hpp>
 #include <libmesh/io/is_value_of.hpp>
 #include <libmesh/io/las_records.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -20,6 +21,7 @@ struct chunk_fault {
     std::string reason{};
     double moved = 0.0;
     las_tally::rounded_value rounded{};
+    las_tally::rounded_wholes wholes{};
     std::uint64_t without_value = 0;
 
     void at(std::size_t i, const std::string& why) {
@@ -108,9 +110,21 @@ void put_bytes_as_bits(const column& c, const record_rows& rows, const las_dimen
     return value;
 }
 
+/// Whether the whole number in this row is still the same, as `stored`.
+[[nodiscard]] bool is_kept(const column& c, std::size_t row, double stored) {
+    return with_type(c.type, [&]<class T>(T value) {
+        if constexpr (std::is_integral_v<T>) {
+            std::memcpy(&value, c.values.data() + row * sizeof value, sizeof value);
+            return is_value_of<T>(stored) && static_cast<T>(stored) == value;
+        }
+        return true;
+    });
+}
+
 void put_converted(const column& c, const record_rows& rows, const las_dimension& d,
                    chunk_fault& fault) {
     const double most = d.bits > 0 ? (1u << d.bits) - 1 : std::numeric_limits<double>::infinity();
+    std::uint64_t rounded = 0;
     with_type(d.type, [&]<class T>(T) {
         for (std::size_t i = 0; i < rows.count; ++i) {
             const double value = in_units_of(d, c, number_at(c, rows.first + i));
@@ -119,6 +133,8 @@ void put_converted(const column& c, const record_rows& rows, const las_dimension
                     fault.at(rows.first + i, too_large(c, value));
                     continue;
                 }
+            } else if (!is_kept(c, rows.first + i, static_cast<T>(value))) {
+                ++rounded;
             }
             std::uint8_t* const to = rows.to + i * rows.size + d.byte;
             if (d.bits > 0)
@@ -128,6 +144,7 @@ void put_converted(const column& c, const record_rows& rows, const las_dimension
                                                  static_cast<T>(value));
         }
     });
+    if (rounded > 0) fault.wholes.add({rounded, {c.name}});
 }
 
 /// The nearest of the numbers that stand for values, or the one that stands for none.
@@ -176,6 +193,13 @@ void las_tally::remark(std::vector<io_warning>& warnings) const {
                                                " are rounded to the steps of its scale in the "
                                                "LAS file, by at most " +
                                                std::to_string(rounded_.by)});
+    if (wholes_.count > 0) {
+        std::string names;
+        for (const std::string& name : wholes_.columns) names += (names.empty() ? "" : ", ") + name;
+        warnings.push_back({"types", base::counted(wholes_.count, "whole number", "whole numbers") +
+                                         " of " + names +
+                                         " rounded: they are floating-point numbers in LAS"});
+    }
     if (without_value_ > 0)
         warnings.push_back({"extra-bytes", std::to_string(without_value_) +
                                                " values of extra bytes are no number, and are "
@@ -268,6 +292,7 @@ void las_source::put(std::size_t first, std::size_t count, std::uint64_t number,
                             f.reason);
         tally.moved(f.moved);
         tally.rounded(f.rounded);
+        tally.rounded(f.wholes);
         tally.without_value(f.without_value);
     }
     tally.add(records, count);

@@ -6,6 +6,7 @@
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,18 @@ class las_tally {
     void rounded(const rounded_value& value) {
         if (value.by > rounded_.by) rounded_ = value;
     }
+    /// Whole numbers that the numbers with a point in the file do not hold, and of which columns.
+    struct rounded_wholes {
+        std::uint64_t count = 0;
+        std::vector<std::string> columns{};
+
+        void add(const rounded_wholes& more) {
+            count += more.count;
+            for (const std::string& name : more.columns)
+                if (std::ranges::find(columns, name) == columns.end()) columns.push_back(name);
+        }
+    };
+    void rounded(const rounded_wholes& values) { wholes_.add(values); }
     void without_value(std::uint64_t count) { without_value_ += count; }
     /// What of values is other than it was to be, in words.
     void remark(std::vector<io_warning>& warnings) const;
@@ -50,6 +63,7 @@ class las_tally {
     unsigned return_bits_;  ///< 3 or 4
     double max_displacement_ = 0.0;
     rounded_value rounded_{};
+    rounded_wholes wholes_{};
     std::uint64_t without_value_ = 0;
     std::uint64_t seen_ = 0;
     std::array<std::int32_t, 3> low_{};

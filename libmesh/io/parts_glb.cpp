@@ -232,8 +232,7 @@ std::array<float, 2> attributes_glb::texture(const vertex_glb& v) const {
 }
 
 double attributes_glb::color_share(const column& c, std::size_t row) {
-    const double value =
-        c.type == scalar_type::uint16 ? number_at(c, row) / 65535.0 : color_value(c, row);
+    const double value = color_value(c, row);
     return value > 0.0 ? std::min(value, 1.0) : 0.0;  // of NaN: none
 }
 

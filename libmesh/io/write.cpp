@@ -240,9 +240,44 @@ class writing {
     write_result result_{};
 };
 
+/// A file without what is dropped of its corners, which are no columns.
+class dropped_corners {
+  public:
+    dropped_corners(const mesh_file& file, const write_options& options)
+        : file_(file), options_(options) {
+        const element* const points = find_element(file.attributes, "vertex");
+        const auto drop = [&](const char* name, auto corner_values::*values, const auto& clear) {
+            if (std::ranges::count(options.drop, name) == 0) return;
+            if ((file.attributes.corners.*values).empty()) return;
+            if (!less_) less_ = file;
+            clear(less_->attributes.corners);
+            if (points != nullptr && !columns_called(*points, name).empty()) return;
+            if (!fewer_) fewer_ = options;
+            std::erase(fewer_->drop, name);
+        };
+        drop("normal", &corner_values::normal_of_corner, [](corner_values& c) {
+            c.normal_of_corner.clear();
+            c.normals.clear();
+        });
+        drop("uv", &corner_values::texture_of_corner, [](corner_values& c) {
+            c.texture_of_corner.clear();
+            c.texture.clear();
+        });
+    }
+    [[nodiscard]] const mesh_file& file() const { return less_ ? *less_ : file_; }
+    [[nodiscard]] const write_options& options() const { return fewer_ ? *fewer_ : options_; }
+
+  private:
+    const mesh_file& file_;
+    const write_options& options_;
+    std::optional<mesh_file> less_;
+    std::optional<write_options> fewer_;
+};
+
 write_result write_file(const std::filesystem::path& path, const mesh_file& file,
                         const write_options& options, bool may_round) {
-    writing job(path, file, options, may_round);
+    const dropped_corners less(file, options);
+    writing job(path, less.file(), less.options(), may_round);
     const auto goes_on = [&](double done) { return !options.progress || options.progress(done); };
     if (!goes_on(0.0)) return {.cancelled = true};
     detail::io::output_file target(path);
@@ -282,7 +317,8 @@ write_result detail::io::write_certified(const std::filesystem::path& path, cons
 std::string write_to_memory(const mesh_file& file, const write_options& options) {
     std::string bytes;
     detail::io::sink out(bytes);
-    (void)writing("memory", file, options).run(out);
+    const dropped_corners less(file, options);
+    (void)writing("memory", less.file(), less.options()).run(out);
     return bytes;
 }
 

@@ -177,11 +177,10 @@ void put_bits(sink& out, const column& c, std::size_t i) {
 [[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
                                                        std::string_view element);
 
-/// A color as a number from 0 to 1: whole numbers count 255ths, those of 16 bits by their high byte;
-/// others are taken as they are.
+/// A color as a number from 0 to 1: whole numbers count 255ths, those of 16 bits 65535ths; others are taken as they are.
 [[nodiscard]] inline double color_value(const column& c, std::size_t row) {
     const double value = number_at(c, row);
-    if (c.type == scalar_type::uint16) return std::floor(value / 256.0) / 255.0;
+    if (c.type == scalar_type::uint16) return value / 65535.0;
     return c.type < scalar_type::float32 ? value / 255.0 : value;
 }
 

@@ -1,6 +1,7 @@
 #include <libmesh/attributes/known_columns.hpp>
 #include <libmesh/base/add_to_box.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/words.hpp>
 #include <libmesh/stream/point_survey.hpp>
 #include <libmesh/weld/near_cells.hpp>
 
@@ -199,6 +200,10 @@ point_survey survey(joined_points& points, const team& all, const share& mine,
     s.warnings = points.warnings();
     s.las_moved = points.moved();
     if (!all.is_alone()) unite(all, failure, result, chosen, places, most);
+    if (s.las_moved > 0.0)
+        s.warnings.push_back(
+            {"las-grid", "coordinates are rounded to the steps of the LAS file, by at most " +
+                             base::brief(s.las_moved)});
     for (const cloud_survey::source& one : s.sources) s.single = s.single && one.single;
     result.sample = chosen.part();
     if (tolerance) result.places = places.part();

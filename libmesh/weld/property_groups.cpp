@@ -16,14 +16,6 @@ using fault = weld_property_error::fault;
 
 using detail::attribute::column_use;
 
-/// What stands for all columns that say one thing, whatever files call them.
-std::optional<column_use> find_group(std::string_view name) {
-    if (name == "normal") return column_use::normal;
-    if (name == "uv") return column_use::texture;
-    if (name == "color") return column_use::color;
-    return std::nullopt;
-}
-
 const column* data_column(const attributes& properties, std::string_view name) {
     const element* vertices = find_element(properties, "vertex");
     const column* c = vertices == nullptr ? nullptr : find_column(*vertices, name);
@@ -41,15 +33,9 @@ bool is_axis(std::string_view name) { return name == "x" || name == "y" || name 
 
 /// The columns that `name` stands for; empty when there are none.
 std::vector<std::string> columns_of(const attributes& properties, std::string_view name) {
-    if (is_axis(name) || data_column(properties, name) != nullptr) return {std::string(name)};
-    std::vector<std::string> columns;
+    if (is_axis(name)) return {std::string(name)};
     const element* const vertices = find_element(properties, "vertex");
-    const auto group = find_group(name);
-    if (!group || vertices == nullptr) return columns;
-    for (const column& c : vertices->columns)
-        if (c.role == column_role::data && detail::attribute::is_use(c.name, *group))
-            columns.push_back(c.name);
-    return columns;
+    return vertices == nullptr ? std::vector<std::string>{} : columns_called(*vertices, name);
 }
 
 std::vector<std::string> required(const attributes& properties, option where,
@@ -72,8 +58,9 @@ std::vector<weld_condition> kept_seams(const attributes& properties,
                                        const std::vector<std::string>& across) {
     std::vector<weld_condition> seams = seam_conditions(properties);
     for (const std::string& name : across) {
-        const auto let_go = find_group(name) ? columns_of(properties, name)
-                                             : required(properties, option::across, name);
+        const auto let_go = detail::attribute::use_called(name)
+                                ? columns_of(properties, name)
+                                : required(properties, option::across, name);
         std::erase_if(seams, [&](const weld_condition& c) {
             return std::find(let_go.begin(), let_go.end(), c.property) != let_go.end();
         });

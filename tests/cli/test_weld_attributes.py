@@ -80,6 +80,36 @@ class Attributes(WeldTest):
             for name in ("return_number", "number_of_returns"):
                 self.assertEqual(first.split(",")[head.split(",").index(name)], "1")
 
+    def test_drop_takes_all_columns_of_a_kind(self):
+        rows = [(i, 0, 0, i % 256, 7, 255, 0, 0, 1, 0.5) for i in range(60)]
+        names = ["float x", "float y", "float z", "uchar red", "uchar green", "uchar blue", "float nx",
+                 "float ny", "float nz", "float curvature"]
+        self.write("in.ply", ply_text(names, rows))
+        for other in ("pcd", "las"):
+            self.run_tool("in.ply", "-o", "in." + other, status=0)
+        for source in ("in.ply", "in.pcd", "in.las"):
+            self.both(source, "--ascii", "--drop", "normal,color", out="out.ply")
+            head = self.read("out.ply").partition("end_header")[0]
+            self.assertIn(" curvature\n", head)
+            for name in ("red", "rgb", "nx", "normal_x"):
+                self.assertNotIn(" " + name + "\n", head)
+        self.assertIn("--drop uv: no such property", self.run_tool(
+            "in.ply", "--drop", "uv", "-o", "out.ply", "-f", status=3).err)
+        self.write("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nvt 1 0\n"
+                   "f 1/1/1 2/2/1 3/1/1\n")
+        for drop, line in (("normal", "f 1/1 2/2 3/1"), ("uv", "f 1//1 2//1 3//1"),
+                           ("uv,normal", "f 1 2 3")):
+            self.run_tool("in.obj", "--drop", drop, "-o", "out.obj", "-f", status=0)
+            self.assertIn(line + "\n", self.read("out.obj"))
+
+    def test_what_is_rounded_in_las_is_counted(self):
+        self.write("in.csv", "x,y,z,gps_time\n" + "".join(
+            f"{i},0,0,{2 ** 60 + (0 if i < 50 else 2 * i + 1)}\n" for i in range(70)))
+        for out in ("out.las", "out.laz"):
+            said = self.both("in.csv", out=out)
+            self.assertEqual(said, ["20 whole numbers of gps_time rounded: they are floating-point "
+                                    "numbers in LAS"])
+
     def test_names_are_those_of_the_format(self):
         rows = [(i, 0, 0, i % 256, 7, 255, 0, 0, 1, 0.5) for i in range(60)]
         self.write("in.ply", ply_text(["float x", "float y", "float z", "uchar red", "uchar green",

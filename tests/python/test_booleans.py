@@ -49,6 +49,25 @@ def test_a_cloud_is_no_solid():
             verb()
 
 
+def test_objects_of_one_mesh_are_the_operands(tmp_path):
+    small, beside = moved(CUBE, 0.5, 0.5, 0.5), moved(CUBE, -0.5, 0, 0)
+    tf.write(tmp_path / "all.3mf", [CUBE, small, beside])
+    mesh = tf.read(tmp_path / "all.3mf")
+    for verb, word in ((tf.difference, "difference"), (tf.intersection, "intersection"),
+                       (tf.symmetric_difference, "xor"), (tf.union, "union")):
+        made = verb(mesh)
+        assert np.isclose(made.mesh.volume, verb(CUBE, small, beside).mesh.volume), word
+        if word != "union":
+            assert np.isclose(verb([mesh]).mesh.volume, made.mesh.volume)
+            assert set(made.face_source[:, 0]) <= {0, 1, 2}
+    run_tool("tf-boolean", "difference", tmp_path / "all.3mf", "-o", tmp_path / "tool.off",
+             "--precision", "double")
+    tf.write(tmp_path / "own.off", tf.difference(mesh))
+    assert (tmp_path / "tool.off").read_bytes() == (tmp_path / "own.off").read_bytes()
+    plain = tf.Mesh(mesh.vertices, mesh.faces)
+    assert np.isclose(tf.difference(plain).mesh.volume, tf.union(plain).mesh.volume)
+
+
 coordinates = st.integers(0, 8)
 corners = st.tuples(coordinates, coordinates, coordinates)
 

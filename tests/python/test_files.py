@@ -254,3 +254,8 @@ def test_columns_are_what_they_are_said_to_be(tmp_path):
     assert "id" not in tf.read(tmp_path / "t.ply").attributes.vertex
     with pytest.raises(ValueError, match="none"):
         tf.write(tmp_path / "t.ply", cloud, drop=["none"])
+    path.write_text(f"x,y,z,gps_time,nx,ny,nz\n1,2,3,{2**60 + 1},0,0,1\n4,5,6,{2**60},0,0,1\n")
+    cloud = tf.read(path)
+    done = tf.write(tmp_path / "big.las", cloud, drop=["normal"])
+    assert any("1 whole number of gps_time rounded" in text for text in done.warnings)
+    assert "nx" not in tf.read(tmp_path / "big.las").attributes.vertex

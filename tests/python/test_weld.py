@@ -142,6 +142,23 @@ def test_points_are_withheld_in_las(tmp_path):
     assert np.sum(made.attributes.vertex["withheld"] == 0) == done.kept
 
 
+def test_what_las_rounds_is_said(tmp_path):
+    points = np.random.default_rng(6).integers(0, 300, (50, 3)) * 0.01
+    for name, scale in (("a.las", 0.01), ("b.las", 0.0075)):
+        tf.write(tmp_path / name, (points, []), las_scale=(scale,) * 3)
+    inputs = [tmp_path / "a.las", tmp_path / "b.las"]
+    done = tf.weld_stream(inputs, tmp_path / "c.las", as_las=True)
+    assert 0.001 < done.max_displacement < 0.005
+    assert any("rounded to the steps of the LAS file" in text for text in done.warnings)
+    with tf.StreamWeld(inputs, as_las=True, folder=tmp_path / "tiles") as work:
+        for tile in range(work.scatter()):
+            work.weld_tile(tile)
+        again = work.finish(tmp_path / "d.las")
+    assert (again.max_displacement, again.warnings) == (done.max_displacement, done.warnings)
+    same = tf.weld_stream(tmp_path / "a.las", tmp_path / "e.las", as_las=True)
+    assert (same.max_displacement, same.warnings) == (0, [])
+
+
 def test_columns_of_text_are_named(tmp_path):
     (tmp_path / "a.csv").write_text("h,n,e\n1,2,3\n1,2,3\n4,5,6\n")
     columns = {"x": "e", "y": "n", "z": 1}

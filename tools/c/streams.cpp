@@ -92,7 +92,7 @@ void give_streamed(tf::weld_stream_result from, treeform_weld_stream_result** ou
     r.tolerance = kept.survey.tolerance;
     r.kept = kept.counts.kept;
     r.groups = kept.counts.groups;
-    r.max_displacement = kept.counts.max_displacement;
+    r.max_displacement = kept.counts.max_displacement + kept.survey.las_moved;
     r.tiles = kept.survey.tiles;
     r.finished_tiles = kept.survey.finished_tiles;
     r.format = kept.written.welded ? kept.written.welded->format.c_str() : "";

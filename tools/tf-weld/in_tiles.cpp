@@ -108,7 +108,6 @@ void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_in
     work.entry["precision_in"] = precision(survey.single);
     for (const tf::io_warning& w : survey.warnings)
         work.warn(w.code, w.code == "left-out" ? w.text + " by --join" : w.text);
-    warn_of_las_grid(work, "coordinates", survey.las_moved);
 }
 
 void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder) {

@@ -87,7 +87,9 @@ void add_columns(command_line& line, common_options& o, bool& mixed) {
                 [&o](std::string_view text) { o.columns = tools::parse_names("--columns", text); });
     line.flag(o.drop_nan,
               {"--drop-nan", "", "drop points with a NaN or infinite coordinate first"});
-    line.option({"--drop", "P,...", "properties of points that are not written"},
+    line.option({"--drop", "P,...",
+                 "properties of points that are not written; normal, uv\n"
+                 "of corners as well"},
                 [&o](std::string_view text) { o.drop = tools::parse_properties("--drop", text); });
     line.option({"--rename", "P=NAME,...", "property P of points is written as NAME"},
                 [&o](std::string_view text) {

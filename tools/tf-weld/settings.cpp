@@ -78,7 +78,12 @@ void check_properties(const job& work, const tf::mesh_file& file) {
                 bad_input, "property",
                 option + " " + name + ": no such property; " + known_properties(file.attributes));
     };
-    for (const std::string& name : work.options.drop) check("--drop", name);
+    const tf::corner_values& corners = file.attributes.corners;
+    for (const std::string& name : work.options.drop)
+        if (!(vertices != nullptr && !tf::columns_called(*vertices, name).empty()) &&
+            !(name == "normal" && !corners.normal_of_corner.empty()) &&
+            !(name == "uv" && !corners.texture_of_corner.empty()))
+            check("--drop", name);
     for (const tf::named_column& r : work.options.rename) {
         check("--rename", r.source);
         if (has(r.name) || r.name == "x" || r.name == "y" || r.name == "z")

@@ -146,6 +146,23 @@ TEST_CASE("translation: colors of 16 bits, of 8 bits in 16, of floats") {
     CHECK(translated_numbers(passed_through(with({65535, 32768}), "obj"), "red").front() == 1.0);
     CHECK(translated_numbers(passed_through(with({255, 17}), "ply"), "red") ==
           std::vector<double>{255, 17});
+    tf::mesh_file of_words = with({65280, 32768});
+    CHECK(translated_numbers(passed_through(of_words, "ply"), "red") ==
+          std::vector<double>{255, 128});
+    of_words = with({16383, 65535});
+    of_words.format = "glb";
+    CHECK(translated_numbers(passed_through(of_words, "ply"), "red") ==
+          std::vector<double>{64, 255});
+    CHECK(
+        put_translated(of_words, "pcd").warnings.at(0).find("16 bits are written with 8, round") !=
+        std::string::npos);
+    of_words.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    of_words.attributes = {};
+    for (const char* name : {"red", "green", "blue"})
+        add_translated<std::uint16_t>(of_words, name, {16383, 0, 65535});
+    const auto left_out = put_translated(of_words, "stl").warnings;
+    REQUIRE(left_out.size() == 1);
+    CHECK(left_out[0].find("STL does not hold them") != std::string::npos);
     CHECK(put_translated(with({65535, 1}), "ply").warnings.at(0).find("16 bits") !=
           std::string::npos);
     CHECK(put_translated(with({255, 17}), "ply").warnings.at(0).find("below 256") !=
@@ -213,6 +230,28 @@ TEST_CASE("translation: columns are dropped and renamed as asked") {
     CHECK(translated_column(made, "curvature") == nullptr);
     CHECK(translated_column(made, "nx") == nullptr);
     CHECK(translated_numbers(made, "height") == std::vector<double>{7, 800, 60000});
+    const tf::mesh_file bare =
+        read_translated(put_translated(file, "ply", {.drop = {"normal", "color"}}).bytes, "ply");
+    REQUIRE(tf::find_element(bare.attributes, "vertex") != nullptr);
+    CHECK(tf::columns_called(*tf::find_element(bare.attributes, "vertex"), "normal").empty());
+    CHECK(tf::columns_called(*tf::find_element(bare.attributes, "vertex"), "color").empty());
+    CHECK(translated_numbers(bare, "intensity") == std::vector<double>{7, 800, 60000});
+    CHECK_THROWS_AS((void)tf::write("/dev/null", file, {.format = "ply", .drop = {"uv"}}),
+                    std::invalid_argument);
+    tf::mesh_file cornered;
+    cornered.format = "obj";
+    cornered.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    cornered.attributes.corners = {.texture = {{0, 0, 0}, {1, 0, 0}},
+                                   .normals = {{0, 0, 1}},
+                                   .texture_of_corner = {{0, 1, 0}},
+                                   .normal_of_corner = {{0, 0, 0}}};
+    const auto text_without = [&](std::vector<std::string> drop) {
+        return put_translated(cornered, "obj", {.drop = std::move(drop)}).bytes;
+    };
+    CHECK(text_without({}).find("vn ") != std::string::npos);
+    CHECK(text_without({"normal"}).find("vn ") == std::string::npos);
+    CHECK(text_without({"normal"}).find("vt ") != std::string::npos);
+    CHECK(text_without({"normal", "uv"}).find("f 1 2 3") != std::string::npos);
     CHECK_THROWS_AS((void)tf::write("/dev/null", file, {.format = "ply", .drop = {"none"}}),
                     std::invalid_argument);
     CHECK_THROWS_AS(

@@ -1,9 +1,11 @@
 #include "bindings.hpp"
 #include "carrying.hpp"
+#include "file_data.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
 #include "words.hpp"
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/carry.hpp>
 
 #include <pybind11/stl.h>
 
@@ -94,6 +96,27 @@ void require_faces(const held_meshes& meshes, const std::vector<std::string>& na
         require_faces(*meshes[i], names.empty() ? "operand " + std::to_string(i) : names[i]);
 }
 
+/// The objects of a mesh, in order, each with what it has; none where they cannot be told apart.
+py::list objects_of(const held_mesh& mesh) {
+    py::list objects;
+    if (mesh.data().is_none()) return objects;
+    tf::mesh_file whole = mesh.data().cast<const file_data&>().file();
+    if (whole.attributes.parts.size() < 2) return objects;
+    const auto [points, faces] = mesh.view();
+    whole.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
+    require_rows(whole, 0);
+    std::vector<tf::file_part> parts;
+    without_lock([&] { parts = tf::split_parts({&whole, {}}); });
+    if (parts.size() < 2) return objects;
+    for (tf::file_part& part : parts) {
+        tf::mesh made = std::exchange(part.file.mesh, {});
+        held_mesh object(as_array(std::move(made.points)), as_array(std::move(made.faces)), false);
+        object.set_data(py::cast(file_data(std::move(part.file))));
+        objects.append(py::cast(std::move(object)));
+    }
+    return objects;
+}
+
 py::dict boolean(const held_meshes& meshes, const std::string& operation,
                  const std::string& formula, const std::vector<std::string>& names,
                  const std::string& inside, const std::string& precision, bool keep_cuts,
@@ -156,6 +179,7 @@ tf::certificate check_solid(const held_mesh& mesh) {
 }  // namespace
 
 void add_booleans(py::module_& module) {
+    module.def("objects_of", &objects_of);
     module.def("boolean", &boolean);
     module.def("clip", &clip);
     module.def("split", &split);

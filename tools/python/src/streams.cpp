@@ -37,7 +37,7 @@ py::dict as_dict(const tf::weld_stream_result& result) {
     made["points"] = result.survey.points;
     made["kept"] = result.counts.kept;
     made["groups"] = result.counts.groups;
-    made["max_displacement"] = result.counts.max_displacement;
+    made["max_displacement"] = result.counts.max_displacement + result.survey.las_moved;
     made["tolerance"] = result.survey.tolerance;
     made["non_finite"] = result.survey.non_finite;
     made["tiles"] = result.survey.tiles;
@@ -53,6 +53,9 @@ py::dict as_dict(const tf::weld_stream_result& result) {
     made["statistics"] = counted;
     py::list warnings;
     for (const tf::io_warning& one : result.survey.warnings) warnings.append(one.text);
+    for (const auto* const written : {&result.written.welded, &result.written.removed})
+        if (*written)
+            for (const tf::io_warning& one : (*written)->warnings) warnings.append(one.text);
     made["warnings"] = warnings;
     return made;
 }
@@ -142,6 +145,7 @@ struct shared_weld {
         if (result.status == tf::status::ok) result.status = work.write(outputs);
         result.survey = work.survey();
         result.counts = work.counts();
+        result.written = work.written();
         return result;
     }
 };

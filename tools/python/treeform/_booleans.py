@@ -64,9 +64,11 @@ def _operands(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
 def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: str, keep_cuts: bool,
              simplify: bool, volumes: bool, max_displacement: float, check: bool,
              progress: Progress) -> BooleanResult:
-    return _result(_core.boolean(_operands(meshes), operation, "", [],
-                                 inside, precision, keep_cuts, simplify, volumes, max_displacement,
-                                 progress=progress), check)
+    operands = _operands(meshes)
+    if len(operands) == 1 and operation != "union":
+        operands = _core.objects_of(operands[0]) or operands
+    return _result(_core.boolean(operands, operation, "", [], inside, precision, keep_cuts,
+                                 simplify, volumes, max_displacement, progress=progress), check)
 
 
 def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
@@ -90,7 +92,8 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
                  keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
           max_displacement: float = np.inf, check: bool = True,
                  progress: Progress = None) -> BooleanResult:
-    """What is in all of the solids. See `boolean`.
+    """What is in all of the solids. Of one mesh that a file of several objects was read to, its
+    objects are the solids, as in `difference`. See `boolean`.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -108,6 +111,10 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     """The first solid without all others: `difference(a, b, c)`, or `difference(a, [b, c])`. See
     `boolean`.
 
+    One mesh that a file of several objects was read to (`attributes.parts`) is the first object
+    without the others, as in tf-boolean; `face_source` and `vertex_source` count in each object.
+    One mesh without such objects is one solid, and nothing is taken from it.
+
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
     >>> cutters = [(a.vertices + 0.5, a.faces), (a.vertices - 0.5, a.faces)]
@@ -122,7 +129,8 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
                          keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
                          max_displacement: float = np.inf, check: bool = True,
                          progress: Progress = None) -> BooleanResult:
-    """What is in an odd number of the solids. See `boolean`.
+    """What is in an odd number of the solids. Of one mesh that a file of several objects was read
+    to, its objects are the solids, as in `difference`. See `boolean`.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")

@@ -409,10 +409,9 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     if not isinstance(scale, (bool, np.bool_)):
         least, most = _arrays.pair(scale, "scale")
         scale = True
-    made = _core.align(body, held_body(onto), method, overlap, weights, max_distance,
-                       bool(scale),
-                       least, most, max_iterations, tolerance, starts, samples, _arrays.matrix(start, "start"),
-                       precision, progress=progress)
+    made = _core.align(body, held_body(onto), method, overlap, weights, max_distance, bool(scale),
+                       least, most, max_iterations, tolerance, starts, samples,
+                       _arrays.matrix(start, "start"), precision, progress=progress)
     made["mesh"] = _placed(made.pop("points"), body, made["matrix"])
     return Alignment(**made)
 

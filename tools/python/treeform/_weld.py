@@ -132,7 +132,7 @@ class WeldStreamResult(Result):
     points: Points of the inputs.
     kept: Points that are left.
     groups: Groups of two points or more.
-    max_displacement: The furthest that a point moved.
+    max_displacement: The furthest that a point moved, at most; also to a step of LAS.
     tolerance: As a length.
     non_finite: Points that are not finite; all are kept.
     tiles: Parts that space was cut into.

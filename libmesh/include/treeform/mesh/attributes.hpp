@@ -184,6 +184,11 @@ struct element {
 /// The column of that name; null when there is none.
 [[nodiscard]] TREEFORM_API const column* find_column(const element& e, std::string_view name);
 
+/// Names of the columns with values that `name` stands for: the one of that name, or else those of a
+/// kind, "normal", "uv" or "color", whatever formats call them. Empty where there are none.
+[[nodiscard]] TREEFORM_API std::vector<std::string> columns_called(const element& e,
+                                                                   std::string_view name);
+
 /// Replaces the column with the name of `c`, or appends `c` when there is none. Returns whether
 /// there was one.
 ///

@@ -31,7 +31,9 @@ struct write_options {
     /// Columns of points keep the names and types that they have in `file`, also where the format has
     /// others for them.
     bool keep_names = false;
-    std::vector<std::string> drop{};     ///< columns of points that are not written
+    /// Columns of points that are not written; "normal", "uv" or "color" for all of that kind, also
+    /// those of corners.
+    std::vector<std::string> drop{};
     std::vector<named_column> rename{};  ///< of points: `source` is the column, `name` the new one
     /// Of LAS and LAZ; none: those of the file, else as below.
     std::optional<std::array<double, 3>> las_scale{};

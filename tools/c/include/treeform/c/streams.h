@@ -57,7 +57,7 @@ typedef struct treeform_weld_stream_result {
     double tolerance;     ///< as a length
     uint64_t kept;
     uint64_t groups;  ///< of two points or more
-    double max_displacement;
+    double max_displacement;  ///< of a point at most, with what rounds it to the steps of LAS
     uint64_t tiles;
     uint64_t finished_tiles;  ///< by an earlier run
     const char* format;       ///< that was written
