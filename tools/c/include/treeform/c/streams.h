@@ -56,7 +56,7 @@ typedef struct treeform_weld_stream_result {
     uint64_t non_finite;  ///< all are kept
     double tolerance;     ///< as a length
     uint64_t kept;
-    uint64_t groups;  ///< of two points or more
+    uint64_t groups;          ///< of two points or more
     double max_displacement;  ///< of a point at most, with what rounds it to the steps of LAS
     uint64_t tiles;
     uint64_t finished_tiles;  ///< by an earlier run
