@@ -11,6 +11,7 @@
 #include <libmesh/base/require_share.hpp>
 #include <libmesh/boolean/active_boolean.hpp>
 #include <libmesh/boolean/clip_sheet.hpp>
+#include <libmesh/boolean/filled_gaps.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/inside_of_cells.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
@@ -21,6 +22,7 @@
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/region_graph.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
+#include <libmesh/boolean/small_parts.hpp>
 #include <libmesh/boolean/sound_operand.hpp>
 #include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
@@ -226,23 +228,16 @@ boolean_result split_of(std::span<const mesh_view> operands, const boolean_optio
 }
 
 /// The result as it is returned: a solid as a manifold, which takes a `split` where it may not be one.
-boolean_result finished(boolean_result&& result, bool split, precision of) {
-    detail::base::describe(result.certificate, result.mesh, of);
+boolean_result finished(boolean_result&& result, bool split, const boolean_options& options) {
+    detail::base::describe(result.certificate, result.mesh, options.precision);
     if (!result.certificate) return std::move(result);
     if (result.mesh.faces.empty() && result.statistics.exact_faces > 0) {
         result.certificate.status = status::vanished;
         result.certificate.vanished_faces = result.statistics.exact_faces;
         return std::move(result);
     }
-    if (!split) return std::move(result);
-    detail::boolean::manifold_surface manifold =
-        detail::boolean::split_nonmanifold(std::move(result.mesh));
-    result.mesh = std::move(manifold.surface);
-    result.statistics.split_vertices = manifold.vertex_of_added.size();
-    for (auto* sources : {&result.vertex_source, &result.face_of_cut_vertex})
-        if (!sources->empty())
-            for (const std::uint32_t p : manifold.vertex_of_added)
-                sources->push_back((*sources)[p]);
+    if (split) detail::boolean::split_nonmanifold(result);
+    if (options.min_volume > 0.0) detail::boolean::drop_small_parts(result, options.min_volume);
     return std::move(result);
 }
 
@@ -252,6 +247,8 @@ boolean_result with_checks(const char* function, std::span<const mesh_view> oper
                            const boolean_options& options, const Run& run) {
     detail::boolean::check_operands(function, operands);
     detail::base::require_limit(function, options.max_displacement, "the largest displacement");
+    detail::base::require_share(function, options.min_volume, "the least volume");
+    detail::base::require_share(function, options.gap, "the gap");
     try {
         return run();
     } catch (const std::invalid_argument&) {  // where an operand is to blame, its face is named
@@ -264,8 +261,11 @@ boolean_result with_checks(const char* function, std::span<const mesh_view> oper
 template <class Make>
 boolean_result evaluate(const char* function, std::span<const mesh_view> operands,
                         const boolean_options& options, bool solid, const Make& make) {
+    if (!solid && (options.min_volume > 0.0 || options.gap > 0.0))
+        throw std::invalid_argument("treeform::" + std::string(function) +
+                                    ": a least volume, or a gap to fill, is of solids only");
     return with_checks(function, operands, options,
-                       [&] { return finished(make(operands, options), solid, options.precision); });
+                       [&] { return finished(make(operands, options), solid, options); });
 }
 
 using operand_kind = detail::boolean::examined_operand::kind;
@@ -321,7 +321,26 @@ std::optional<boolean_result> result_of_pair(std::span<const mesh_operand> opera
                     : detail::boolean::boolean_of_manifold_pair(pair, {pairs_of(0), pairs_of(1)},
                                                                 once, expression, rest);
     if (!made) return std::nullopt;
-    return finished(std::move(made->result), !made->is_manifold, options.precision);
+    return finished(std::move(made->result), !made->is_manifold, options);
+}
+
+/// The union with the gaps filled between operands; none where there are none.
+std::optional<boolean_result> union_without_gaps(const char* function,
+                                                 std::span<const mesh_view> operands,
+                                                 const boolean_expression& expression,
+                                                 const boolean_options& options) {
+    detail::boolean::require_union(function, expression);
+    detail::boolean::check_coordinates(function, operands);
+    const detail::boolean::filled_gaps gaps(operands, options.gap);
+    if (gaps.empty()) return std::nullopt;
+    boolean_options rest = options;
+    const std::vector<std::uint32_t> groups = gaps.face_groups(options.face_groups);
+    rest.face_groups = groups;
+    rest.volumes = false;
+    boolean_result result = boolean_of(gaps.operands(), gaps.expression(), rest);
+    gaps.name_sources(result);
+    if (result.certificate) result.statistics.filled_faces = gaps.size();
+    return finished(std::move(result), true, options);
 }
 
 boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
@@ -330,6 +349,9 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
     for (const mesh_operand& operand : operands) views.push_back(operand.view());
     return with_checks(function, views, options, [&] {
         check_expression("boolean", views, expression);
+        if (options.gap > 0.0)
+            if (auto result = union_without_gaps(function, views, expression, options))
+                return std::move(*result);
         boolean_options now = options;
         double done = 0.0;
         now.progress = [&](double share) {
@@ -339,10 +361,10 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
         try {
             if (auto result = result_of_pair(operands, expression, now)) return std::move(*result);
         } catch (const detail::boolean::stopped&) {
-            return finished(with_counts({}), false, options.precision);
+            return finished(with_counts({}), false, options);
         }
         now.progress = part_of(options.progress, done, 1.0);
-        return finished(boolean_of(views, expression, now), true, options.precision);
+        return finished(boolean_of(views, expression, now), true, options);
     });
 }
 

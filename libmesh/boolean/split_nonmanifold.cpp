@@ -254,4 +254,14 @@ manifold_surface split_nonmanifold(mesh&& solid) {
     return separator(std::move(solid)).run();
 }
 
+void split_nonmanifold(boolean_result& result) {
+    manifold_surface manifold = split_nonmanifold(std::move(result.mesh));
+    result.mesh = std::move(manifold.surface);
+    result.statistics.split_vertices = manifold.vertex_of_added.size();
+    for (auto* sources : {&result.vertex_source, &result.face_of_cut_vertex})
+        if (!sources->empty())
+            for (const std::uint32_t p : manifold.vertex_of_added)
+                sources->push_back((*sources)[p]);
+}
+
 }  // namespace treeform::detail::boolean

@@ -2,6 +2,7 @@
 /// \file
 /// Solids that touch themselves, with vertices and edges of their own for each part.
 
+#include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 
 #include <cstdint>
@@ -31,5 +32,8 @@ struct manifold_surface {
 ///         faces
 /// \same   on any number of threads
 [[nodiscard]] manifold_surface split_nonmanifold(mesh&& solid);
+
+/// The same of a result, with its sources; counts vertices added.
+void split_nonmanifold(boolean_result& result);
 
 }  // namespace treeform::detail::boolean

@@ -7,6 +7,7 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/boolean_expression.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/clash.hpp>

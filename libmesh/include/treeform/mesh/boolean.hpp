@@ -2,6 +2,7 @@
 /// \file
 /// Set operations on solids bounded by triangle meshes.
 
+#include <treeform/mesh/boolean_expression.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
@@ -14,56 +15,9 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace treeform {
-
-/// A formula over operands a, b, c, ..., z (then aa, ab, ...): `+` or `|` union, `*` or `&`
-/// intersection, `-` difference, `^` exclusive or, and brackets. `*` and `&` bind tighter than the
-/// others, which go from left to right. Blanks and the case of letters do not matter.
-class TREEFORM_API boolean_expression {
-  public:
-    /// \throws std::invalid_argument naming the position, from 1, of what is not a formula or of an
-    ///         operand beyond `operand_count`
-    /// \cost   O(characters) time, however deep the brackets
-    boolean_expression(std::string_view text, std::size_t operand_count);
-    /// The same with names in place of letters, "body-(bolt_1+'left bolt')": words of letters,
-    /// digits, underscores and dots, or anything in quotes. The first operand of a name is meant.
-    boolean_expression(std::string_view text, std::span<const std::string> names);
-    /// Those of a formula with names, each once, in the order in which they come first.
-    [[nodiscard]] static std::vector<std::string> names_in(std::string_view text);
-
-    /// What is in any operand. Without operands, this and the formulas below are empty.
-    [[nodiscard]] static boolean_expression union_of(std::size_t operand_count);
-    /// What is in all operands.
-    [[nodiscard]] static boolean_expression intersection_of(std::size_t operand_count);
-    /// The first operand without all others.
-    [[nodiscard]] static boolean_expression difference_of(std::size_t operand_count);
-    /// What is in an odd number of operands.
-    [[nodiscard]] static boolean_expression xor_of(std::size_t operand_count);
-
-    [[nodiscard]] std::size_t operand_count() const { return operand_count_; }
-
-    /// Whether a point belongs to the result when it is in these operands and in no others.
-    /// \pre `in_operand` has a value for each operand
-    [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
-
-    /// True when no point outside this operand can belong to the result: in `a-b` for a, in `a+b`
-    /// for neither. Found in one pass, so it may be false for long formulas of which it is true.
-    [[nodiscard]] bool needs(std::size_t operand) const;
-
-    /// The formula, operations behind what they take: operands as numbers from 0, and these.
-    enum : std::int32_t { add = -1, intersect = -2, minus = -3, exclude = -4 };
-    [[nodiscard]] std::span<const std::int32_t> postfix() const { return postfix_; }
-
-  private:
-    boolean_expression(std::size_t operand_count, std::int32_t operation);
-
-    std::size_t operand_count_ = 0;
-    std::vector<std::int32_t> postfix_;
-};
 
 /// Which points are inside an operand, by how often its surface winds around them.
 enum class fill_rule : std::uint8_t {
@@ -102,7 +56,18 @@ struct boolean_options {
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands, one after the other] or empty: only those of equal numbers are merged.
     std::span<const std::uint32_t> face_groups{};
-    bool volumes = false;  ///< compute `boolean_result::volumes`, of two operands
+    /// Compute `boolean_result::volumes`, of two operands; not where a `gap` was filled.
+    bool volumes = false;
+    /// Of the result, the parts with a volume below this, in cubic units, are left out: specks go, and
+    /// voids are filled, with all that is in them. A part is what edges link, its volume that within
+    /// it. Of solids only. Finite and not negative.
+    double min_volume = 0.0;
+    /// In a union, gaps of at most this width, in the mesh's own length unit, are filled between
+    /// faces of different operands, where they lie over each other: both look into the gap, they lean
+    /// by at most 45 degrees, and it is measured straight up from either. Nothing else moves. Beyond
+    /// this width what fills it tapers off. Between curved faces there are no seams: at an edge of
+    /// faces that lean less than that, it ends midway. Finite and not negative.
+    double gap = 0.0;
     progress_callback progress{};
 };
 
@@ -116,7 +81,8 @@ struct operand_volumes {
     double both = 0.0;    ///< in the first and in the second
 };
 
-/// Counts of what a set operation has done, for reports.
+/// Counts of what a set operation has done, for reports. Pairs and faces that are cut, where a `gap`
+/// was filled, are also those of what fills it.
 struct boolean_statistics {
     std::uint64_t pairs = 0;          ///< of faces looked at that meet beyond their shared corners
     std::uint64_t cut_faces = 0;      ///< input faces that were cut or covered by others
@@ -125,13 +91,16 @@ struct boolean_statistics {
     std::uint64_t skipped_faces = 0;  ///< input faces not looked at, as the result cannot be there
     std::uint64_t covered = 0;        ///< for `split`: input faces that lie entirely on lower ones
     /// Faces of the exact result, before rounding. When there are some and `mesh` has none, all of
-    /// the result is thinner than the coordinates can show.
+    /// the result is thinner than the coordinates can show, or was left out as `small_parts`.
     std::uint64_t exact_faces = 0;
     std::uint64_t split_vertices = 0;  ///< added where parts touch, so that edges have two faces
     /// Where rounding made faces meet: changes that join what all but touches and take out thin
     /// faces, and how often what met all the same was cut and rounded once more.
     std::uint64_t slivers = 0;
     int rounding_rounds = 0;
+    std::uint64_t small_parts = 0;   ///< left out, voids and specks: below `min_volume`
+    double small_volume = 0.0;       ///< of these, in cubic units, added up
+    std::uint64_t filled_faces = 0;  ///< of operands, at gaps that were filled (`gap`)
 };
 
 /// The surface of a solid in rounded coordinates, and what was checked about it.
@@ -140,10 +109,12 @@ struct TREEFORM_API boolean_result {
     /// operands come first, in their order, then new ones on cuts.
     treeform::mesh mesh;
     /// [F] the lowest operand face that each face, or a part of it, lies in. Next to places where
-    /// rounding was mended, it may be a neighbor of that face.
+    /// rounding was mended, it may be a neighbor of that face. A face of what fills a `gap` has the
+    /// operand face that it stands on, or lies opposite of; those come last.
     std::vector<operand_element> face_source;
     std::vector<operand_element> vertex_source;  ///< [V] the lowest operand vertex each is, or none
-    /// [V] for each new vertex, an operand face that it lies in. Empty with `keep_cuts`.
+    /// [V] for each new vertex, an operand face that it lies in, or of what fills a `gap`, as
+    /// `face_source`. Empty with `keep_cuts`.
     std::vector<operand_element> face_of_cut_vertex{};
     /// Status ok says, checked on the coordinates above: any two faces have a corner, an edge or
     /// nothing in common; no face is degenerate; the signed face count of every edge is zero; and
@@ -181,9 +152,10 @@ struct TREEFORM_API boolean_result {
 ///
 /// \throws std::invalid_argument when the expression has another number of operands, or naming a
 ///         face with a corner out of range, or a corner with a coordinate that is not finite
-///         or beyond 2^1000
+///         or beyond 2^1000; for a `gap` when it is not a union of all operands
 /// \cost   O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
-///         that meet in few places, that of finding these (prepared meshes: once) and of a copy
+///         that meet in few places, that of finding these (prepared meshes: once) and of a copy. With
+///         a `gap`, O(P) more for the P pairs of faces whose boxes are that near
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result boolean(std::span<const mesh_view> operands,
                                                   const boolean_expression& expression,
@@ -220,7 +192,8 @@ struct TREEFORM_API boolean_result {
 /// Where another operand is open, it says so as in `boolean`, and the mesh is empty.
 ///
 /// \throws std::invalid_argument as `boolean`, when `sheet` is not an operand, or when the
-///         expression may be true outside of it (`boolean_expression::needs`), as in a union
+///         expression may be true outside of it (`boolean_expression::needs`), as in a union, and for
+///         `min_volume` or `gap`
 /// \cost   faces of solids that do not reach into the box of a face of the sheet are not looked at
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result clip(std::span<const mesh_view> operands,
@@ -233,7 +206,7 @@ struct TREEFORM_API boolean_result {
 /// certificate does not check edges. Where faces of several operands lie on each other, one piece
 /// stands for all; its source is the lowest of them. Nothing is simplified.
 ///
-/// \throws std::invalid_argument as `boolean`
+/// \throws std::invalid_argument as `boolean`, and for `min_volume` or `gap`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result split(std::span<const mesh_view> operands,
                                                 const boolean_options& options = {});
