@@ -24,6 +24,7 @@ static void test_booleans(void) {
     treeform_mesh* a = cube(0, 0, 0, 1);
     treeform_mesh* b = cube(0.5, 0.5, 0.5, 1);
     treeform_mesh* c = cube(0, 0, 0, 0.25);
+    treeform_mesh* d = cube(1.125, 0, 0, 1);
     const treeform_mesh* all[3];
     const char* const names[3] = {"body", "bolt", "pin"};
     treeform_boolean_options options;
@@ -52,6 +53,20 @@ static void test_booleans(void) {
     has_volume(result, 0.875 - 0.015625);
     OK(treeform_unite_all(all, 3, NULL, &result));
     has_volume(result, 1.875);
+    options.min_volume = 0.5;
+    OK(treeform_intersection(a, b, &options, &result));
+    CHECK(result->small_parts == 1 && near(result->small_volume, 0.125));
+    CHECK(result->mesh.face_count == 0);
+    treeform_free(result);
+    options.min_volume = 0.0;
+    options.gap = 0.25;
+    OK(treeform_unite(a, d, &options, &result));
+    CHECK(result->filled_faces == 4);
+    has_volume(result, 2.125);
+    INVALID("union of all operands", treeform_subtract(a, d, &options, &result));
+    options.gap = -1.0;
+    INVALID("the gap is negative", treeform_unite(a, d, &options, &result));
+    options.gap = 0.0;
     OK(treeform_names_in("body-(bolt+'left bolt')", &words));
     CHECK(words->count == 3 && is(words->values[2], "left bolt"));
     treeform_free(words);
@@ -76,6 +91,7 @@ static void test_booleans(void) {
     treeform_free(a);
     treeform_free(b);
     treeform_free(c);
+    treeform_free(d);
 }
 
 static void test_open(void) {

@@ -132,6 +132,22 @@ def test_options():
         tf.boolean("a + z", a=CUBE)
 
 
+def test_small_parts_are_left_out_and_gaps_filled_where_asked_for():
+    speck, near = tf.Mesh(CUBE.vertices / 8 + 5, CUBE.faces), moved(CUBE, 1.125, 0, 0)
+    made = tf.union(CUBE, speck, min_volume=0.01)
+    assert made.mesh.volume == 1 and len(made.vertex_source) == 8
+    assert (made.statistics["small_parts"], made.statistics["small_volume"]) == (1, 1 / 512)
+    assert tf.boolean("a - b", a=CUBE, b=moved(speck, -4.75, -4.75, -4.75), min_volume=0.01) \
+        .mesh.volume == 1
+    made = tf.union(CUBE, near, gap=0.25)
+    assert made.mesh.volume == 2.125 and made.statistics["filled_faces"] == 4
+    assert made.face_source[:, 0].max() == 1
+    assert tf.union(CUBE, near, gap=0.1).statistics["filled_faces"] == 0
+    for wrong in ({"gap": -1.0}, {"gap": np.nan}, {"min_volume": np.inf}):
+        with pytest.raises(ValueError, match="negative or not finite"):
+            tf.union(CUBE, near, **wrong)
+
+
 def test_open_operands_are_refused_or_told_of():
     with pytest.raises(tf.NotSolidError) as caught:
         tf.union(CUBE, SHEET)

@@ -25,6 +25,8 @@ tf::boolean_options options_of(const treeform_boolean_options* options) {
     how.simplify = o.simplify != 0;
     how.volumes = o.volumes != 0;
     how.face_groups = glue::array(o.face_groups, o.face_group_count, "face_groups");
+    how.min_volume = o.min_volume;
+    how.gap = o.gap;
     how.progress = glue::progress(o);
     return how;
 }
@@ -67,6 +69,9 @@ treeform_code give_solid(tf::boolean_result from, treeform_boolean_result** out)
     r.split_vertices = kept.statistics.split_vertices;
     r.slivers = kept.statistics.slivers;
     r.rounding_rounds = kept.statistics.rounding_rounds;
+    r.small_parts = kept.statistics.small_parts;
+    r.small_volume = kept.statistics.small_volume;
+    r.filled_faces = kept.statistics.filled_faces;
     glue::give(std::move(made), out);
     return code;
 }

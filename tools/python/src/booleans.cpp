@@ -54,6 +54,9 @@ py::dict statistics_of(const tf::boolean_result& result) {
     made["split_vertices"] = s.split_vertices;
     made["slivers"] = s.slivers;
     made["rounding_rounds"] = s.rounding_rounds;
+    made["small_parts"] = s.small_parts;
+    made["small_volume"] = s.small_volume;
+    made["filled_faces"] = s.filled_faces;
     made["vanished_components"] = result.vanished_components;
     made["vanished_reach"] = result.vanished_reach;
     return made;
@@ -120,12 +123,15 @@ py::list objects_of(const held_mesh& mesh) {
 py::dict boolean(const held_meshes& meshes, const std::string& operation,
                  const std::string& formula, const std::vector<std::string>& names,
                  const std::string& inside, const std::string& precision, bool keep_cuts,
-                 bool simplify, bool volumes, double max_displacement) {
+                 bool simplify, bool volumes, double max_displacement, double min_volume,
+                 double gap) {
     const tf::boolean_expression expression =
         expression_of(operation, formula, names, meshes.size());
     tf::boolean_options options =
         options_of(inside, precision, keep_cuts, simplify, max_displacement);
     options.volumes = volumes;
+    options.min_volume = min_volume;
+    options.gap = gap;
     require_faces(meshes, names);
     const carrying attributes(meshes);
     attributes.keep_apart(options);

@@ -37,7 +37,7 @@ class BooleanResult(MeshResult):
     face_source: Ids
     vertex_source: Ids
     volumes: tuple[float, float, float, float] | None
-    statistics: dict[str, int]
+    statistics: dict[str, Any]
 
 
 def _result(made: dict[str, Any], check: bool, *also: str) -> BooleanResult:
@@ -62,21 +62,26 @@ def _operands(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
 
 
 def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: str, keep_cuts: bool,
-             simplify: bool, volumes: bool, max_displacement: float, check: bool,
-             progress: Progress) -> BooleanResult:
+             simplify: bool, volumes: bool, max_displacement: float, min_volume: float, gap: float,
+             check: bool, progress: Progress) -> BooleanResult:
     operands = _operands(meshes)
     if len(operands) == 1 and operation != "union":
         operands = _core.objects_of(operands[0]) or operands
     return _result(_core.boolean(operands, operation, "", [], inside, precision, keep_cuts,
-                                 simplify, volumes, max_displacement, progress=progress), check)
+                                 simplify, volumes, max_displacement, min_volume, gap,
+                                 progress=progress), check)
 
 
 def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
           keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-          max_displacement: float = np.inf, check: bool = True,
-          progress: Progress = None) -> BooleanResult:
+          max_displacement: float = np.inf, min_volume: float = 0.0, gap: float = 0.0,
+          check: bool = True, progress: Progress = None) -> BooleanResult:
     """What is in any of the solids: `union(a, b, ...)`, or `union([a, b, ...])` as in trimesh. Of
     one mesh, the solid that it winds around, without self-intersections. See `boolean`.
+
+    gap: the widest gap to fill between faces of different solids, where they lie over each other.
+    Faces of what fills it, the last, have the face that they stand on, or lie opposite of, as
+    `face_source`; `filled_faces` of `statistics` counts the faces at such gaps. No volumes then.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -85,12 +90,12 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     (1.875, Certificate(ok))
     """
     return _combine("union", meshes, inside, precision, keep_cuts, simplify, volumes,
-                    max_displacement, check, progress)
+                    max_displacement, min_volume, gap, check, progress)
 
 
 def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
                  keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-          max_displacement: float = np.inf, check: bool = True,
+                 max_displacement: float = np.inf, min_volume: float = 0.0, check: bool = True,
                  progress: Progress = None) -> BooleanResult:
     """What is in all of the solids. Of one mesh that a file of several objects was read to, its
     objects are the solids, as in `difference`. See `boolean`.
@@ -101,12 +106,12 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
     0.125
     """
     return _combine("intersection", meshes, inside, precision, keep_cuts, simplify, volumes,
-                    max_displacement, check, progress)
+                    max_displacement, min_volume, 0.0, check, progress)
 
 
 def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
                keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-          max_displacement: float = np.inf, check: bool = True,
+               max_displacement: float = np.inf, min_volume: float = 0.0, check: bool = True,
                progress: Progress = None) -> BooleanResult:
     """The first solid without all others: `difference(a, b, c)`, or `difference(a, [b, c])`. See
     `boolean`.
@@ -122,13 +127,13 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     0.75
     """
     return _combine("difference", meshes, inside, precision, keep_cuts, simplify, volumes,
-                    max_displacement, check, progress)
+                    max_displacement, min_volume, 0.0, check, progress)
 
 
 def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
                          keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-                         max_displacement: float = np.inf, check: bool = True,
-                         progress: Progress = None) -> BooleanResult:
+                         max_displacement: float = np.inf, min_volume: float = 0.0,
+                         check: bool = True, progress: Progress = None) -> BooleanResult:
     """What is in an odd number of the solids. Of one mesh that a file of several objects was read
     to, its objects are the solids, as in `difference`. See `boolean`.
 
@@ -138,12 +143,12 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
     1.75
     """
     return _combine("xor", meshes, inside, precision, keep_cuts, simplify, volumes,
-                    max_displacement, check, progress)
+                    max_displacement, min_volume, 0.0, check, progress)
 
 
 def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float64",
             keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-          max_displacement: float = np.inf, check: bool = True,
+            max_displacement: float = np.inf, min_volume: float = 0.0, check: bool = True,
             progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
     """The solid that a formula makes of meshes, all cut along each other at once.
 
@@ -155,6 +160,8 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     keep_cuts: leave coplanar faces apart that were cut, or overlap; they are merged otherwise.
     simplify: merge all coplanar faces. volumes: compute those of two operands.
     max_displacement: where rounding makes faces meet, nothing longer is taken out at once.
+    min_volume: parts of the result with less are left out, and voids with less filled;
+    `small_parts` and `small_volume` of `statistics` say how many, and of what volume.
     check: raise where the result is not certified; False returns it with its certificate.
 
     The surface is decided exactly on the coordinates as given. Then points on cuts are rounded, and
@@ -179,7 +186,7 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     held_meshes = [held(mesh) for mesh in meshes.values()]
     return _result(_core.boolean(held_meshes, "", expression, names,
                                  inside, precision, keep_cuts, simplify, volumes,
-                                 max_displacement, progress=progress), check)
+                                 max_displacement, min_volume, 0.0, progress=progress), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: str = "nonzero",

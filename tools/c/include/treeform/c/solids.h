@@ -30,6 +30,8 @@ typedef struct treeform_boolean_options {
     size_t face_group_count;      ///< faces of all operands
     treeform_progress progress;
     void* progress_data;
+    double min_volume;  ///< leave out parts of the result, and fill voids, of less; default 0
+    double gap;         ///< fill gaps of at most this between operands of a union; default 0
 } treeform_boolean_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_boolean_options_init(treeform_boolean_options* options, size_t size);
@@ -66,6 +68,9 @@ typedef struct treeform_boolean_result {
     uint64_t split_vertices;
     uint64_t slivers;         ///< thin faces taken out where rounding made faces meet
     int32_t rounding_rounds;  ///< how often what met all the same was cut and rounded again
+    uint64_t small_parts;     ///< left out, as their volume is below `min_volume`
+    double small_volume;      ///< of these, added up
+    uint64_t filled_faces;    ///< of operands, at gaps that were filled
 } treeform_boolean_result;
 
 /// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with +
