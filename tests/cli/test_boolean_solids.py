@@ -26,6 +26,31 @@ class Solids(BooleanTest):
         self.assertEqual(volume(*self.solid("out.obj")), 4)
         self.assertEqual(self.made("difference", "a.obj", "a.obj", "c.obj")["output"]["faces"], 0)
 
+    def test_parts_below_a_volume_are_left_out_and_counted(self):
+        points, faces = cube()
+        self.mesh("speck.obj", ([tuple(x / 64 + 9 for x in p) for p in points], faces))
+        run = self.run_tool("union", "a.obj", "speck.obj", "--min-volume", "0.01", "-o", "out.obj",
+                            status=0)
+        self.assertIn("volume 8, 1 part below 0.01 left out (3.8147e-06 in all)", run.text)
+        entry = self.made("union", "a.obj", "speck.obj", "--min-volume", "0.01")
+        self.assertEqual(entry["min_volume"], {"given": 0.01, "parts": 1, "volume": 1 / 64 ** 3})
+        self.assertEqual(len(self.solid("out.obj")[0]), 8)
+        entry = self.made("union", "speck.obj", "--min-volume", "0.01")
+        self.assertEqual((entry["output"]["faces"], entry["min_volume"]["parts"]), (0, 1))
+        self.assertEqual(self.made("union", "a.obj")["min_volume"]["parts"], None)
+
+    def test_gaps_of_a_union_are_filled_and_counted(self):
+        self.mesh("above.obj", box((0, 0, 2.125), (2, 2, 4.125)))
+        both = ("union", "a.obj", "above.obj")
+        run = self.run_tool(*both, "--gap", "0.25", "-o", "out.obj", status=0)
+        self.assertIn("volume 16.5, gaps of up to 0.25 filled between 4 faces", run.text)
+        entry = self.made(*both, "--gap", "0.25")
+        self.assertEqual(entry["gap"], {"given": "0.25", "used": 0.25, "faces": 4})
+        self.assertEqual(entry["output"]["components"], 1)
+        entry = self.made(*both, "--gap", "0.1")
+        self.assertEqual((entry["gap"]["faces"], entry["output"]["volume"]), (0, 16))
+        self.assertEqual(self.made(*both)["gap"], {"given": None, "used": None, "faces": None})
+
     def test_where_nothing_is_left_of_a_union_it_says_so(self):
         points, faces = cube()
         self.mesh("none.obj", together((points, faces), (points, [f[::-1] for f in faces])))

@@ -9,7 +9,8 @@ NULL = type(None)
 FILE = {"input": (str, NULL), "error": NULL, "warnings": list, "operation": (str, NULL),
         "inside": str, "check": bool, "inputs": list, "pairs": (int, NULL),
         "cut_faces": (int, NULL), "cells": (int, NULL), "volumes": (dict, NULL),
-        "separated_points": (int, NULL), "skipped": dict, "max_move": dict,
+        "separated_points": (int, NULL), "skipped": dict,
+        "min_volume": dict, "gap": dict, "max_move": dict,
         "output": (dict, NULL), "exit": int}
 INPUT = {"file": str, "part": (str, NULL), "format": str, "sha256": str, "precision_in": str, "matrix": (str, NULL),
          "faces": int, "triangles": int, "volume": NUMBER, "closed": (bool, NULL),
@@ -37,7 +38,7 @@ class Usage(BooleanTest):
         self.assertNotIn("--in-place", run.text)
         for word in ("union", "intersection", "difference", "xor", "split", "--expr", "--matrix",
                      "--inside", "--check", "--accept-open", "--simplify", "--max-move",
-                     "--source", "--no-attributes", "--curves",
+                     "--source", "--no-attributes", "--curves", "--min-volume", "--gap",
                      "Common options:", "Examples:", "Exit status:"):
             self.assertIn(word, run.text)
 
@@ -49,6 +50,7 @@ class Usage(BooleanTest):
         self.assertIn("position 3", self.refused("--expr", "a-c", *both))
         self.assertIn("position 2", self.refused("--expr", "a)", *both))
         for options in (["--inside", "even"], ["--max-move", "-1"], ["--matrix", "m.txt"],
+                        ["--min-volume", "-1"], ["--min-volume", "1%"], ["--gap", "-1"],
                         ["--matrix", "3:m.txt"], ["--matrix", "0:m.txt"], ["--matrix", "1:"],
                         ["--matrix", "1:m.txt", "--matrix", "1:n.txt"]):
             self.refused("union", *both, "-o", "out.obj", *options)
@@ -71,6 +73,10 @@ class Usage(BooleanTest):
         self.refused("--check", "a.obj", "-o", "out.obj")
         self.refused("--check", "a.obj", "--max-move", "1")
         self.refused("--check", "a.obj", "--simplify")
+        self.refused("--check", "a.obj", "--gap", "1")
+        self.refused("split", "a.obj", "-o", "out.obj", "--min-volume", "1")
+        self.assertIn("only a union", self.refused("--expr", "a+b", "a.obj", "b.obj", "-o",
+                                                   "out.obj", "--gap", "1"))
         self.refused("--check", "a.obj", "--accept-open")
         self.refused("--check", "a.obj", "--curves", "out.obj")
         self.refused("split", "a.obj", "--inside", "odd")

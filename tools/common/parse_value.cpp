@@ -34,6 +34,12 @@ double parse_number(std::string_view option, std::string_view text) {
     return *value;
 }
 
+double parse_volume(std::string_view option, std::string_view text) {
+    const double value = parse_number(option, text);
+    if (!(value >= 0.0)) refuse(option, text, "a volume, 0 or more");
+    return value;
+}
+
 std::vector<double> parse_numbers(std::string_view option, std::string_view text,
                                   std::size_t count) {
     std::vector<double> values;

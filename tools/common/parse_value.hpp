@@ -40,6 +40,8 @@ struct distance {
 [[nodiscard]] std::uint64_t parse_count(std::string_view option, std::string_view text);
 /// Finite, not negative.
 [[nodiscard]] distance parse_distance(std::string_view option, std::string_view text);
+/// Finite, not negative, in cubic units.
+[[nodiscard]] double parse_volume(std::string_view option, std::string_view text);
 /// "5%" or "0.05", from 0 to 1.
 [[nodiscard]] double parse_share(std::string_view option, std::string_view text);
 /// Bytes: "512M", "4G", "4GiB", "1.5G", "1000000"; K, M, G and T are powers of 1024.

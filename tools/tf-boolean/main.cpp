@@ -46,22 +46,23 @@ void add_operations(command_line& line) {
                   " data/two_spheres.stl data/cube.stl -o both.ply\n"
                   "  2 inputs: intersection: 132 faces, volume 0.795415, rounding moved points by "
                   "1.11022e-16 at most\n",
-                  {});
+                  {"--gap"});
     add_operation(line, "difference", "the first minus all the others",
                   " data/two_spheres.stl data/cube.stl -o cut.ply\n"
                   "  2 inputs: difference: 622 faces, volume 6.1294, rounding moved points by "
                   "1.11022e-16 at most\n",
-                  {});
+                  {"--gap"});
     add_operation(line, "xor", "what is in an odd number of them",
                   " data/two_spheres.stl data/cube.stl -o xor.ply\n"
                   "  2 inputs: xor: 754 faces, volume 6.33399, rounding moved points by "
                   "1.11022e-16 at most\n",
-                  {"--accept-open"});
-    add_operation(line, "split", "cut all along each other, keep every piece",
-                  " data/two_spheres.stl data/cube.stl -o pieces.ply\n"
-                  "  2 inputs: split: 1,140 faces, rounding moved points by "
-                  "1.11022e-16 at most\n",
-                  {"--simplify", "--keep-cuts", "--inside", "--accept-open"});
+                  {"--accept-open", "--gap"});
+    add_operation(
+        line, "split", "cut all along each other, keep every piece",
+        " data/two_spheres.stl data/cube.stl -o pieces.ply\n"
+        "  2 inputs: split: 1,140 faces, rounding moved points by "
+        "1.11022e-16 at most\n",
+        {"--simplify", "--keep-cuts", "--inside", "--accept-open", "--min-volume", "--gap"});
 }
 
 void add_options(command_line& line, boolean_settings& s) {
@@ -85,6 +86,15 @@ void add_options(command_line& line, boolean_settings& s) {
                             "do not merge coplanar faces that were cut, or\n"
                             "that overlap"});
     line.flag(s.simplify, {"--simplify", "", "merge all coplanar faces, also those not cut"});
+    line.option(
+        {"--min-volume", "V", "leave out parts of the result, and fill voids, below V", "0"},
+        [&s](std::string_view v) {
+            s.min_volume = tools::parse_volume("--min-volume", v);
+            s.min_volume_given = true;
+        });
+    line.option(s.gap, {"--gap", "DIST",
+                        "union: fill gaps of at most DIST between faces of\n"
+                        "different operands that lie over each other"});
     tools::add_max_move(line, s.rails);
 }
 
@@ -103,23 +113,28 @@ void add_what_to_give_back(command_line& line, boolean_settings& s, common_optio
 }
 
 const char* const epilogue =
-    "DIST is in the unit of the files; \"0.01%\" is that share of the diagonal of the\n"
-    "box of all INPUTs. What is inside is decided exactly on the coordinates as read\n"
-    "(with --matrix, as moved in double). Inputs may overlap themselves, touch, and\n"
-    "share faces; corners with equal coordinates are one. Only the result is rounded:\n"
-    "it is checked in the coordinates that are written, and mended where rounding has\n"
-    "made faces meet. What cannot be certified is not written; parts thinner than the\n"
-    "numbers written tell apart are left out and named. Points that were not cut stay\n"
-    "bit for bit, except for those next to a place that was mended. Meshes and faces\n"
-    "are numbered from 0, faces as in the files. Coplanar faces of different meshes\n"
-    "are not merged if --source is given, those with different properties only with\n"
-    "--no-attributes, and where vertices have properties only with that or\n"
-    "--simplify.\n"
+    "DIST is in the unit of the files, V in its cube; \"0.01%\" is that share of the\n"
+    "diagonal of the box of all INPUTs. What is inside is decided exactly on the\n"
+    "coordinates as read (with --matrix, as moved in double). Inputs may overlap\n"
+    "themselves, touch, and share faces; corners with equal coordinates are one. Only\n"
+    "the result is rounded: it is checked in the coordinates that are written, and\n"
+    "mended where rounding has made faces meet. What cannot be certified is not\n"
+    "written; parts thinner than the numbers written tell apart are left out and\n"
+    "named. Points that were not cut stay bit for bit, except for those next to a\n"
+    "place that was mended. Meshes and faces are numbered from 0, faces as in the\n"
+    "files. Coplanar faces of different meshes are not merged if --source is given,\n"
+    "those with different properties only with --no-attributes, and where vertices\n"
+    "have properties only with that or --simplify.\n"
     "\n"
     "The objects of one INPUT that stands alone are the operands, in order: build\n"
     "items of a 3MF, objects and groups of an OBJ, nodes of a GLB, named solids of a\n"
     "text STL. Those whose open edges coincide are pieces of one surface, and one\n"
     "operand. The line says how many were taken, -v which.\n"
+    "\n"
+    "--min-volume looks at each closed part of the result by itself: specks go, and\n"
+    "voids are filled, with all that is in them. --gap fills where both faces look\n"
+    "into the gap and lean by at most 45 degrees; nothing else moves, and beyond DIST\n"
+    "the filling tapers off. The line says how many of either there were.\n"
     "\n"
     "With --accept-open, one input may be an open surface: the first of a difference,\n"
     "any of an intersection, or one that the formula is not true without. What lies\n"
@@ -158,7 +173,9 @@ tf::boolean_result ask(tools::job& work, const boolean_settings& s,
     tf::boolean_options options{.inside = s.inside,
                                 .precision = precision,
                                 .keep_cuts = keeps_cuts(s, solids),
-                                .simplify = s.simplify};
+                                .simplify = s.simplify,
+                                .min_volume = s.min_volume,
+                                .gap = s.gap ? s.gap->used(tools::diagonal_of(solids)) : 0.0};
     const std::vector<std::uint32_t> groups = groups_of(work, s, solids);
     options.face_groups = groups;
     options.volumes = work.options.detailed();
@@ -235,7 +252,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
         for (tools::json& input : work.entry["inputs"])
             input["closed"] = s.splits() ? tools::json(nullptr) : tools::json(true);
     const bool bounds_solid = !s.splits() && !sheet;
-    tools::enter_result(work, result, bounds_solid);
+    tools::enter_result(work, s, solids, result, bounds_solid);
     work.out.result(work.name + ": " + tools::verdict(work, s, result));
     tools::write_curves(work, s, solids);
     tools::write_page(work, solids, tools::verdict(work, s, result),

@@ -26,6 +26,19 @@ std::vector<const tf::mesh_file*> files_of(const std::vector<solid>& solids) {
 /// All inputs together give one result, so that none is replaced.
 written_form form_of(const common_options& o) { return {mesh_format(o, o.output), o.ascii}; }
 
+/// What was left out and filled, where that was asked for.
+void enter_choices(json& entry, const boolean_settings& settings, const std::vector<solid>& solids,
+                   const tf::boolean_statistics& did) {
+    if (settings.min_volume_given) {
+        entry["min_volume"]["parts"] = did.small_parts;
+        entry["min_volume"]["volume"] = did.small_volume;
+    }
+    if (settings.gap) {
+        entry["gap"]["used"] = settings.gap->used(diagonal_of(solids));
+        entry["gap"]["faces"] = did.filled_faces;
+    }
+}
+
 }  // namespace
 
 void enter_blank_report(job& work, const boolean_settings& settings) {
@@ -38,6 +51,11 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
         entry[key] = nullptr;
     for (const char* key : {"degenerate", "faces_not_cut", "faces_not_looked_at"})
         entry["skipped"][key] = nullptr;
+    entry["min_volume"] = {{"given", settings.min_volume}, {"parts", nullptr}, {"volume", nullptr}};
+    entry["gap"] = {
+        {"given", or_null(settings.gap.has_value(), settings.gap ? settings.gap->given : "")},
+        {"used", nullptr},
+        {"faces", nullptr}};
     entry["max_move"] = {{"given", settings.rails.max_move.given},
                          {"used", nullptr},
                          {"largest", nullptr},
@@ -51,7 +69,8 @@ tf::precision written_precision(const job& work, const std::vector<solid>& solid
     return written_precision(work.options, form, files_of(solids));
 }
 
-void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid) {
+void enter_result(job& work, const boolean_settings& settings, const std::vector<solid>& solids,
+                  const tf::boolean_result& result, bool bounds_solid) {
     json& entry = work.entry;
     const tf::boolean_statistics& did = result.statistics;
     const tf::certificate& known = result.certificate;
@@ -61,6 +80,7 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
     entry["cut_faces"] = did.cut_faces;
     entry["cells"] = or_null(did.cells > 0, did.cells);
     if (bounds_solid && known) entry["separated_points"] = did.split_vertices;
+    if (known) enter_choices(entry, settings, solids, did);
     if (result.volumes) {
         const auto& [first, second, either, both] = *result.volumes;
         entry["volumes"] = {{"first", first},
@@ -70,7 +90,8 @@ void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid
                             {"error", (first - either) + (second - both)}};
     }
     entry["skipped"] = {{"degenerate", did.degenerate},
-                        {"faces_not_cut", triangles - std::min(triangles, did.cut_faces)},
+                        {"faces_not_cut", or_null(did.filled_faces == 0,
+                                                  triangles - std::min(triangles, did.cut_faces))},
                         {"faces_not_looked_at", did.skipped_faces}};
     const auto topology = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     // STL has no vertex numbers: who reads it joins equal corners. Many do so with other formats.

@@ -24,7 +24,8 @@ void enter_blank_report(job& work, const boolean_settings& settings);
 }
 
 /// The facts of the result; an open one, or one of many pieces, has no volume.
-void enter_result(job& work, const tf::boolean_result& result, bool bounds_solid);
+void enter_result(job& work, const boolean_settings& settings, const std::vector<solid>& solids,
+                  const tf::boolean_result& result, bool bounds_solid);
 
 /// All inputs as one mesh, and its faces that meet. \throws failure (stopped)
 struct meetings {

@@ -65,6 +65,12 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
     if (s.simplify && s.keep_cuts) refuse("--keep-cuts: --simplify merges what they part");
     if (s.check && (s.simplify || s.keep_cuts || s.accept_open || s.repair))
         refuse("--simplify, --keep-cuts, --accept-open and --repair: --check only looks");
+    if (s.check && (s.min_volume_given || s.gap))
+        refuse("--min-volume and --gap: --check only looks");
+    if (s.min_volume_given && (s.splits() || s.accept_open))
+        refuse("--min-volume: parts of an open surface have no volume");
+    if (s.gap && s.operation != "union") refuse("--gap: only a union fills gaps");
+    if (s.gap && s.accept_open) refuse("--gap: an open surface bounds no solid beside a gap");
     if (s.accept_open && s.repair) refuse("--repair closes what --accept-open accepts");
     check_curve_path(s.curves);
     if (s.check && !s.curves.empty()) refuse("--curves: --check only looks");

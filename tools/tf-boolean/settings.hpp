@@ -3,12 +3,14 @@
 /// What a user of tf-boolean asks for.
 
 #include "tools/common/common_options.hpp"
+#include "tools/common/parse_value.hpp"
 #include "tools/common/rails.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,9 @@ struct boolean_settings {
     bool repair = false;
     bool keep_cuts = false;
     bool simplify = false;
+    double min_volume = 0.0;  ///< of parts of the result
+    bool min_volume_given = false;
+    std::optional<distance> gap{};
     tools::rails rails{};
     bool max_move_given = false;
     std::string source = "source";  ///< properties SOURCE_mesh, SOURCE_face

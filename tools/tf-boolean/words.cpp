@@ -8,6 +8,24 @@
 
 namespace tools {
 
+namespace {
+
+/// ", 3 parts below 0.001 left out (0.00012 in all), gaps of up to 0.1 filled between 4 faces"
+std::string choices_in_words(const job& work, const boolean_settings& settings,
+                             const tf::boolean_statistics& did) {
+    std::string text;
+    if (did.small_parts > 0)
+        text += ", " + counted(did.small_parts, "part", "parts") + " below " +
+                brief(settings.min_volume) + " left out (" + brief(did.small_volume) + " in all)";
+    if (!settings.gap) return text;
+    const std::string width = brief(work.entry["gap"]["used"].get<double>());
+    if (did.filled_faces == 0) return text + ", no gaps of up to " + width + " between faces";
+    return text + ", gaps of up to " + width + " filled between " +
+           counted(did.filled_faces, "face", "faces");
+}
+
+}  // namespace
+
 std::string verdict(const job& work, const boolean_settings& settings,
                     const tf::boolean_result& result) {
     const json& volume = work.entry["output"]["volume"];
@@ -16,13 +34,15 @@ std::string verdict(const job& work, const boolean_settings& settings,
     std::string text = settings.name() +
                        (of_objects ? " of its " + grouped(operands) + " objects: " : ": ") +
                        counted(result.mesh.faces.size(), "face", "faces");
-    if (result.certificate && result.mesh.faces.empty()) return text + ", nothing is left";
+    if (result.certificate && result.mesh.faces.empty())
+        return text + ", nothing is left" + choices_in_words(work, settings, result.statistics);
     if (!volume.is_null() && !result.mesh.faces.empty() && std::isfinite(volume.get<double>()))
         text += ", volume " + brief(volume.get<double>());
     if (result.certificate.status == tf::status::vanished)
         return text + " are left of the exact result's " + grouped(result.statistics.exact_faces) +
                " when rounded to " + name_of(result.certificate.precision);
     if (!result.certificate) return text + ", but " + result.certificate.message();
+    text += choices_in_words(work, settings, result.statistics);
     if (result.certificate.max_displacement > 0.0)
         text +=
             ", rounding moved points by " + brief(result.certificate.max_displacement) + " at most";
@@ -34,7 +54,7 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
     const bool given = std::any_of(solids.begin(), solids.end(),
                                    [](const solid& s) { return !s.file.mesh.faces.empty(); });
     if (result.mesh.faces.empty() && result.certificate.status != tf::status::vanished && given &&
-        settings.name() == "union")
+        settings.name() == "union" && result.statistics.small_parts == 0)
         work.warn("nothing-left", "the inputs bound nothing: their faces cancel each other out");
     if (result.certificate && result.vanished_components > 0)
         work.warn("lost-parts", counted(result.vanished_components, "part", "parts") +
