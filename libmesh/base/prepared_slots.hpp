@@ -19,8 +19,10 @@ enum class slot_name : std::size_t {
     joined_corners,
     closed,
     facing,
-    examined_operand,
-    leaf_blocks,
+    cut_operand,
+    face_clusters,
+    few_own_pairs,
+    own_pairs,
     count
 };
 

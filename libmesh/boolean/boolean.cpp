@@ -1,8 +1,6 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
-#include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/arrange/patches.hpp>
 #include <libmesh/base/certify.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
@@ -10,21 +8,19 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/require_share.hpp>
 #include <libmesh/boolean/active_boolean.hpp>
+#include <libmesh/boolean/check_solid.hpp>
 #include <libmesh/boolean/clip_sheet.hpp>
+#include <libmesh/boolean/cut_operand.hpp>
 #include <libmesh/boolean/filled_gaps.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
-#include <libmesh/boolean/inside_of_cells.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/labeled_cells.hpp>
-#include <libmesh/boolean/manifold_pair.hpp>
+#include <libmesh/boolean/near_labels.hpp>
+#include <libmesh/boolean/near_surface.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
-#include <libmesh/boolean/partial_expression.hpp>
-#include <libmesh/boolean/region_graph.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
 #include <libmesh/boolean/small_parts.hpp>
-#include <libmesh/boolean/sound_operand.hpp>
-#include <libmesh/boolean/sound_pair.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
@@ -43,9 +39,13 @@ namespace treeform {
 namespace {
 
 using detail::base::part_of;
+using detail::boolean::bundle;
+using detail::boolean::bundles;
+using detail::boolean::cut_operand;
 using detail::boolean::finish_surface;
 using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
+using detail::boolean::near_result;
 using detail::boolean::open_input_edges;
 using detail::boolean::operand_edges;
 using detail::boolean::with_counts;
@@ -125,57 +125,6 @@ std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t fa
         is_lowest[arranged.cut.covers_of(f).front().face] = 1;
     for (const std::uint32_t f : arranged.degenerate) is_lowest[f] = 1;
     return static_cast<std::uint64_t>(std::count(is_lowest.begin(), is_lowest.end(), 0));
-}
-
-/// The faces that bound the cells which are inside.
-detail::round::solid_faces chosen_faces(std::span<const mesh_view> operands,
-                                        const arranged_operands& input,
-                                        const boolean_expression& expression,
-                                        const boolean_options& options, boolean_result& result) {
-    const mesh_arrangement& cut = input.arranged.cut;
-    const mesh_view mesh = input_of(cut, input.joined);
-    const std::vector<std::uint32_t> operand_of_face = input.joined.operand_of_face();
-    arrangement_cells cells;
-    std::vector<std::uint8_t> inside;
-    if (options.volumes && operands.size() == 2) {
-        cells = detail::arrange::cells_of(mesh, cut, operand_of_face, operands.size());
-        result.volumes = detail::boolean::find_volumes(operands, cut, cells, options.inside);
-        inside = detail::boolean::inside_of_cells(cells, options.inside, expression);
-    } else {
-        const auto patches = detail::arrange::find_patches(cut, operand_of_face);
-        auto numbers = detail::arrange::cells_between(mesh, cut, operand_of_face, patches);
-        cells.cell_of_side = detail::arrange::cells_beside_faces(cut, patches, numbers);
-        const detail::boolean::region_graph regions(cut, operand_of_face, patches,
-                                                    std::move(numbers));
-        inside.resize(regions.size(), 0);
-        detail::boolean::partial_expression state(expression, options.inside);
-        regions.spread({}, state, inside);
-    }
-    result.statistics.cells = inside.size();
-    return detail::round::faces_around(cut, cells, inside);
-}
-
-boolean_result boolean_of(std::span<const mesh_view> operands, const boolean_expression& expression,
-                          const boolean_options& options) {
-    check_expression("boolean", operands, expression);
-    arranged_operands input{join_usable(operands), {}};
-    auto& [joined, arranged] = input;
-    {
-        operand_edges edges =
-            detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
-        if (const auto open = open_edges_of(joined, edges); open.count > 0)
-            return open_result(open_input(open, joined));
-        if (!options.volumes)
-            if (auto made = detail::boolean::boolean_in_active_space(joined, std::move(edges),
-                                                                     expression, options))
-                return std::move(*made);
-    }
-    arrange_joined(input, part_of(options.progress, 0.2, 0.5));
-    boolean_result result = with_counts(arranged);
-    if (arranged.cancelled) return result;
-    detail::round::solid_faces chosen = chosen_faces(operands, input, expression, options, result);
-    finish_surface(result, arranged.cut, std::move(chosen), joined, true, options);
-    return result;
 }
 
 boolean_result labeled_of(mesh_view mesh, const boolean_options& options,
@@ -268,67 +217,139 @@ boolean_result evaluate(const char* function, std::span<const mesh_view> operand
                        [&] { return finished(make(operands, options), solid, options); });
 }
 
-using operand_kind = detail::boolean::examined_operand::kind;
-
-/// What is known of both operands together, and the share of the work that it took to find out: none
-/// where it is known.
-std::pair<operand_kind, double> kind_of(const detail::boolean::prepared_pair& operands,
-                                        const progress_callback& progress) {
-    double looked = 0.0;
-    const progress_callback report = [&](double done) {
-        looked = done;
-        return !progress || progress(done);
-    };
-    operand_kind least = operand_kind::sound;
-    for (const prepared_mesh* operand : operands) {
-        least = std::min(
-            least,
-            detail::boolean::examine_operand(*operand, part_of(report, looked, looked + 0.3)).is);
-        if (least == operand_kind::unknown) break;
+/// Operands as bundles: one or two as they are, more as one mesh.
+class bundled_operands {
+  public:
+    explicit bundled_operands(std::span<const mesh_operand> operands) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            const bool is_given = k < operands.size() && operands.size() <= 2;
+            const prepared_mesh* mesh = is_given ? operands[k].prepared() : nullptr;
+            if (mesh == nullptr) {
+                own_[k] = prepared_mesh::borrow(is_given ? operands[k].view() : mesh_view{});
+                mesh = &own_[k];
+                once_ |= is_given;
+            }
+            take(k, detail::boolean::cut_operand_of(*mesh), *mesh);
+        }
     }
-    return {least, looked};
+    explicit bundled_operands(joined_operands&& joined)
+        : joined_(detail::boolean::cut_operand_of(std::move(joined))), once_(true) {
+        take(0, *joined_, own_[0]);
+        take(1, detail::boolean::cut_operand_of(own_[1]), own_[1]);
+        all_[0].operand_of_face = joined_->joined.operand_of_face();
+    }
+    bundled_operands(const bundled_operands&) = delete;
+    bundled_operands& operator=(const bundled_operands&) = delete;
+
+    [[nodiscard]] const bundles& all() const { return all_; }
+    /// Whether nothing that is prepared will be asked for again.
+    [[nodiscard]] bool once() const { return once_; }
+
+    [[nodiscard]] open_input_edges open() const {
+        open_input_edges found = all_[0].known->open;
+        const open_input_edges& more = all_[1].known->open;
+        found.count += more.count;
+        found.boundary_edges += more.boundary_edges;
+        found.misoriented_edges += more.misoriented_edges;
+        return found;
+    }
+
+    /// Whether few of the faces of each bundle meet each other.
+    [[nodiscard]] bool have_few_pairs(const progress_callback& progress) const {
+        const auto are_few = [&](std::size_t k, double from, double to) {
+            return detail::boolean::few_own_pairs(*all_[k].mesh, part_of(progress, from, to))
+                .has_value();
+        };
+        return are_few(0, 0.0, 0.3) && are_few(1, 0.3, 0.6);
+    }
+    void find_pairs(const progress_callback& progress) {
+        for (bundle& b : all_) b.pairs = detail::boolean::own_pairs(*b.mesh, progress);
+    }
+
+  private:
+    void take(std::size_t k, const cut_operand& known, const prepared_mesh& given) {
+        all_[k].known = &known;
+        all_[k].mesh = &known.mesh(given);
+        all_[k].operand = static_cast<std::uint32_t>(k);
+    }
+
+    std::array<prepared_mesh, 2> own_{};
+    std::optional<cut_operand> joined_{};
+    bundles all_{};
+    bool once_ = false;
+};
+
+/// Where the surface of the result can be is told by what winds around what, before anything is cut.
+std::optional<boolean_result> in_active_space(joined_operands& joined,
+                                              const boolean_expression& expression,
+                                              const boolean_options& options) {
+    operand_edges edges = detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
+    if (const auto open = open_edges_of(joined, edges); open.count > 0)
+        return open_result(open_input(open, joined));
+    if (options.volumes) return std::nullopt;
+    return detail::boolean::boolean_in_active_space(joined, std::move(edges), expression, options);
 }
 
-/// What `expression` makes of one or two operands if few of their own faces meet and nothing else is
-/// asked for.
-std::optional<boolean_result> result_of_pair(std::span<const mesh_operand> operands,
-                                             const boolean_expression& expression,
-                                             const boolean_options& options) {
-    if (operands.empty() || operands.size() > 2 || options.simplify ||
-        options.precision == precision::float32)
-        return std::nullopt;
-    std::array<prepared_mesh, 2> own;
-    detail::boolean::prepared_pair pair{&own[0], &own[1]};
-    bool once = false;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const bool is_given = k < operands.size();
-        if (is_given && operands[k].prepared() != nullptr) {
-            pair[k] = operands[k].prepared();
-            continue;
-        }
-        own[k] = prepared_mesh::borrow(is_given ? operands[k].view() : mesh_view{});
-        once = true;
+/// What meets is cut, what is on both sides of its pieces told, and what bounds the result put
+/// together with the faces that nothing meets.
+near_result boolean_of(bundled_operands& operands, const boolean_expression& expression,
+                       const boolean_options& options) {
+    near_result made;
+    operands.find_pairs(part_of(options.progress, 0.0, 0.3));
+    detail::boolean::near_faces near =
+        detail::boolean::find_near_faces(operands.all(), operands.once());
+    if (!made.goes_on(options.progress, 0.4)) return made;
+    arrange_faces_result arranged = detail::arrange::arrange_pairs(
+        near.local, near.pairs, {}, part_of(options.progress, 0.4, 0.5));
+    if (arranged.cancelled || !made.goes_on(options.progress, 0.5)) {
+        made.result.certificate.status = status::cancelled;
+        return made;
     }
-    const auto [kind, looked] = kind_of(pair, options.progress);
-    if (kind == operand_kind::unknown) return std::nullopt;
+    detail::boolean::chosen_surface chosen;
+    std::optional<operand_volumes> volumes;
+    {
+        const detail::boolean::near_labels labels(operands.all(), near, arranged.cut);
+        if (options.volumes) volumes = labels.volumes(options.inside);
+        chosen = labels.choose(expression, options.inside);
+    }
+    if (!made.goes_on(options.progress, 0.6)) return made;
+    near.local.points = {};  // as large as the operands, perhaps
+    made = detail::boolean::surface_of(operands.all(), near, arranged, std::move(chosen), options);
+    made.result.volumes = volumes;
+    return made;
+}
+
+near_result boolean_of(std::span<const mesh_operand> operands, std::span<const mesh_view> views,
+                       const boolean_expression& expression, boolean_options options) {
+    options.volumes = options.volumes && views.size() == 2;
+    if (views.size() > 2) {
+        joined_operands joined = join_usable(views);
+        if (auto made = in_active_space(joined, expression, options))
+            return {std::move(*made), false};
+        bundled_operands bundled(std::move(joined));
+        return boolean_of(bundled, expression, options);
+    }
+    bundled_operands bundled(operands);
+    double looked = 0.0;  // no share of the work where all is known
+    const progress_callback report = [&](double done) {
+        looked = done;
+        return !options.progress || options.progress(done);
+    };
+    const bool may_hide = bundled.open().count > 0 || !bundled.have_few_pairs(report);
     boolean_options rest = options;
     rest.progress = part_of(options.progress, looked, 1.0);
-    const auto pairs_of = [&](std::size_t k) -> std::span<const face_pair> {
-        return detail::boolean::examine_operand(*pair[k], {}).pairs;
-    };
-    auto made = kind == operand_kind::sound && operands.size() == 2
-                    ? detail::boolean::boolean_of_sound_pair(pair, once, expression, rest)
-                    : detail::boolean::boolean_of_manifold_pair(pair, {pairs_of(0), pairs_of(1)},
-                                                                once, expression, rest);
-    if (!made) return std::nullopt;
-    return finished(std::move(made->result), !made->is_manifold, options);
+    if (may_hide) {
+        joined_operands joined = join_usable(views);
+        if (auto made = in_active_space(joined, expression, rest)) return {std::move(*made), false};
+    }
+    return boolean_of(bundled, expression, rest);
 }
 
 /// The union with the gaps filled between operands; none where there are none.
-std::optional<boolean_result> union_without_gaps(const char* function,
-                                                 std::span<const mesh_view> operands,
-                                                 const boolean_expression& expression,
-                                                 const boolean_options& options) {
+std::optional<near_result> union_without_gaps(const char* function,
+                                              std::span<const mesh_view> operands,
+                                              const boolean_expression& expression,
+                                              const boolean_options& options) {
     detail::boolean::require_union(function, expression);
     detail::boolean::check_coordinates(function, operands);
     const detail::boolean::filled_gaps gaps(operands, options.gap);
@@ -337,10 +358,12 @@ std::optional<boolean_result> union_without_gaps(const char* function,
     const std::vector<std::uint32_t> groups = gaps.face_groups(options.face_groups);
     rest.face_groups = groups;
     rest.volumes = false;
-    boolean_result result = boolean_of(gaps.operands(), gaps.expression(), rest);
-    gaps.name_sources(result);
-    if (result.certificate) result.statistics.filled_faces = gaps.size();
-    return finished(std::move(result), true, options);
+    const std::vector<mesh_view> all = gaps.operands();
+    const std::vector<mesh_operand> given(all.begin(), all.end());
+    near_result made = boolean_of(given, all, gaps.expression(), rest);
+    gaps.name_sources(made.result);
+    if (made.result.certificate) made.result.statistics.filled_faces = gaps.size();
+    return made;
 }
 
 boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
@@ -349,22 +372,14 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
     for (const mesh_operand& operand : operands) views.push_back(operand.view());
     return with_checks(function, views, options, [&] {
         check_expression("boolean", views, expression);
-        if (options.gap > 0.0)
-            if (auto result = union_without_gaps(function, views, expression, options))
-                return std::move(*result);
-        boolean_options now = options;
-        double done = 0.0;
-        now.progress = [&](double share) {
-            done = share;
-            return !options.progress || options.progress(share);
-        };
         try {
-            if (auto result = result_of_pair(operands, expression, now)) return std::move(*result);
+            std::optional<near_result> made;
+            if (options.gap > 0.0) made = union_without_gaps(function, views, expression, options);
+            if (!made) made = boolean_of(operands, views, expression, options);
+            return finished(std::move(made->result), !made->is_manifold, options);
         } catch (const detail::boolean::stopped&) {
             return finished(with_counts({}), false, options);
         }
-        now.progress = part_of(options.progress, done, 1.0);
-        return finished(boolean_of(views, expression, now), true, options);
     });
 }
 

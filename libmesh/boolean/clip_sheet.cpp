@@ -5,7 +5,7 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/boolean/clip_sheet.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
-#include <libmesh/boolean/inside_of_cells.hpp>
+#include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/sheet_faces.hpp>
 #include <libmesh/boolean/surface_components.hpp>
 #include <libmesh/boolean/way_out.hpp>
@@ -62,8 +62,7 @@ class sheet_judge {
         const way_out out = find_way_out(mesh_, cut_, f, solids_.box());
         for (const bool ahead : {false, true})
             for (const auto& [operand, winding] : solids_.windings_beside(out.line, ahead))
-                if (operand != sheet_ && is_inside(rule_, static_cast<std::int32_t>(winding)))
-                    in[operand] = true;
+                if (operand != sheet_ && is_inside(rule_, winding)) in[operand] = true;
         return expression_({in.get(), operands_});
     }
 

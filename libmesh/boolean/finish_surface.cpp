@@ -5,8 +5,10 @@
 #include <libmesh/round/round_surface.hpp>
 #include <treeform/tree/parallel.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,17 @@ boolean_result with_counts(const arrange_faces_result& arranged) {
     result.statistics.cut_faces = arranged.cut_faces;
     result.statistics.degenerate = arranged.degenerate.size();
     return result;
+}
+
+void sort_by_source(std::vector<std::uint32_t>& source, std::vector<face>& faces) {
+    if (std::ranges::is_sorted(source)) return;
+    std::vector<std::uint32_t> order(source.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return source[i]; });
+    std::vector<face> sorted(faces.size());
+    for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = faces[order[i]];
+    faces = std::move(sorted);
+    std::ranges::sort(source);
 }
 
 void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_faces chosen,
@@ -60,11 +73,13 @@ void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_
     result.vanished_components = r.vanished_components;
     result.vanished_reach = r.vanished_reach;
     result.vanished_at = std::move(r.vanished_at);
+    for (std::uint32_t& f : r.face_of) f = face_of[f];
+    sort_by_source(r.face_of, result.mesh.faces);
     base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },
                           [&] { result.vertex_source.resize(r.point_of.size()); });
     for_chunks(r.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
-            result.face_source[f] = joined.face_source(face_of[r.face_of[f]]);
+            result.face_source[f] = joined.face_source(r.face_of[f]);
     });
     for_chunks(r.point_of.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -21,4 +21,7 @@ namespace treeform::detail::boolean {
 void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_faces chosen,
                     joined_operands& joined, bool solid, const boolean_options& options);
 
+/// Brings faces into the order of their sources, which is theirs but where rounded faces were cut.
+void sort_by_source(std::vector<std::uint32_t>& source, std::vector<face>& faces);
+
 }  // namespace treeform::detail::boolean

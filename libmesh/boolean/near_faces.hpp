@@ -1,64 +1,82 @@
 #pragma once
 /// \file
-/// The faces of two operands that can matter to each other, and on which side the others are.
+/// The faces that can matter to each other, of one operand or several.
 
+#include <libmesh/boolean/cut_operand.hpp>
+#include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/tree/aabb.hpp>
-#include <treeform/tree/detail/buffer.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace treeform::detail::boolean {
 
-using prepared_pair = std::array<const prepared_mesh*, 2>;
+/// What is cut at once as one mesh: an operand, or several that were joined.
+struct bundle {
+    const cut_operand* known = nullptr;
+    const prepared_mesh* mesh = nullptr;  ///< `known->mesh`
+    std::span<const face_pair> pairs{};   ///< of its own faces that meet beyond shared corners
+    std::uint32_t operand = 0;            ///< that it is; of several, 0
+    std::vector<std::uint32_t> operand_of_face{};  ///< [F] where there are several
 
-/// Of each operand, the pairs of its faces that meet beyond shared corners.
-using own_pairs = std::array<std::span<const face_pair>, 2>;
+    [[nodiscard]] mesh_view view() const { return mesh->view(); }
+    [[nodiscard]] std::uint32_t operand_of(std::size_t face) const {
+        return operand_of_face.empty() ? operand : operand_of_face[face];
+    }
+    [[nodiscard]] operand_element face_source(std::uint32_t face) const {
+        return source(face, &joined_operands::face_source);
+    }
+    [[nodiscard]] operand_element point_source(std::uint32_t point) const {
+        return source(point, &joined_operands::point_source);
+    }
+    /// The number of a face among all that were given, and how many those were.
+    [[nodiscard]] std::uint32_t number_as_given(std::uint32_t face) const {
+        const bool all = !known->own || known->joined.number_of_face.empty();
+        return all ? face : known->joined.number_of_face[face];
+    }
+    [[nodiscard]] std::size_t count_as_given() const {
+        return known->own ? known->joined.first_face.back() : view().faces.size();
+    }
 
-/// Where a face that no face of the other operand reaches is.
-enum class face_place : std::uint8_t { near, outside, inside };
-
-/// Faces of two operands near where their surfaces meet, with points of their own. Faces and points
-/// of both operands are counted through, those of the first before those of the second.
-struct near_faces {
-    mesh local;                           ///< ascending; equal points of the operands are one
-    std::uint32_t first_of_b = 0;         ///< local faces from here on are of the second
-    std::vector<std::uint32_t> face_of;   ///< [F] face of an operand
-    std::vector<std::uint32_t> point_of;  ///< [V] the lowest point of an operand, ascending
-    std::vector<face_pair> pairs;         ///< of local faces that meet beyond shared corners
-    buffer<face_place> place;             ///< of all faces of both operands
-
-    [[nodiscard]] std::size_t operand_of(std::size_t face) const {
-        return face < first_of_b ? 0 : 1;
+  private:
+    [[nodiscard]] operand_element source(std::uint32_t number,
+                                         operand_element (joined_operands::*of)(std::uint32_t)
+                                             const) const {
+        if (!known->own) return {operand, number};
+        operand_element found = (known->joined.*of)(number);
+        found.operand += operand;
+        return found;
     }
 };
 
-/// Near are the faces whose boxes overlap that of a face that meets the other operand. So whatever
-/// lies in the box of a face that is cut has nothing in common with the box of a face that is not
-/// near.
-///
-/// Of the others, those at a common point are all inside or all outside the other operand. So are
-/// those of leaf blocks whose boxes none of the other's overlap, and of such blocks that overlap.
-/// Of each set that this makes, one point is asked.
+/// All operands; the second may be empty.
+using bundles = std::array<bundle, 2>;
+
+/// Faces near where surfaces meet, with points of their own. Faces and points of both bundles are
+/// counted through, those of the first before those of the second.
+struct near_faces {
+    mesh local;                           ///< ascending; equal points are one
+    std::uint32_t first_of_b = 0;         ///< local faces from here on are of the second
+    std::vector<std::uint32_t> face_of;   ///< [F] face of a bundle
+    std::vector<std::uint32_t> point_of;  ///< [V] the lowest point of a bundle that it is
+    std::vector<face_pair> pairs;         ///< of local faces that meet beyond shared corners
+    std::array<std::vector<std::uint8_t>, 2> is_near;  ///< [F] by the order of each tree
+};
+
+/// Near are the faces whose boxes overlap that of a face that meets another one, or are at a point
+/// where faces are not one closed fan. So whatever lies in the box of a face that is cut has nothing
+/// in common with the box of a face that is not near, and at each point of such a face, faces are one
+/// closed fan of which none is cut.
 ///
 /// What only later operations gain by is not prepared where there is just one, `once`.
 ///
-/// \pre    both operands are sound (`is_sound`)
-/// \cost   that of the faces that meet, O(F / 8) besides, and 1 byte a face
+/// \cost   that of the faces that meet, and O(V + F / 8) besides
 /// \same   on any number of threads
-[[nodiscard]] near_faces find_near_faces(const prepared_pair& operands, bool once);
-
-/// The same of operands whose faces meet each other: near, too, are faces whose boxes overlap that
-/// of a face of `own`, and faces with a point of a near one. The place of the others is not asked: it
-/// is `outside`.
-///
-/// \pre no two vertices of an operand have equal coordinates, and no face is degenerate
-[[nodiscard]] near_faces find_near_faces(const prepared_pair& operands, const own_pairs& own,
-                                         bool once);
+[[nodiscard]] near_faces find_near_faces(const bundles& operands, bool once);
 
 }  // namespace treeform::detail::boolean

@@ -3,6 +3,18 @@
 #include <utility>
 
 namespace treeform::detail::boolean {
+bool is_inside(fill_rule rule, std::int64_t winding) {
+    switch (rule) {
+        case fill_rule::odd:
+            return winding % 2 != 0;
+        case fill_rule::positive:
+            return winding > 0;
+        case fill_rule::nonzero:
+            break;
+    }
+    return winding != 0;
+}
+
 partial_expression::partial_expression(const boolean_expression& expression, fill_rule rule)
     : rule_(rule),
       range_(expression.operand_count()),

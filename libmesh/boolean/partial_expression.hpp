@@ -26,6 +26,9 @@ struct winding_range {
     friend bool operator==(const winding_range&, const winding_range&) = default;
 };
 
+/// Whether a place is inside that a surface winds around so often.
+[[nodiscard]] bool is_inside(fill_rule rule, std::int64_t winding);
+
 /// An expression over the winding numbers of operands at one place, of each of which a range is
 /// known; at first, all are 0. To move to another place, say what changes.
 ///

@@ -1,5 +1,5 @@
 #include <libmesh/base/operand_name.hpp>
-#include <libmesh/boolean/sound_operand.hpp>
+#include <libmesh/boolean/check_solid.hpp>
 #include <treeform/mesh/solid.hpp>
 #include <treeform/tree/parallel.hpp>
 

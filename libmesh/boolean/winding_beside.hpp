@@ -23,22 +23,31 @@ namespace treeform::detail::boolean {
     return way;
 }
 
-/// How often a closed surface winds around all that is right beside a face of an arrangement, on the
-/// side where `line` through it is followed, exactly.
+/// Calls `visit(i, change)` for the faces that a line passes on its way from a face of an arrangement,
+/// with how often more the surface winds around what is before them than behind, exactly.
 ///
-/// \param index   over the faces of the surface; `corners(i)` are those of what it calls i
+/// \param index   over the faces of a surface; `corners(i)` are those of what it calls i
 /// \param way     `way_along(line, ahead)`
+template <class Corners, class Visit>
+void visit_beside(const tree<3>& index, const Corners& corners, const arrange::corner_line& line,
+                  const aabb<double, 3>& way, bool ahead, const Visit& visit) {
+    const int sign = ahead ? 1 : -1;
+    search(index, way, [&](std::uint32_t i) {
+        const triangle3 t = corners(i);
+        if (const int facing = line.passes(t); facing != 0 && line.place(t, facing) == sign)
+            visit(i, sign * facing);
+    });
+}
+
+/// How often a closed surface winds around all that is right beside a face of an arrangement, on the
+/// side where `line` through it is followed.
 template <class Corners>
 [[nodiscard]] std::int64_t winding_beside(const tree<3>& index, const Corners& corners,
                                           const arrange::corner_line& line,
                                           const aabb<double, 3>& way, bool ahead) {
-    const int sign = ahead ? 1 : -1;
     std::int64_t winding = 0;
-    search(index, way, [&](std::uint32_t i) {
-        const triangle3 t = corners(i);
-        if (const int facing = line.passes(t); facing != 0 && line.place(t, facing) == sign)
-            winding += sign * facing;
-    });
+    visit_beside(index, corners, line, way, ahead,
+                 [&](std::uint32_t, int change) { winding += change; });
     return winding;
 }
 

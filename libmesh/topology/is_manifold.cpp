@@ -73,12 +73,13 @@ bool is_one_fan(std::span<const face> faces, std::span<const std::uint32_t> arou
     return links.back()[1] == links.front()[0];
 }
 
+constexpr std::size_t many = 64;  ///< faces at a point: they are not looked at
+constexpr std::size_t ahead = 8;  ///< stars whose memory is under way
+
 /// Whether all points are in one fan each: `point_of(i)` with the faces `star_of(i)`.
 template <class StarOf, class PointOf>
 bool are_all_one_fan(std::span<const face> faces, std::size_t count, const StarOf& star_of,
                      const PointOf& point_of) {
-    constexpr std::size_t many = 64;
-    constexpr std::size_t ahead = 8;  // stars whose memory is under way
     std::atomic<bool> manifold{true};
     for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::vector<std::array<std::uint32_t, 2>> links;
@@ -94,12 +95,29 @@ bool are_all_one_fan(std::span<const face> faces, std::size_t count, const StarO
 
 }  // namespace
 
-bool is_manifold(mesh_view mesh) {
+std::vector<std::uint32_t> points_without_fan(mesh_view mesh) {
     const base::stars stars(mesh.points.size(), mesh.faces);
-    return stars.face_count() == mesh.faces.size() &&
-           are_all_one_fan(
-               mesh.faces, stars.size(), [&](std::size_t v) { return stars[v]; },
-               [](std::size_t v) { return static_cast<std::uint32_t>(v); });
+    std::vector<std::vector<std::uint32_t>> found(chunk_count(stars.size(), light_grain));
+    for_chunks(stars.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                   std::vector<std::array<std::uint32_t, 2>> links;
+                   for (std::size_t v = begin; v < end; ++v) {
+                       if (v + ahead < end)
+                           for (const std::uint32_t f : stars[v + ahead])
+                               __builtin_prefetch(&mesh.faces[f]);
+                       const auto p = static_cast<std::uint32_t>(v);
+                       if (stars[v].size() > many || !is_one_fan(mesh.faces, stars[v], p, links))
+                           found[chunk].push_back(p);
+                   }
+               });
+    std::vector<std::uint32_t> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+bool is_manifold(mesh_view mesh) {
+    return std::all_of(mesh.faces.begin(), mesh.faces.end(), base::has_three_corners) &&
+           points_without_fan(mesh).empty();
 }
 
 bool is_manifold_at(std::span<const std::uint32_t> points, mesh_view mesh) {

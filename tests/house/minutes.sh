@@ -49,5 +49,5 @@ in_root "apt-get install -y --no-install-recommends patchelf python3-dev python3
     python3-setuptools python3-wheel python3-pybind11 python3-numpy"
 in_root "cd /second && python3 -m venv --system-site-packages /venv && /venv/bin/pip install --no-index --no-build-isolation ./tools/python"
 within "pip install, with build/release" 0.1
-in_root "cd /third && /venv/bin/pip install --no-index --no-build-isolation --force-reinstall ./tools/python"
+in_root "cd /third && /venv/bin/pip install --no-index --no-build-isolation --force-reinstall --no-deps ./tools/python"
 within "pip install" 0.7

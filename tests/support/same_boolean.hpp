@@ -10,7 +10,7 @@
 
 namespace test {
 
-/// All but the count of cells, which only the general way has.
+/// All but what was left out as hidden.
 inline void check_same_boolean(const tf::boolean_result& result,
                                const tf::boolean_result& general) {
     CHECK(result.certificate);
@@ -18,8 +18,10 @@ inline void check_same_boolean(const tf::boolean_result& result,
     CHECK(result.face_source == general.face_source);
     CHECK(result.vertex_source == general.vertex_source);
     CHECK(result.certificate.max_displacement == general.certificate.max_displacement);
-    CHECK(result.statistics.pairs == general.statistics.pairs);
-    CHECK(result.statistics.cut_faces == general.statistics.cut_faces);
+    if (result.statistics.skipped_faces == 0) {
+        CHECK(result.statistics.pairs == general.statistics.pairs);
+        CHECK(result.statistics.cut_faces == general.statistics.cut_faces);
+    }
     CHECK(result.statistics.exact_faces == general.statistics.exact_faces);
     CHECK(is_clean_solid(result.mesh));
 }

@@ -1,0 +1,15 @@
+#pragma once
+/// \file
+/// Whether a mesh bounds a solid.
+
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/parallel.hpp>
+
+namespace treeform::detail::boolean {
+
+/// As `treeform::check_solid`; errors name the function `called`.
+[[nodiscard]] certificate check_solid(const char* called, mesh_view mesh,
+                                      const progress_callback& progress = {});
+
+}  // namespace treeform::detail::boolean

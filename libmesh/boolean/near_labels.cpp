@@ -1,0 +1,245 @@
+#include <libmesh/arrange/patch_regions.hpp>
+#include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/double_double.hpp>
+#include <libmesh/base/point_math.hpp>
+#include <libmesh/boolean/near_labels.hpp>
+#include <libmesh/boolean/partial_expression.hpp>
+#include <libmesh/boolean/sum_of_cones.hpp>
+#include <libmesh/boolean/way_out.hpp>
+#include <libmesh/boolean/winding_beside.hpp>
+#include <treeform/tree/detail/box_in_space.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace treeform::detail::boolean {
+namespace {
+
+using arrange::surface_patches;
+using ids = std::vector<std::uint32_t>;
+
+constexpr std::size_t labels_a_chunk = 64;
+
+/// How often operands wind around places beside their faces.
+class line_windings {
+  public:
+    explicit line_windings(const bundles& operands) : operands_(operands) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            trees_[k] = &build_face_tree(*operands[k].mesh);
+            if (!operands[k].view().faces.empty()) box_.include(box_of_root(*trees_[k]));
+        }
+    }
+
+    struct beside_face {
+        bool in_front;                      ///< of the face, or behind it
+        std::vector<operand_winding> of{};  ///< those that are not 0
+    };
+    /// On one side of face f of bundle k.
+    [[nodiscard]] beside_face at(std::size_t k, std::uint32_t f) const {
+        const triangle3 whole = base::triangle_of(operands_[k].view(), f);
+        return follow(find_way_out({whole[0], whole[1], whole[2]}, whole, box_));
+    }
+    /// On one side of a face of an arrangement of `local`.
+    [[nodiscard]] beside_face at(mesh_view local, const mesh_arrangement& cut,
+                                 std::uint32_t f) const {
+        return follow(find_way_out(local, cut, f, box_));
+    }
+
+  private:
+    [[nodiscard]] beside_face follow(const way_out& out) const {
+        const aabb<double, 3> way = way_along(out.line, out.ahead);
+        beside_face found{(out.line.faces() > 0) == out.ahead};
+        for (std::size_t k = 0; k < 2; ++k) {
+            const mesh_view mesh = operands_[k].view();
+            visit_beside(
+                *trees_[k], [&](std::uint32_t i) { return base::triangle_of(mesh, i); }, out.line,
+                way, out.ahead,
+                [&](std::uint32_t i, int change) {
+                    add(found.of, operands_[k].operand_of(i), change);
+                });
+        }
+        std::erase_if(found.of, [](const operand_winding& w) { return w.winding == 0; });
+        return found;
+    }
+
+    static void add(std::vector<operand_winding>& to, std::uint32_t operand, int change) {
+        const auto at = std::ranges::lower_bound(to, operand, {}, &operand_winding::operand);
+        if (at != to.end() && at->operand == operand)
+            at->winding += change;
+        else
+            to.insert(at, {operand, change});
+    }
+
+    const bundles& operands_;
+    std::array<const tree<3>*, 2> trees_{};
+    aabb<double, 3> box_{};
+};
+
+ids operands_of(const bundles& operands, const near_faces& near) {
+    const std::size_t faces_of_a = operands[0].view().faces.size();
+    ids result(near.face_of.size());
+    for (std::size_t f = 0; f < result.size(); ++f)
+        result[f] = f < near.first_of_b ? operands[0].operand_of(near.face_of[f])
+                                        : operands[1].operand_of(near.face_of[f] - faces_of_a);
+    return result;
+}
+
+/// A face that is cut is near together with all at its edges, and so are all at an edge of other than
+/// two. So faces are missing only where a whole one ends.
+surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_face) {
+    const auto judge = [](const std::array<std::uint32_t, 2>&,
+                          std::span<const arrange::face_side> sides) {
+        return sides.size() == 1 ? arrange::edge_use::nothing : arrange::edge_use::all;
+    };
+    surface_patches patches = arrange::find_patches(cut, operand_of_face, judge);
+    if (patches.open_count > 0)
+        throw std::logic_error("treeform::boolean: faces are missing at the edge between points " +
+                               std::to_string(patches.open[0].points[0]) + " and " +
+                               std::to_string(patches.open[0].points[1]));
+    return patches;
+}
+
+arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
+                                  const surface_patches& patches) {
+    arrange::patch_regions joined(patches);
+    joined.join_about_edges(local, cut);
+    return joined.number();
+}
+
+face turned_if(bool turn, const face& f) { return turn ? face{f[0], f[2], f[1]} : f; }
+
+}  // namespace
+
+near_labels::near_labels(const bundles& operands, const near_faces& near,
+                         const mesh_arrangement& cut)
+    : operands_(operands),
+      cut_(cut),
+      operand_of_face_(operands_of(operands, near)),
+      patches_(patches_of(cut, operand_of_face_)),
+      regions_(cut, operand_of_face_, patches_, regions_of(near.local, cut, patches_)),
+      far_{far_faces(*operands[0].mesh, near.is_near[0]),
+           far_faces(*operands[1].mesh, near.is_near[1])} {
+    const line_windings windings(operands);
+    const buffer<std::uint32_t> group = regions_.groups();
+    ids asked;  // the first patch of each group
+    std::vector<std::uint8_t> is_asked(regions_.size(), 0);
+    for (std::uint32_t p = 0; p < patches_.count(); ++p)
+        if (std::exchange(is_asked[group[regions_.patches().front(p)]], std::uint8_t{1}) == 0)
+            asked.push_back(p);
+    seeds_.resize(asked.size());
+    for_chunks(asked.size(), labels_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t p = asked[i];
+            auto [in_front, of] = windings.at(near.local, cut, patches_.first_face(p));
+            seeds_[i] = {in_front ? regions_.patches().front(p) : regions_.patches().behind(p),
+                         std::move(of)};
+        }
+    });
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto faces = far_[k].faces();
+        sides_[k].resize(faces.size());
+        for_chunks(
+            faces.size(), labels_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    auto [in_front, of] = windings.at(k, faces[i]);
+                    sides_[k][i] = {in_front, operands[k].operand_of(faces[i]), std::move(of)};
+                }
+            });
+    }
+}
+
+chosen_surface near_labels::choose(const boolean_expression& expression, fill_rule rule) const {
+    const partial_expression at_nowhere(expression, rule);
+    std::vector<std::uint8_t> inside(regions_.size(), 0);
+    for_chunks(seeds_.size(), labels_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        partial_expression state = at_nowhere;
+        for (std::size_t i = begin; i < end; ++i) regions_.spread(seeds_[i], state, inside);
+    });
+    chosen_surface result;
+    arrangement_cells cells;
+    cells.cell_of_side.resize(cut_.faces.size());
+    for_chunks(
+        cut_.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t f = begin; f < end; ++f) {
+                const std::uint32_t p = patches_.patch[f];
+                cells.cell_of_side[f] = {regions_.patches().front(p), regions_.patches().behind(p)};
+            }
+        });
+    result.near = round::faces_around(cut_, cells, inside);
+
+    const std::array faces{operands_[0].view().faces.size(), operands_[1].view().faces.size()};
+    result.fates = buffer<fate>(faces[0] + faces[1]);
+    for_chunks(result.fates.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   std::fill(result.fates.data() + begin, result.fates.data() + end, fate::cut);
+               });
+    for (std::size_t k = 0; k < 2; ++k) {
+        std::vector<fate> of_set(sides_[k].size());
+        for_chunks(of_set.size(), labels_a_chunk,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       partial_expression state = at_nowhere;
+                       for (std::size_t i = begin; i < end; ++i) {
+                           const far_side& side = sides_[k][i];
+                           const auto add = [&](std::uint32_t operand, std::int64_t change) {
+                               state.add(operand, winding_range::only(change));
+                           };
+                           for (const auto& [operand, winding] : side.windings)
+                               add(operand, winding);
+                           const bool here = *state.value();
+                           const std::int64_t across = side.in_front ? 1 : -1;
+                           add(side.operand, across);
+                           const bool there = *state.value();
+                           add(side.operand, -across);
+                           for (const auto& [operand, winding] : side.windings)
+                               add(operand, -winding);
+                           of_set[i] = here == there            ? fate::dropped
+                                       : there == side.in_front ? fate::kept
+                                                                : fate::turned;
+                       }
+                   });
+        far_[k].write(std::span<const fate>(of_set), result.fates.data() + (k == 0 ? 0 : faces[0]));
+    }
+    return result;
+}
+
+double near_labels::volume_of(const boolean_expression& expression, fill_rule rule) const {
+    const chosen_surface chosen = choose(expression, rule);
+    const std::size_t given = cut_.given_points.size();
+    const auto at = [&](std::uint32_t p) {
+        return p < given ? cut_.given_points[p] : cut_.constructed[p - given].center();
+    };
+    base::double_double sum = sum_of_cones(chosen.near.faces.size(), [&](std::size_t f) {
+        const auto& [p, q, r] = chosen.near.faces[f];
+        return base::determinant(at(p), at(q), at(r));
+    });
+    std::size_t first = 0;
+    for (const bundle& operand : operands_) {
+        const mesh_view mesh = operand.view();
+        sum = sum + sum_of_cones(mesh.faces.size(), [&](std::size_t f) {
+                  const fate of = chosen.fates[first + f];
+                  if (of == fate::cut || of == fate::dropped) return base::double_double{};
+                  const auto [p, q, r] = turned_if(of == fate::turned, mesh.faces[f]);
+                  return base::determinant(mesh.points[p], mesh.points[q], mesh.points[r]);
+              });
+        first += mesh.faces.size();
+    }
+    return sum.high / 6.0;
+}
+
+operand_volumes near_labels::volumes(fill_rule rule) const {
+    const auto volume = [&](const char* text) { return volume_of({text, 2}, rule); };
+    operand_volumes result;
+    result.first = volume("a");
+    result.second = volume("b");
+    result.both = volume("a*b");
+    // No smaller than either operand's, so little of it cancels.
+    result.either = result.first - result.both + result.second;
+    return result;
+}
+
+}  // namespace treeform::detail::boolean

@@ -1,0 +1,330 @@
+#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/boolean/finish_surface.hpp>
+#include <libmesh/boolean/merged_cuts.hpp>
+#include <libmesh/boolean/near_surface.hpp>
+#include <libmesh/round/round_surface.hpp>
+#include <libmesh/topology/is_manifold.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace treeform::detail::boolean {
+namespace {
+
+using ids = std::vector<std::uint32_t>;
+
+/// Puts together the faces that were cut and those that were not, of both bundles counted through.
+class assembly {
+  public:
+    assembly(const bundles& operands, const near_faces& near, const buffer<fate>& fates)
+        : operands_(operands),
+          near_(near),
+          fates_(fates),
+          faces_{0, meshes_[0].faces.size(), meshes_[0].faces.size() + meshes_[1].faces.size()},
+          points_{0, meshes_[0].points.size(), meshes_[0].points.size() + meshes_[1].points.size()},
+          number_(points_[2]) {}
+
+    /// `source` are faces of operands, ascending, one for each face of `rounded`, whose points are
+    /// those of `near_` and others. Returns the vertices of these in the result.
+    ids write(const rounded_surface& rounded, const ids& source, boolean_result& result) {
+        number_points(rounded, result);
+        ids corner(rounded.point_of.size());
+        const auto first_made = static_cast<std::uint32_t>(given_);
+        for (std::size_t p = 0, made = 0; p < corner.size(); ++p)
+            corner[p] = is_made(rounded.point_of[p])
+                            ? first_made + static_cast<std::uint32_t>(made++)
+                            : number_[near_.point_of[rounded.point_of[p]]];
+        write_faces(rounded, corner, source, result);
+        return corner;
+    }
+
+  private:
+    [[nodiscard]] bool is_made(std::uint32_t local_point) const {
+        return local_point >= near_.point_of.size();
+    }
+    [[nodiscard]] std::size_t operand_of(std::size_t face) const {
+        return face < faces_[1] ? 0 : 1;
+    }
+    [[nodiscard]] const face& corners(std::size_t face) const {
+        const std::size_t k = operand_of(face);
+        return meshes_[k].faces[face - faces_[k]];
+    }
+
+    /// Calls `visit(face)` for the faces from `begin` to `end` that were not cut and stay.
+    template <class Visit>
+    void for_far_faces(std::size_t begin, std::size_t end, const Visit& visit) const {
+        for (std::size_t f = begin; f < end; ++f)
+            if (fates_[f] == fate::kept || fates_[f] == fate::turned) visit(f);
+    }
+
+    /// Numbers the points in use, those of operands first.
+    void number_points(const rounded_surface& rounded, boolean_result& result) {
+        const auto use = [&](std::size_t p) {
+            std::atomic_ref(number_[p]).store(1, std::memory_order_relaxed);
+        };
+        for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            std::fill(number_.data() + begin, number_.data() + end, 0U);
+        });
+        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for_far_faces(begin, end, [&](std::size_t f) {
+                for (const std::uint32_t p : corners(f)) use(points_[operand_of(f)] + p);
+            });
+        });
+        std::size_t made = 0;
+        for (const std::uint32_t p : rounded.point_of)
+            if (is_made(p))
+                ++made;
+            else
+                number_[near_.point_of[p]] = 1;
+
+        std::vector<std::size_t> first(chunk_count(points_[2], light_grain) + 1, 0);
+        for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            for (std::size_t p = begin; p < end; ++p) first[c + 1] += number_[p];
+        });
+        for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+        given_ = first.back();
+        std::vector<point3>& points = result.mesh.points;
+        points.resize(given_ + made);
+        result.vertex_source.resize(given_ + made);
+        for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t next = first[c];
+            for (std::size_t p = begin; p < end; ++p) {
+                if (number_[p] == 0) continue;
+                const std::size_t k = p < points_[1] ? 0 : 1;
+                const auto index = static_cast<std::uint32_t>(p - points_[k]);
+                number_[p] = static_cast<std::uint32_t>(next);
+                points[next] = meshes_[k].points[index];
+                result.vertex_source[next++] = operands_[k].point_source(index);
+            }
+        });
+        std::size_t next = given_;
+        for (std::size_t p = 0; p < rounded.point_of.size(); ++p)
+            points[is_made(rounded.point_of[p]) ? next++
+                                                : number_[near_.point_of[rounded.point_of[p]]]] =
+                rounded.surface.points[p];
+    }
+
+    void write_faces(const rounded_surface& rounded, const ids& corner, const ids& source,
+                     boolean_result& result) const {
+        const auto pieces_before = [&](std::size_t face) {
+            return static_cast<std::size_t>(std::lower_bound(source.begin(), source.end(), face) -
+                                            source.begin());
+        };
+        std::vector<std::size_t> first(chunk_count(faces_[2], light_grain) + 1, 0);
+        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t count = pieces_before(end) - pieces_before(begin);
+            for_far_faces(begin, end, [&](std::size_t) { ++count; });
+            first[c + 1] = count;
+        });
+        for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+        std::vector<face>& faces = result.mesh.faces;
+        faces.resize(first.back());
+        result.face_source.resize(first.back());
+        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t next = first[c];
+            const auto put = [&](std::size_t f, const face& corners) {
+                const std::size_t k = operand_of(f);
+                faces[next] = corners;
+                result.face_source[next++] =
+                    operands_[k].face_source(static_cast<std::uint32_t>(f - faces_[k]));
+            };
+            std::size_t piece = pieces_before(begin);
+            const auto put_pieces_before = [&](std::size_t f) {
+                for (; piece < source.size() && source[piece] < f; ++piece) {
+                    const auto& [p, q, r] = rounded.surface.faces[piece];
+                    put(source[piece], {corner[p], corner[q], corner[r]});
+                }
+            };
+            for_far_faces(begin, end, [&](std::size_t f) {
+                put_pieces_before(f);
+                const std::size_t k = operand_of(f);
+                const std::uint32_t* const number = number_.data() + points_[k];
+                const auto& [p, q, r] = corners(f);
+                put(f, fates_[f] == fate::kept ? face{number[p], number[q], number[r]}
+                                               : face{number[p], number[r], number[q]});
+            });
+            put_pieces_before(end);
+        });
+    }
+
+    const bundles& operands_;
+    std::array<mesh_view, 2> meshes_{operands_[0].view(), operands_[1].view()};
+    const near_faces& near_;
+    const buffer<fate>& fates_;
+    std::array<std::size_t, 3> faces_;   ///< where those of each operand begin
+    std::array<std::size_t, 3> points_;  ///< likewise
+    buffer<std::uint32_t> number_;       ///< of points of operands, in the result
+    std::size_t given_ = 0;
+};
+
+/// Takes in all faces that stay, so that near is all that the result has.
+void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
+                 exact_surface& exact, ids& source, ids& face_of_point) {
+    const std::array meshes{operands[0].view(), operands[1].view()};
+    const std::size_t faces_of_a = meshes[0].faces.size(), points_of_a = meshes[0].points.size();
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    ids number(points_of_a + meshes[1].points.size(), none);
+    for (std::uint32_t p = 0; p < near.point_of.size(); ++p) number[near.point_of[p]] = p;
+    const std::size_t given = exact.given.size();
+
+    near_faces all;
+    all.point_of = std::move(near.point_of);
+    std::vector<face>& faces = all.local.faces;
+    std::vector<face> surface;
+    std::vector<std::uint8_t> sound;
+    ids surface_source, pieces, new_of_old(near.face_of.size());
+    const auto take = [&](std::uint32_t f) {
+        const std::size_t k = f < faces_of_a ? 0 : 1, first = k == 0 ? 0 : points_of_a;
+        face corners = meshes[k].faces[f - (k == 0 ? 0 : faces_of_a)];
+        for (std::uint32_t& p : corners) {
+            std::uint32_t& local = number[first + p];
+            if (local == none) {
+                local = static_cast<std::uint32_t>(exact.given.size());
+                exact.given.push_back(meshes[k].points[p]);
+                all.point_of.push_back(static_cast<std::uint32_t>(first + p));
+            }
+            p = local;
+        }
+        surface.push_back(fates[f] == fate::kept ? corners
+                                                 : face{corners[0], corners[2], corners[1]});
+        sound.push_back(1);
+        surface_source.push_back(static_cast<std::uint32_t>(faces.size()));
+        faces.push_back(corners);
+        all.face_of.push_back(f);
+    };
+    std::size_t old = 0, piece = 0;
+    for (std::uint32_t f = 0; f < fates.size(); ++f) {
+        if (old < near.face_of.size() && near.face_of[old] == f) {
+            new_of_old[old] = static_cast<std::uint32_t>(faces.size());
+            for (; piece < source.size() && source[piece] == old; ++piece) {
+                pieces.push_back(static_cast<std::uint32_t>(surface.size()));
+                surface.push_back(exact.faces[piece]);
+                sound.push_back(exact.sound[piece]);
+                surface_source.push_back(new_of_old[old]);
+            }
+            faces.push_back(near.local.faces[old++]);
+            all.face_of.push_back(f);
+        } else if (fates[f] == fate::kept || fates[f] == fate::turned) {
+            take(f);
+            fates[f] = fate::cut;
+        }
+    }
+    const auto more = static_cast<std::uint32_t>(exact.given.size() - given);
+    for (const std::uint32_t f : pieces)
+        for (std::uint32_t& p : surface[f])
+            if (p >= given) p += more;
+    exact.faces = std::move(surface);
+    exact.sound = std::move(sound);
+    source = std::move(surface_source);
+    for (std::uint32_t& f : face_of_point)
+        if (f < new_of_old.size()) f = new_of_old[f];
+    near = std::move(all);
+}
+
+/// Of each local face, its number among the faces of all operands as they were given.
+ids numbers_as_given(const bundles& operands, const near_faces& near) {
+    ids numbers(near.face_of.size());
+    const std::size_t faces_of_a = operands[0].view().faces.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::size_t k = near.face_of[i] < faces_of_a ? 0 : 1;
+        const auto f = static_cast<std::uint32_t>(near.face_of[i] - (k == 0 ? 0 : faces_of_a));
+        numbers[i] = operands[k].number_as_given(f);
+        if (k == 1) numbers[i] += static_cast<std::uint32_t>(operands[0].count_as_given());
+    }
+    return numbers;
+}
+
+}  // namespace
+
+near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
+                       chosen_surface chosen, const boolean_options& options) {
+    near_result made;
+    boolean_result& result = made.result;
+    mesh_arrangement& cut = arranged.cut;
+    exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
+                        std::move(chosen.near.faces)};
+    ids source = std::move(chosen.near.face_of);  // local faces from here on
+    exact.sound.resize(source.size());
+    for_chunks(source.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f) {
+            exact.sound[f] = cut.whole[source[f]];
+            source[f] = cut.covers_of(source[f]).front().face;
+        }
+    });
+    cut = {};
+    ids face_of_point;
+    bool is_all = false;
+    const auto take_in = [&] {
+        if (std::exchange(is_all, true)) return;
+        take_in_all(operands, near, chosen.fates, exact, source, face_of_point);
+    };
+    if (options.simplify) take_in();
+    const std::size_t count = operands[0].count_as_given() + operands[1].count_as_given();
+    face_of_point = merge_cuts(exact, source, near.local.faces,
+                               options.face_groups.empty()
+                                   ? ids()
+                                   : groups_of(options, numbers_as_given(operands, near), count),
+                               options);
+    if (options.precision == precision::float32) take_in();
+    std::size_t exact_faces = source.size();
+    rounded_surface rounded;
+    if (!is_all) {
+        // What was left out meets no box of what was cut, and so no piece of it either, rounded or
+        // not: rounding to nearest takes no coordinate out of a box of doubles.
+        rounded = round_surface(exact, {.mends = false});
+        if (!rounded.certificate || rounded.vanished_components > 0) take_in();
+    }
+    if (is_all) {
+        exact_faces = source.size();
+        rounded = round_surface(std::move(exact),
+                                {.precision = options.precision,
+                                 .max_displacement = options.max_displacement,
+                                 .progress = base::part_of(options.progress, 0.7, 0.95)});
+    }
+    result.certificate = std::move(rounded.certificate);
+    result.statistics.pairs = arranged.pairs;
+    result.statistics.cut_faces = arranged.cut_faces;
+    result.statistics.degenerate = operands[0].known->degenerate + operands[1].known->degenerate;
+    result.statistics.rounding_rounds = rounded.rounds;
+    result.statistics.slivers = rounded.slivers;
+    result.vanished_components = rounded.vanished_components;
+    result.vanished_reach = rounded.vanished_reach;
+    result.vanished_at = std::move(rounded.vanished_at);
+    if (result.certificate.status == status::cancelled || !made.goes_on(options.progress, 0.95))
+        return made;
+    ids face_of_piece(rounded.face_of.size());
+    for_chunks(face_of_piece.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       face_of_piece[i] = near.face_of[source[rounded.face_of[i]]];
+               });
+    sort_by_source(face_of_piece, rounded.surface.faces);
+    const ids vertices =
+        assembly(operands, near, chosen.fates).write(rounded, face_of_piece, result);
+    // Faces that were not cut are as they were in their operand, all of those at a vertex or none.
+    made.is_manifold = !is_all && topology::is_manifold_at(vertices, result.mesh);
+    result.statistics.exact_faces = result.mesh.faces.size() + (exact_faces - face_of_piece.size());
+    if (merges_faces(options)) {
+        result.face_of_cut_vertex.resize(result.mesh.points.size());
+        const std::size_t given = near.point_of.size();
+        const auto faces_of_a = static_cast<std::uint32_t>(operands[0].view().faces.size());
+        for (std::size_t p = 0; p < vertices.size(); ++p) {
+            const std::uint32_t point = rounded.point_of[p];
+            if (point < given || point == rounded_surface::none) continue;
+            const std::uint32_t f = near.face_of[face_of_point[point - given]];
+            result.face_of_cut_vertex[vertices[p]] = f < faces_of_a
+                                                         ? operands[0].face_source(f)
+                                                         : operands[1].face_source(f - faces_of_a);
+        }
+    }
+    static_cast<void>(made.goes_on(options.progress, 1.0));
+    return made;
+}
+
+}  // namespace treeform::detail::boolean
