@@ -295,7 +295,8 @@ std::optional<boolean_result> in_active_space(joined_operands& joined,
 near_result boolean_of(bundled_operands& operands, const boolean_expression& expression,
                        const boolean_options& options) {
     near_result made;
-    operands.find_pairs(part_of(options.progress, 0.0, 0.3));
+    operands.find_pairs(part_of(options.progress, 0.0, 0.2));
+    if (!made.goes_on(options.progress, 0.2)) return made;
     detail::boolean::near_faces near =
         detail::boolean::find_near_faces(operands.all(), operands.once());
     if (!made.goes_on(options.progress, 0.4)) return made;

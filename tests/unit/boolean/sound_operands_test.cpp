@@ -207,7 +207,7 @@ TEST_CASE("sound operands: progress can say stop while it is found out whether t
     };
     CHECK(until(0.1).certificate.status == tf::status::cancelled);
     CHECK(a.indexes_built() == 2);  // its rough points and its tree
-    CHECK(until(0.3).certificate.status == tf::status::cancelled);
+    CHECK(until(0.5).certificate.status == tf::status::cancelled);
     CHECK(a.indexes_built() == 3);  // its own pairs, too
     CHECK(b.indexes_built() == 2);
     told.clear();
