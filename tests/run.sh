@@ -16,6 +16,9 @@ build release -DTREEFORM_BUILD_TESTS=ON -DTREEFORM_BUILD_C=ON -DTREEFORM_BUILD_O
     -U TREEFORM_BUILD_PYTHON &&
     test_build build/release -LE slow
 python3 -B tests/house/steps.py slowest build/release
-names=$(python3 -B tests/house/count_tests.py --skipped build/release/results.xml)
-[[ -z $names ]] || printf '\nskipped, as a whole or in part:\n%s\n' "$names"
+for kind in skipped failed; do
+    names=$(python3 -B tests/house/count_tests.py --$kind build/release/results.xml)
+    [[ $kind == failed ]] || kind="skipped, as a whole or in part"
+    [[ -z $names ]] || printf '\n%s:\n%s\n' "$kind" "$names"
+done
 count_up

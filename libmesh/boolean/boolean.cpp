@@ -138,7 +138,6 @@ boolean_result labeled_of(mesh_view mesh, const boolean_options& options,
         detail::boolean::label_cells(arranged.cut, cells, count, options.face_groups,
                                      [&] { return options.progress && !options.progress(0.6); });
     if (!labels) return made;
-    made.statistics.cells = count;
     counts = {count - 1, labels->dropped_area, labels->turned_area};
     detail::round::solid_faces chosen =
         detail::round::faces_around(arranged.cut, cells, labels->inside);

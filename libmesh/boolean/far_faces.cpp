@@ -178,7 +178,12 @@ far_faces::far_faces(const prepared_mesh& mesh, std::span<const std::uint8_t> is
             if (is_met[p] != 0) alike.join(c, static_cast<std::uint32_t>(clusters + p));
     });
     set_ = alike.take_roots();
-    // Roots, the lowest of each set, become numbers of sets.
+    number_sets();
+}
+
+/// Roots, the lowest of each set, become numbers of sets.
+void far_faces::number_sets() {
+    const std::size_t clusters = is_mixed_.size(), faces = face_at_.size();
     std::vector<std::uint32_t> number(set_.size(), no_number);
     const auto enter = [&](std::uint32_t root, std::size_t place) {
         if (number[root] != no_number) return;
@@ -193,7 +198,7 @@ far_faces::far_faces(const prepared_mesh& mesh, std::span<const std::uint8_t> is
         for (; c < clusters && clusters_.first_place[c] < end; ++c) mixed |= is_mixed_[c] != 0;
         for (std::size_t i = l * lot; mixed && i < end; ++i)
             if (is_mixed_[clusters_.of_place[i]] != 0 && is_near_[i] == 0)
-                enter(set_[element(i)], i);
+                enter(set_[clusters + mesh_.faces[face_at_[i]][0]], i);
     }
     for_chunks(set_.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) set_[i] = number[set_[i]];

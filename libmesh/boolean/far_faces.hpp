@@ -45,6 +45,7 @@ class far_faces {
     }
 
   private:
+    void number_sets();
     template <class Put>
     void write_sets(const Put& put) const;
 

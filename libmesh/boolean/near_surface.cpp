@@ -168,8 +168,7 @@ void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
                  exact_surface& exact, ids& source, ids& face_of_point) {
     const std::array meshes{operands[0].view(), operands[1].view()};
     const std::size_t faces_of_a = meshes[0].faces.size(), points_of_a = meshes[0].points.size();
-    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-    ids number(points_of_a + meshes[1].points.size(), none);
+    ids number(points_of_a + meshes[1].points.size(), rounded_surface::none);
     for (std::uint32_t p = 0; p < near.point_of.size(); ++p) number[near.point_of[p]] = p;
     const std::size_t given = exact.given.size();
 
@@ -184,7 +183,7 @@ void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
         face corners = meshes[k].faces[f - (k == 0 ? 0 : faces_of_a)];
         for (std::uint32_t& p : corners) {
             std::uint32_t& local = number[first + p];
-            if (local == none) {
+            if (local == rounded_surface::none) {
                 local = static_cast<std::uint32_t>(exact.given.size());
                 exact.given.push_back(meshes[k].points[p]);
                 all.point_of.push_back(static_cast<std::uint32_t>(first + p));
@@ -240,16 +239,9 @@ ids numbers_as_given(const bundles& operands, const near_faces& near) {
     return numbers;
 }
 
-}  // namespace
-
-near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
-                       chosen_surface chosen, const boolean_options& options) {
-    near_result made;
-    boolean_result& result = made.result;
-    mesh_arrangement& cut = arranged.cut;
-    exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
-                        std::move(chosen.near.faces)};
-    ids source = std::move(chosen.near.face_of);  // local faces from here on
+/// The chosen faces, and the local face that each is of, in `source`, where those of `cut` were.
+exact_surface surface_of(mesh_arrangement& cut, std::vector<face>&& faces, ids& source) {
+    exact_surface exact{std::move(cut.given_points), std::move(cut.constructed), std::move(faces)};
     exact.sound.resize(source.size());
     for_chunks(source.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
@@ -258,6 +250,46 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
         }
     });
     cut = {};
+    return exact;
+}
+
+void keep_counts(const bundles& operands, const arrange_faces_result& arranged,
+                 rounded_surface& rounded, boolean_result& result) {
+    result.certificate = std::move(rounded.certificate);
+    result.statistics.pairs = arranged.pairs;
+    result.statistics.cut_faces = arranged.cut_faces;
+    result.statistics.degenerate = operands[0].known->degenerate + operands[1].known->degenerate;
+    result.statistics.rounding_rounds = rounded.rounds;
+    result.statistics.slivers = rounded.slivers;
+    result.vanished_components = rounded.vanished_components;
+    result.vanished_reach = rounded.vanished_reach;
+    result.vanished_at = std::move(rounded.vanished_at);
+}
+
+/// \param vertices [points of `rounded`] that they are in the result
+void name_cut_vertices(const bundles& operands, const near_faces& near,
+                       const rounded_surface& rounded, const ids& vertices,
+                       const ids& face_of_point, boolean_result& result) {
+    result.face_of_cut_vertex.resize(result.mesh.points.size());
+    const std::size_t given = near.point_of.size();
+    const auto faces_of_a = static_cast<std::uint32_t>(operands[0].view().faces.size());
+    for (std::size_t p = 0; p < vertices.size(); ++p) {
+        const std::uint32_t point = rounded.point_of[p];
+        if (point < given || point == rounded_surface::none) continue;
+        const std::uint32_t f = near.face_of[face_of_point[point - given]];
+        result.face_of_cut_vertex[vertices[p]] =
+            f < faces_of_a ? operands[0].face_source(f) : operands[1].face_source(f - faces_of_a);
+    }
+}
+
+}  // namespace
+
+near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
+                       chosen_surface chosen, const boolean_options& options) {
+    near_result made;
+    boolean_result& result = made.result;
+    ids source = std::move(chosen.near.face_of);
+    exact_surface exact = surface_of(arranged.cut, std::move(chosen.near.faces), source);
     ids face_of_point;
     bool is_all = false;
     const auto take_in = [&] {
@@ -287,15 +319,7 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
                                  .max_displacement = options.max_displacement,
                                  .progress = base::part_of(options.progress, 0.7, 0.95)});
     }
-    result.certificate = std::move(rounded.certificate);
-    result.statistics.pairs = arranged.pairs;
-    result.statistics.cut_faces = arranged.cut_faces;
-    result.statistics.degenerate = operands[0].known->degenerate + operands[1].known->degenerate;
-    result.statistics.rounding_rounds = rounded.rounds;
-    result.statistics.slivers = rounded.slivers;
-    result.vanished_components = rounded.vanished_components;
-    result.vanished_reach = rounded.vanished_reach;
-    result.vanished_at = std::move(rounded.vanished_at);
+    keep_counts(operands, arranged, rounded, result);
     if (result.certificate.status == status::cancelled || !made.goes_on(options.progress, 0.95))
         return made;
     ids face_of_piece(rounded.face_of.size());
@@ -310,19 +334,8 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
     // Faces that were not cut are as they were in their operand, all of those at a vertex or none.
     made.is_manifold = !is_all && topology::is_manifold_at(vertices, result.mesh);
     result.statistics.exact_faces = result.mesh.faces.size() + (exact_faces - face_of_piece.size());
-    if (merges_faces(options)) {
-        result.face_of_cut_vertex.resize(result.mesh.points.size());
-        const std::size_t given = near.point_of.size();
-        const auto faces_of_a = static_cast<std::uint32_t>(operands[0].view().faces.size());
-        for (std::size_t p = 0; p < vertices.size(); ++p) {
-            const std::uint32_t point = rounded.point_of[p];
-            if (point < given || point == rounded_surface::none) continue;
-            const std::uint32_t f = near.face_of[face_of_point[point - given]];
-            result.face_of_cut_vertex[vertices[p]] = f < faces_of_a
-                                                         ? operands[0].face_source(f)
-                                                         : operands[1].face_source(f - faces_of_a);
-        }
-    }
+    if (merges_faces(options))
+        name_cut_vertices(operands, near, rounded, vertices, face_of_point, result);
     static_cast<void>(made.goes_on(options.progress, 1.0));
     return made;
 }

@@ -1,4 +1,5 @@
 #include <libmesh/arrange/radial_order.hpp>
+#include <libmesh/base/compact.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
 #include <libmesh/topology/is_manifold.hpp>
@@ -68,10 +69,13 @@ class few_faces {
     mesh_arrangement cut_;
 };
 
+/// Of a surface of which the faces at all rough points are there: others have one fan, which need not
+/// be there.
 class separator {
   public:
-    explicit separator(treeform::mesh&& solid)
+    separator(treeform::mesh&& solid, const std::vector<std::uint8_t>& is_rough)
         : solid_(std::move(solid)),
+          is_rough_(is_rough),
           edges_(solid_.points.size(), solid_.faces, detail::weld::repeated_corners::left_out) {}
 
     manifold_surface run() {
@@ -228,7 +232,7 @@ class separator {
             std::uint32_t& point = solid_.faces[c / 3][c % 3];
             if (const std::uint32_t root = fans.root(c); root != c) {
                 point = point_of_corner[root];
-            } else if (is_taken[point] == 0) {
+            } else if (is_rough_[point] == 0 || is_taken[point] == 0) {
                 is_taken[point] = 1;
             } else {
                 result.vertex_of_added.push_back(point);
@@ -243,6 +247,7 @@ class separator {
     }
 
     treeform::mesh solid_;
+    const std::vector<std::uint8_t>& is_rough_;  ///< [V] before points are added
     detail::weld::edge_uses edges_;
     std::vector<touching_edge> touching_{};
 };
@@ -250,8 +255,30 @@ class separator {
 }  // namespace
 
 manifold_surface split_nonmanifold(mesh&& solid) {
-    if (topology::is_manifold(solid)) return {.surface = std::move(solid)};
-    return separator(std::move(solid)).run();
+    const std::vector<std::uint32_t> rough = topology::points_without_fan(solid);
+    if (rough.empty()) return {.surface = std::move(solid)};
+    std::vector<std::uint8_t> is_rough(solid.points.size(), 0);
+    for (const std::uint32_t p : rough) is_rough[p] = 1;
+    std::vector<face> all = std::move(solid.faces);
+    std::vector<std::uint32_t> at;  // faces at rough points
+    solid.faces.clear();
+    base::compact(
+        all.size(),
+        [&](std::size_t f) {
+            return (is_rough[all[f][0]] | is_rough[all[f][1]] | is_rough[all[f][2]]) != 0;
+        },
+        [&](std::size_t count) {
+            at.resize(count);
+            solid.faces.resize(count);
+        },
+        [&](std::size_t f, std::size_t place) {
+            at[place] = static_cast<std::uint32_t>(f);
+            solid.faces[place] = all[f];
+        });
+    manifold_surface result = separator(std::move(solid), is_rough).run();
+    for (std::size_t i = 0; i < at.size(); ++i) all[at[i]] = result.surface.faces[i];
+    result.surface.faces = std::move(all);
+    return result;
 }
 
 void split_nonmanifold(boolean_result& result) {

@@ -8,7 +8,7 @@ NUMBER = (int, float)
 NULL = type(None)
 FILE = {"input": (str, NULL), "error": NULL, "warnings": list, "operation": (str, NULL),
         "inside": str, "check": bool, "inputs": list, "pairs": (int, NULL),
-        "cut_faces": (int, NULL), "cells": (int, NULL), "volumes": (dict, NULL),
+        "cut_faces": (int, NULL), "volumes": (dict, NULL),
         "separated_points": (int, NULL), "skipped": dict,
         "min_volume": dict, "gap": dict, "max_move": dict,
         "output": (dict, NULL), "exit": int}

@@ -3,7 +3,7 @@
 skipped, and how many test cases were skipped within tests that passed: four numbers.
 
 count_tests.py --skipped RESULTS.xml: the names of tests that were skipped, or of which cases were,
-a line each."""
+a line each; count_tests.py --failed RESULTS.xml: of those that failed."""
 
 import re
 import sys
@@ -13,7 +13,7 @@ import xml.etree.ElementTree as xml
 CASES = re.compile(r"^(\d+) of \d+ test cases skipped, (\d+) in part$", re.MULTILINE)
 
 passed = failed = skipped = cases = 0
-names = []
+names, broken = [], []
 for test in xml.parse(sys.argv[-1]).getroot().iter("testcase"):
     reason = test.find("skipped")
     before = skipped + cases
@@ -25,6 +25,12 @@ for test in xml.parse(sys.argv[-1]).getroot().iter("testcase"):
         skipped += 1
     else:  # failed, or could not be run
         failed += 1
+        broken.append(test.get("name"))
     if skipped + cases > before:
         names.append(test.get("name"))
-print("\n".join(names)) if "--skipped" in sys.argv else print(passed, failed, skipped, cases)
+if "--failed" in sys.argv:
+    names = broken
+if sys.argv[1].startswith("--"):
+    print("\n".join(names))
+else:
+    print(passed, failed, skipped, cases)

@@ -81,8 +81,11 @@ TEST_CASE("align: of scans of real solids, right places converge and wrong ones 
         std::uint64_t seed = test::stress_seed();
         for (std::size_t w = 0; w < ways.size(); ++w)
             for (const double noise : {0.0, 1e-5, 1e-4, 1e-3})
-                for (const double degrees : {3.0, 10.0, 20.0, 45.0})
-                    for (std::uint64_t i = 0; i < test::stress_count(1); ++i) {
+                for (const double degrees : {3.0, 10.0, 20.0, 45.0}) {
+                    const bool is_slow =
+                        ways[w].options.weights == tf::align_weights::equal && degrees != 10.0;
+                    // What is in doubt by equal weights takes long to be judged.
+                    for (std::uint64_t i = 0; i < test::stress_count(1) && !is_slow; ++i) {
                         CAPTURE(ways[w].name);
                         CAPTURE(noise);
                         CAPTURE(degrees);
@@ -108,6 +111,7 @@ TEST_CASE("align: of scans of real solids, right places converge and wrong ones 
                         sums[w].refused += one.refused;
                         sums[w].mistaken += one.mistaken;
                     }
+                }
     }
     std::printf("%-24s  right unseen  between  refused mistaken\n", "");
     for (std::size_t w = 0; w < ways.size(); ++w) print(ways[w].name.c_str(), sums[w]);

@@ -62,7 +62,6 @@ treeform_code give_solid(tf::boolean_result from, treeform_boolean_result** out)
     r.pairs = kept.statistics.pairs;
     r.cut_faces = kept.statistics.cut_faces;
     r.degenerate = kept.statistics.degenerate;
-    r.cells = kept.statistics.cells;
     r.skipped_faces = kept.statistics.skipped_faces;
     r.covered = kept.statistics.covered;
     r.exact_faces = kept.statistics.exact_faces;

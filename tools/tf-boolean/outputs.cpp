@@ -47,7 +47,7 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     entry["inside"] = name_of(settings.inside);
     entry["check"] = settings.check;
     entry["inputs"] = json::array();
-    for (const char* key : {"pairs", "cut_faces", "cells", "volumes", "separated_points"})
+    for (const char* key : {"pairs", "cut_faces", "volumes", "separated_points"})
         entry[key] = nullptr;
     for (const char* key : {"degenerate", "faces_not_cut", "faces_not_looked_at"})
         entry["skipped"][key] = nullptr;
@@ -78,7 +78,6 @@ void enter_result(job& work, const boolean_settings& settings, const std::vector
     for (const json& i : entry["inputs"]) triangles += i["triangles"].get<std::uint64_t>();
     entry["pairs"] = did.pairs;
     entry["cut_faces"] = did.cut_faces;
-    entry["cells"] = or_null(did.cells > 0, did.cells);
     if (bounds_solid && known) entry["separated_points"] = did.split_vertices;
     if (known) enter_choices(entry, settings, solids, did);
     if (result.volumes) {

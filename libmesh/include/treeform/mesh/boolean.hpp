@@ -87,7 +87,6 @@ struct boolean_statistics {
     std::uint64_t pairs = 0;          ///< of faces looked at that meet beyond their shared corners
     std::uint64_t cut_faces = 0;      ///< input faces that were cut or covered by others
     std::uint64_t degenerate = 0;     ///< input faces without area
-    std::uint64_t cells = 0;          ///< parts of space between the surfaces; 0 when not needed
     std::uint64_t skipped_faces = 0;  ///< input faces not looked at, as the result cannot be there
     std::uint64_t covered = 0;        ///< for `split`: input faces that lie entirely on lower ones
     /// Faces of the exact result, before rounding. When there are some and `mesh` has none, all of

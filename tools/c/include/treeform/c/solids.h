@@ -61,7 +61,6 @@ typedef struct treeform_boolean_result {
     uint64_t pairs;                   ///< of faces looked at that meet
     uint64_t cut_faces;
     uint64_t degenerate;     ///< operand faces without area
-    uint64_t cells;          ///< parts of space between the surfaces; 0 when not needed
     uint64_t skipped_faces;  ///< not looked at, as the result cannot be there
     uint64_t covered;        ///< for `treeform_split`: faces that lie entirely on lower ones
     uint64_t exact_faces;    ///< of the result before rounding
