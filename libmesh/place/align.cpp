@@ -138,8 +138,8 @@ class alignment {
     static constexpr double like_noise = 0.15;     ///< correlation of neighbors
     static constexpr double like_thickness = 0.6;  ///< share of it that neighbors may be off
     static constexpr double bearable = 2e-3;  ///< share of the diagonal that regions may be off
-    static constexpr double most_in = 0.9;    ///< share of the points that is as good as all
-    static constexpr double growth = 2.0;     ///< of the scale from a start, at most
+    static constexpr double most_in = 0.7;  ///< share of the points that tells a place from another
+    static constexpr double growth = 2.0;   ///< of the scale from a start, at most
 
     /// With a part of the samples first, if they are many: that gets near the end.
     [[nodiscard]] search_result search_from(similarity start, double from, double to) {
@@ -296,14 +296,14 @@ class alignment {
     }
 
     /// Whether some other start ends at a better place than the best, by the same weights.
-    [[nodiscard]] bool other_is_better() {
+    [[nodiscard]] bool other_is_better(std::size_t starts) {
         const moving_points few = some_of(few_, doubt_samples);
         const auto cost_at = [&](const similarity& map) {
             matching last;
             return quality_at(task_, few, map, best_.width, last).cost;
         };
         const double here = cost_at(best_.map);
-        const auto tried = others_than(few, doubts, 0.88, 0.98);
+        const auto tried = others_than(few, starts, 0.88, 0.98);
         for (std::size_t i = 0; i < std::min(tried.size(), refined); ++i) {
             matching last;
             const auto end = search(task_, few, tried[i].end.map, last,
@@ -323,10 +323,10 @@ class alignment {
         if (!is_known(found)) return align_end::doubtful;
         // What is noise where most points lie may be a part that fits in two places.
         if (is_noise(found.left))
-            return leaves_out_many() && other_is_better() ? align_end::doubtful
-                                                          : align_end::converged;
+            return leaves_out_many() && other_is_better(doubts / 2) ? align_end::doubtful
+                                                                    : align_end::converged;
         if (target_.is_cloud() || found.left.common() > bearable * frame_.diagonal ||
-            other_is_better())
+            other_is_better(doubts))
             return align_end::doubtful;
         return align_end::converged;
     }
