@@ -110,7 +110,7 @@ def loaded_by(artifact):
         for path in unpacked(artifact, folder):
             names, soname = dynamic(path)
             needed |= {plain(name) for name in names}
-            if artifact.suffix == ".whl" and re.search(r"[._]libs/", str(path)):
+            if artifact.suffix == ".whl" and re.search(r"[._]libs/[^/]+[.]so", str(path)):
                 brought.add(plain(path.name))
             elif soname:
                 needed.discard(soname)
