@@ -44,7 +44,8 @@ std::optional<std::vector<std::uint32_t>> active_faces(const active_space& space
 std::optional<boolean_result> boolean_in_active_space(joined_operands& joined,
                                                       operand_edges&& edges,
                                                       const boolean_expression& expression,
-                                                      const boolean_options& options) {
+                                                      const boolean_options& options,
+                                                      std::vector<std::uint8_t>* is_left) {
     if (edges.piece.count() < fewest_components) return std::nullopt;
     // What each face has a number in goes as soon as it may: the crowd is far larger than the result.
     std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
@@ -85,7 +86,7 @@ std::optional<boolean_result> boolean_in_active_space(joined_operands& joined,
     round::solid_faces chosen = round::faces_around(arranged.cut, cells.cells, cells.inside);
     joined.all.faces = std::move(faces);
     joined.number_of_face = std::move(*number);
-    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
+    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options, is_left);
     return made;
 }
 

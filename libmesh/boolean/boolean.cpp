@@ -48,6 +48,7 @@ using detail::boolean::label_counts;
 using detail::boolean::near_result;
 using detail::boolean::open_input_edges;
 using detail::boolean::operand_edges;
+using detail::boolean::resolved_operand;
 using detail::boolean::with_counts;
 
 /// Operands, joined, and their arrangement, which has taken their points; their faces stay.
@@ -127,21 +128,25 @@ std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t fa
     return static_cast<std::uint64_t>(std::count(is_lowest.begin(), is_lowest.end(), 0));
 }
 
-boolean_result labeled_of(mesh_view mesh, const boolean_options& options,
-                          std::optional<label_counts>& counts) {
+/// Where to say which faces of a single operand something is left of (`finish_surface`); or null.
+using left_faces = std::vector<std::uint8_t>*;
+
+boolean_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
+                          const boolean_options& options, std::optional<label_counts>& counts,
+                          left_faces is_left) {
     auto [joined, arranged] = arrange_operands({&mesh, 1}, part_of(options.progress, 0.0, 0.5));
     boolean_result made = with_counts(arranged);
     if (arranged.cancelled) return made;
     const auto [count, cells] =
         detail::arrange::open_cells_of(input_of(arranged.cut, joined), arranged.cut);
-    const auto labels =
-        detail::boolean::label_cells(arranged.cut, cells, count, options.face_groups,
-                                     [&] { return options.progress && !options.progress(0.6); });
+    const auto labels = detail::boolean::label_cells(arranged.cut, cells, count, is_guess, [&] {
+        return options.progress && !options.progress(0.6);
+    });
     if (!labels) return made;
     counts = {count - 1, labels->dropped_area, labels->turned_area};
     detail::round::solid_faces chosen =
         detail::round::faces_around(arranged.cut, cells, labels->inside);
-    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options);
+    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options, is_left);
     return made;
 }
 
@@ -281,18 +286,19 @@ class bundled_operands {
 /// Where the surface of the result can be is told by what winds around what, before anything is cut.
 std::optional<boolean_result> in_active_space(joined_operands& joined,
                                               const boolean_expression& expression,
-                                              const boolean_options& options) {
+                                              const boolean_options& options, left_faces is_left) {
     operand_edges edges = detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
     if (const auto open = open_edges_of(joined, edges); open.count > 0)
         return open_result(open_input(open, joined));
     if (options.volumes) return std::nullopt;
-    return detail::boolean::boolean_in_active_space(joined, std::move(edges), expression, options);
+    return detail::boolean::boolean_in_active_space(joined, std::move(edges), expression, options,
+                                                    is_left);
 }
 
 /// What meets is cut, what is on both sides of its pieces told, and what bounds the result put
 /// together with the faces that nothing meets.
 near_result boolean_of(bundled_operands& operands, const boolean_expression& expression,
-                       const boolean_options& options) {
+                       const boolean_options& options, left_faces is_left) {
     near_result made;
     operands.find_pairs(part_of(options.progress, 0.0, 0.2));
     if (!made.goes_on(options.progress, 0.2)) return made;
@@ -314,20 +320,22 @@ near_result boolean_of(bundled_operands& operands, const boolean_expression& exp
     }
     if (!made.goes_on(options.progress, 0.6)) return made;
     near.local.points = {};  // as large as the operands, perhaps
-    made = detail::boolean::surface_of(operands.all(), near, arranged, std::move(chosen), options);
+    made = detail::boolean::surface_of(operands.all(), near, arranged, std::move(chosen), options,
+                                       is_left);
     made.result.volumes = volumes;
     return made;
 }
 
 near_result boolean_of(std::span<const mesh_operand> operands, std::span<const mesh_view> views,
-                       const boolean_expression& expression, boolean_options options) {
+                       const boolean_expression& expression, boolean_options options,
+                       left_faces is_left = nullptr) {
     options.volumes = options.volumes && views.size() == 2;
     if (views.size() > 2) {
         joined_operands joined = join_usable(views);
-        if (auto made = in_active_space(joined, expression, options))
+        if (auto made = in_active_space(joined, expression, options, is_left))
             return {std::move(*made), false};
         bundled_operands bundled(std::move(joined));
-        return boolean_of(bundled, expression, options);
+        return boolean_of(bundled, expression, options, is_left);
     }
     bundled_operands bundled(operands);
     double looked = 0.0;  // no share of the work where all is known
@@ -340,9 +348,10 @@ near_result boolean_of(std::span<const mesh_operand> operands, std::span<const m
     rest.progress = part_of(options.progress, looked, 1.0);
     if (may_hide) {
         joined_operands joined = join_usable(views);
-        if (auto made = in_active_space(joined, expression, rest)) return {std::move(*made), false};
+        if (auto made = in_active_space(joined, expression, rest, is_left))
+            return {std::move(*made), false};
     }
-    return boolean_of(bundled, expression, rest);
+    return boolean_of(bundled, expression, rest, is_left);
 }
 
 /// The union with the gaps filled between operands; none where there are none.
@@ -367,7 +376,8 @@ std::optional<near_result> union_without_gaps(const char* function,
 }
 
 boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
-                        const boolean_expression& expression, const boolean_options& options) {
+                        const boolean_expression& expression, const boolean_options& options,
+                        left_faces is_left = nullptr) {
     std::vector<mesh_view> views;
     for (const mesh_operand& operand : operands) views.push_back(operand.view());
     return with_checks(function, views, options, [&] {
@@ -375,12 +385,22 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
         try {
             std::optional<near_result> made;
             if (options.gap > 0.0) made = union_without_gaps(function, views, expression, options);
-            if (!made) made = boolean_of(operands, views, expression, options);
+            if (!made) made = boolean_of(operands, views, expression, options, is_left);
             return finished(std::move(made->result), !made->is_manifold, options);
         } catch (const detail::boolean::stopped&) {
             return finished(with_counts({}), false, options);
         }
     });
+}
+
+/// What `make(is_left)` makes of a mesh.
+template <class Make>
+resolved_operand resolved(mesh_view mesh, const Make& make) {
+    resolved_operand result;
+    result.is_left.assign(mesh.faces.size(), 0);
+    result.made = make(&result.is_left);
+    for (const operand_element& e : result.made.face_source) result.is_left[e.index] = 1;
+    return result;
 }
 
 }  // namespace
@@ -429,27 +449,30 @@ boolean_result split(std::span<const mesh_view> operands, const boolean_options&
                     [](auto given, const auto& how) { return split_of(given, how); });
 }
 
-boolean_result detail::boolean::resolve_by_split(mesh_view mesh, const boolean_options& options) {
-    return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, false,
-                    [](auto given, const auto& how) { return split_of(given, how); });
+resolved_operand detail::boolean::resolve_by_split(mesh_view mesh, const boolean_options& options) {
+    return resolved(mesh, [&](left_faces) {
+        return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, false,
+                        [](auto given, const auto& how) { return split_of(given, how); });
+    });
 }
 
-boolean_result detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
-    boolean_options as_cut = options;
-    as_cut.keep_cuts = true;  // what is left of each face is asked for
-    return evaluate("resolve_self_intersections", std::array{mesh_operand(mesh)},
-                    boolean_expression::union_of(1), as_cut);
+resolved_operand detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
+    return resolved(mesh, [&](left_faces is_left) {
+        return evaluate("resolve_self_intersections", std::array{mesh_operand(mesh)},
+                        boolean_expression::union_of(1), options, is_left);
+    });
 }
 
-detail::boolean::labeled_result detail::boolean::resolve_by_labels(mesh_view mesh,
-                                                                   const boolean_options& options) {
-    boolean_options as_cut = options;
-    as_cut.keep_cuts = true;
+detail::boolean::labeled_result detail::boolean::resolve_by_labels(
+    mesh_view mesh, std::span<const std::uint32_t> is_guess, const boolean_options& options) {
     std::optional<label_counts> counts;
     labeled_result result;
-    result.made = evaluate(
-        "resolve_self_intersections", std::span(&mesh, 1), as_cut, true,
-        [&](auto given, const auto& how) { return labeled_of(given.front(), how, counts); });
+    result.resolved = resolved(mesh, [&](left_faces is_left) {
+        return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, true,
+                        [&](auto given, const auto& how) {
+                            return labeled_of(given.front(), is_guess, how, counts, is_left);
+                        });
+    });
     if (counts) result.counts = *counts;
     return result;
 }

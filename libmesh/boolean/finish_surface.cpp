@@ -41,7 +41,8 @@ void sort_by_source(std::vector<std::uint32_t>& source, std::vector<face>& faces
 }
 
 void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_faces chosen,
-                    joined_operands& joined, bool solid, const boolean_options& options) {
+                    joined_operands& joined, bool solid, const boolean_options& options,
+                    std::vector<std::uint8_t>* is_left) {
     std::vector<std::uint32_t> face_of = std::move(chosen.face_of);
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(chosen.faces), std::vector<std::uint8_t>(face_of.size())};
@@ -54,9 +55,11 @@ void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_
         }
     });
     const std::size_t given = exact.given.size();
+    face_origins origins;
     const std::vector<std::uint32_t> face_of_point =
         merge_cuts(exact, face_of, joined.all.faces,
-                   groups_of(options, joined.number_of_face, joined.first_face.back()), options);
+                   groups_of(options, joined.number_of_face, joined.first_face.back()), options,
+                   is_left == nullptr ? nullptr : &origins);
     result.statistics.exact_faces = face_of.size();
     cut = {};
     joined.all = {};
@@ -73,6 +76,8 @@ void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_
     result.vanished_components = r.vanished_components;
     result.vanished_reach = r.vanished_reach;
     result.vanished_at = std::move(r.vanished_at);
+    origins.for_sources_in(r.face_of,
+                           [&](std::uint32_t f) { (*is_left)[joined.face_source(f).index] = 1; });
     for (std::uint32_t& f : r.face_of) f = face_of[f];
     sort_by_source(r.face_of, result.mesh.faces);
     base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },

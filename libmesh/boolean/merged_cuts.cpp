@@ -100,7 +100,7 @@ std::vector<std::uint32_t> groups_of(const boolean_options& options,
 std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::uint32_t>& source_of,
                                       std::span<const face> input,
                                       std::span<const std::uint32_t> group_of,
-                                      const boolean_options& options) {
+                                      const boolean_options& options, face_origins* origins) {
     if (!merges_faces(options)) return {};
     std::vector<std::uint32_t> listed;
     if (options.simplify) {
@@ -128,6 +128,13 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
                              .stays = options.simplify ? std::span<const std::uint8_t>() : sound});
         for (face& f : merged.faces) f = part.to_whole(f);
     }
+    if (origins != nullptr) {
+        origins->source = source_of;
+        origins->merged_into.resize(source_of.size());
+        std::iota(origins->merged_into.begin(), origins->merged_into.end(), 0U);
+        for (std::size_t i = 0; i < listed.size(); ++i)
+            origins->merged_into[listed[i]] = listed[merged.merged_into[i]];
+    }
     std::vector<face> faces;
     std::vector<std::uint8_t> sound;
     std::vector<std::uint32_t> source;
@@ -139,6 +146,7 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
         faces.push_back(corners);
         sound.push_back(is_new ? std::uint8_t{0} : surface.sound[f]);
         source.push_back(source_of[f]);
+        if (origins != nullptr) origins->of_face.push_back(static_cast<std::uint32_t>(f));
     };
     for (std::size_t f = 0, part = 0, next = 0; f < surface.faces.size(); ++f) {
         if (part == listed.size() || listed[part] != f) {

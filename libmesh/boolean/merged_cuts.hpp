@@ -7,11 +7,31 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace treeform::detail::boolean {
+
+/// Which faces of a surface became one.
+struct face_origins {
+    std::vector<std::uint32_t> source;  ///< [F before] the face of the input that each lay in
+    /// [F before] the lowest of the faces that were merged with each.
+    std::vector<std::uint32_t> merged_into;
+    std::vector<std::uint32_t> of_face;  ///< [F] the lowest face before that each one is made of
+
+    /// Calls `mark(f)` for the faces of the input of which something is in `faces` of the surface.
+    template <class Mark>
+    void for_sources_in(std::span<const std::uint32_t> faces, const Mark& mark) const {
+        if (source.empty()) return;
+        std::vector<std::uint8_t> is_there(source.size(), 0);
+        for (const std::uint32_t f : faces)
+            if (of_face[f] < source.size()) is_there[of_face[f]] = 1;
+        for (std::size_t f = 0; f < source.size(); ++f)
+            if (is_there[merged_into[f]] != 0) mark(source[f]);
+    }
+};
 
 /// Whether any faces are to be merged.
 [[nodiscard]] inline bool merges_faces(const boolean_options& options) {
@@ -34,6 +54,7 @@ namespace treeform::detail::boolean {
 ///
 /// \param input     whose faces were cut; points are those of `surface`
 /// \param group_of  [faces of `input`] or empty: only faces of one group are merged
+/// \param origins   is told what became one, where it is given, and anything is merged at all
 /// \param source_of [F] the face of `input` that each face of the surface lies in, ascending; so it
 ///                  is afterwards, the lowest of those that were merged
 /// \return for each constructed point, the lowest face of `input` among the sources at it; empty
@@ -44,6 +65,7 @@ namespace treeform::detail::boolean {
 std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::uint32_t>& source_of,
                                       std::span<const face> input,
                                       std::span<const std::uint32_t> group_of,
-                                      const boolean_options& options);
+                                      const boolean_options& options,
+                                      face_origins* origins = nullptr);
 
 }  // namespace treeform::detail::boolean

@@ -241,6 +241,7 @@ class merger {
         merged_faces result;
         for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
             const std::uint32_t root = regions_.root(f);
+            result.merged_into.push_back(changes[root] == 0 ? f : root);
             if (changes[root] == 0) {
                 result.faces.push_back(surface_.faces[f]);
                 result.face_of.push_back(f);

@@ -25,6 +25,8 @@ struct merged_faces {
     /// [F'] ascending: the face of before, or the lowest of those that were merged.
     std::vector<std::uint32_t> face_of;
     std::vector<std::uint8_t> is_new;  ///< [F'] 1 for faces that were none before
+    /// [F] of each face before, the lowest of those that were merged with it: one of `face_of`.
+    std::vector<std::uint32_t> merged_into;
 };
 
 /// The same set of points as `surface`, with other faces: those in one plane, of one group, that

@@ -163,9 +163,9 @@ class assembly {
     std::size_t given_ = 0;
 };
 
-/// Takes in all faces that stay, so that near is all that the result has.
+/// Takes in all faces that stay, so that near is all that the result has. They have no origin.
 void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
-                 exact_surface& exact, ids& source, ids& face_of_point) {
+                 exact_surface& exact, ids& source, ids& face_of_point, ids& origin_of_face) {
     const std::array meshes{operands[0].view(), operands[1].view()};
     const std::size_t faces_of_a = meshes[0].faces.size(), points_of_a = meshes[0].points.size();
     ids number(points_of_a + meshes[1].points.size(), rounded_surface::none);
@@ -218,6 +218,11 @@ void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
     for (const std::uint32_t f : pieces)
         for (std::uint32_t& p : surface[f])
             if (p >= given) p += more;
+    if (!origin_of_face.empty()) {
+        ids origins(surface.size(), rounded_surface::none);
+        for (std::size_t i = 0; i < pieces.size(); ++i) origins[pieces[i]] = origin_of_face[i];
+        origin_of_face = std::move(origins);
+    }
     exact.faces = std::move(surface);
     exact.sound = std::move(sound);
     source = std::move(surface_source);
@@ -285,16 +290,18 @@ void name_cut_vertices(const bundles& operands, const near_faces& near,
 }  // namespace
 
 near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
-                       chosen_surface chosen, const boolean_options& options) {
+                       chosen_surface chosen, const boolean_options& options,
+                       std::vector<std::uint8_t>* is_left) {
     near_result made;
     boolean_result& result = made.result;
     ids source = std::move(chosen.near.face_of);
     exact_surface exact = surface_of(arranged.cut, std::move(chosen.near.faces), source);
     ids face_of_point;
+    face_origins origins;
     bool is_all = false;
     const auto take_in = [&] {
         if (std::exchange(is_all, true)) return;
-        take_in_all(operands, near, chosen.fates, exact, source, face_of_point);
+        take_in_all(operands, near, chosen.fates, exact, source, face_of_point, origins.of_face);
     };
     if (options.simplify) take_in();
     const std::size_t count = operands[0].count_as_given() + operands[1].count_as_given();
@@ -302,7 +309,8 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
                                options.face_groups.empty()
                                    ? ids()
                                    : groups_of(options, numbers_as_given(operands, near), count),
-                               options);
+                               options, is_left == nullptr ? nullptr : &origins);
+    for (std::uint32_t& f : origins.source) f = near.face_of[f];
     if (options.precision == precision::float32) take_in();
     std::size_t exact_faces = source.size();
     rounded_surface rounded;
@@ -322,6 +330,9 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
     keep_counts(operands, arranged, rounded, result);
     if (result.certificate.status == status::cancelled || !made.goes_on(options.progress, 0.95))
         return made;
+    origins.for_sources_in(rounded.face_of, [&](std::uint32_t f) {
+        (*is_left)[operands[0].face_source(f).index] = 1;
+    });
     ids face_of_piece(rounded.face_of.size());
     for_chunks(face_of_piece.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {

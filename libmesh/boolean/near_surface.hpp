@@ -8,6 +8,7 @@
 #include <treeform/mesh/boolean.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace treeform::detail::boolean {
 
@@ -31,9 +32,11 @@ struct near_result {
 ///
 /// \param near     all but the pairs of `local`; is used up, as the others are
 /// \param arranged of `near.local`
+/// \param is_left  as in `finish_surface`
 /// \same  on any number of threads
 [[nodiscard]] near_result surface_of(const bundles& operands, near_faces& near,
                                      arrange_faces_result& arranged, chosen_surface chosen,
-                                     const boolean_options& options);
+                                     const boolean_options& options,
+                                     std::vector<std::uint8_t>* is_left = nullptr);
 
 }  // namespace treeform::detail::boolean

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -262,6 +263,12 @@ std::vector<std::uint32_t> face_groups(std::span<const carry_source> inputs, boo
 
 bool has_vertex_values(std::span<const carry_source> inputs) {
     return any_has_normals(inputs) || !properties_of(inputs, "vertex").empty();
+}
+
+bool merging_mixes_values(std::span<const carry_source> inputs) {
+    if (has_vertex_values(inputs)) return true;
+    const std::vector<std::uint32_t> groups = face_groups(inputs, true, false);
+    return std::ranges::adjacent_find(groups, std::ranges::not_equal_to{}) != groups.end();
 }
 
 bool has_values_left_out(std::span<const carry_source> inputs) {

@@ -53,7 +53,9 @@ bool is_as_asked(const certificate& known) {
 /// A repair of parts, one after the other, as one of the whole.
 class repair_of_parts {
   public:
-    explicit repair_of_parts(const carry_source& input) : input_(input) {}
+    explicit repair_of_parts(const carry_source& input) : input_(input) {
+        done_.is_left.assign(input.file->mesh.faces.size(), 0);
+    }
 
     void take(repair_result made, const solid_part& of) {
         const auto first_face = static_cast<std::uint32_t>(done_.file.mesh.faces.size());
@@ -63,6 +65,8 @@ class repair_of_parts {
             face_source_.push_back(in_whole(f, of.faces));
         for (const std::uint32_t v : made.vertex_source)
             vertex_source_.push_back(in_whole(v, of.points));
+        for (std::uint32_t f = 0; f < made.is_left.size(); ++f)
+            done_.is_left[in_whole(f, of.faces)] = made.is_left[f];
         certificate& known = made.certificate;
         for (auto& [f, g] : known.meeting) {
             f += first_face;
@@ -123,6 +127,25 @@ std::vector<solid_part> parts_of(const carry_source& input, repair_scope scope) 
                                             : std::vector<solid_part>{};
 }
 
+/// Whether merging faces may mix values.
+class mixing {
+  public:
+    explicit mixing(const carry_source& input)
+        : of_vertices_(has_vertex_values({&input, 1})),
+          group_of_(face_groups({&input, 1}, true, false)) {}
+
+    [[nodiscard]] bool is_in(const std::vector<std::uint32_t>& faces) const {
+        return of_vertices_ ||
+               (!group_of_.empty() && std::ranges::any_of(faces, [&](std::uint32_t f) {
+                   return group_of_[f] != group_of_[faces.front()];
+               }));
+    }
+
+  private:
+    bool of_vertices_;
+    std::vector<std::uint32_t> group_of_;  ///< [F], or empty: all are in one
+};
+
 /// Progress over parts, by their faces.
 class faces_done {
   public:
@@ -147,16 +170,19 @@ repaired_file repair_file(const carry_source& input, const repair_options& optio
                           repair_scope scope) {
     const std::vector<solid_part> parts = parts_of(input, scope);
     repair_of_parts all(input);
+    repair_options how = options;
     if (parts.empty()) {
-        all.take(repair(input.file->mesh, options), {});
+        how.keep_cuts = options.keep_cuts || merging_mixes_values({&input, 1});
+        all.take(repair(input.file->mesh, how), {});
         repaired_file done = all.finish();
         done.parts.clear();
         return done;
     }
-    repair_options how = options;
+    const mixing mixes(input);
     faces_done progress(options.progress, input.file->mesh.faces.size());
     for (const solid_part& part : parts) {
         how.progress = progress.next(part.faces.size());
+        how.keep_cuts = options.keep_cuts || mixes.is_in(part.faces);
         repair_result made = repair(part.mesh, how);
         const bool is_cancelled = made.certificate.status == status::cancelled;
         all.take(std::move(made), part);

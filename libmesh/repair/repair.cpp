@@ -62,6 +62,7 @@ class repairer {
     repairer(mesh_view given, const repair_options& options, inside_by way)
         : given_(given), options_(options), way_(way) {
         take(given);
+        result_.is_left.assign(given.faces.size(), 0);
     }
 
     repair_result run() {
@@ -306,6 +307,8 @@ class repairer {
         did_.resolved = !clean;
         boolean_options how = how_to_resolve();
         how.progress = part_of(options_.progress, 0.4, 0.95);
+        const std::vector<std::uint32_t> is_filling = fillings();
+        how.face_groups = is_filling;
         take(options_.sheet ? detail::boolean::resolve_by_split(mesh_.view(), how)
                             : detail::boolean::resolve_by_union(mesh_.view(), how));
     }
@@ -313,7 +316,17 @@ class repairer {
     [[nodiscard]] boolean_options how_to_resolve() const {
         return {.inside = rule(),
                 .precision = options_.precision,
-                .max_displacement = options_.max_displacement};
+                .max_displacement = options_.max_displacement,
+                .keep_cuts = options_.keep_cuts};
+    }
+
+    /// [F] 1 for faces that fill holes, which have no source; empty where there are none.
+    [[nodiscard]] std::vector<std::uint32_t> fillings() const {
+        std::vector<std::uint32_t> is_filling;
+        if (std::ranges::count(mesh_.source, repair_result::none) == 0) return is_filling;
+        for (const std::uint32_t f : mesh_.source)
+            is_filling.push_back(f == repair_result::none ? 1 : 0);
+        return is_filling;
     }
 
     /// What fills holes along edges of several faces is there for the labels to use or not.
@@ -324,30 +337,37 @@ class repairer {
             is_guess[f] = 1;
         boolean_options how = how_to_resolve();
         how.progress = part_of(options_.progress, 0.4, 0.95);
-        how.face_groups = is_guess;
+        const std::vector<std::uint32_t> is_filling = fillings();
+        how.face_groups = is_filling;
         detail::boolean::labeled_result labeled =
-            detail::boolean::resolve_by_labels(mesh_.view(), how);
+            detail::boolean::resolve_by_labels(mesh_.view(), is_guess, how);
         did_.labeled_cells = labeled.counts.cells;
         did_.dropped_area = labeled.counts.dropped_area;
         did_.turned_area = labeled.counts.turned_area;
         std::vector<std::uint32_t> left;
-        for (const operand_element& e : labeled.made.face_source)
-            if (e.index != operand_element::none) left.push_back(e.index);
+        for (std::uint32_t f = 0; f < labeled.resolved.is_left.size(); ++f)
+            if (labeled.resolved.is_left[f] != 0) left.push_back(f);
         count(guesses_.used(std::move(left)));
-        take(std::move(labeled.made));
+        take(std::move(labeled.resolved));
     }
 
-    void take(boolean_result&& made) {
+    void take(detail::boolean::resolved_operand&& resolved) {
+        boolean_result& made = resolved.made;
         result_.certificate = std::move(made.certificate);
         for (open_edge& e : result_.certificate.open) e.face.index = mesh_.source[e.face.index];
         result_.mesh = std::move(made.mesh);
         for (const operand_element& e : made.face_source)
-            result_.face_source.push_back(e.index == operand_element::none ? repair_result::none
-                                                                           : mesh_.source[e.index]);
+            result_.face_source.push_back(mesh_.source[e.index]);
+        for (std::size_t f = 0; f < resolved.is_left.size(); ++f)
+            if (resolved.is_left[f] != 0) set_left(mesh_.source[f]);
         for (const operand_element& e : made.vertex_source)
             result_.vertex_source.push_back(source_of_point(e.index));
         did_.pairs = made.statistics.pairs;
         did_.split_vertices = made.statistics.split_vertices;
+    }
+
+    void set_left(std::uint32_t source) {
+        if (source != repair_result::none) result_.is_left[source] = 1;
     }
 
     /// What fills holes may have points of its own.
@@ -361,6 +381,7 @@ class repairer {
             detail::base::used_points(mesh_.points.size(), mesh_.faces);
         result_.vertex_source.reserve(used.size());
         for (const std::uint32_t p : used) result_.vertex_source.push_back(source_of_point(p));
+        for (const std::uint32_t f : mesh_.source) set_left(f);
         result_.face_source = std::move(mesh_.source);
         std::vector<std::uint32_t> number(mesh_.points.size());
         for (const std::uint32_t p : used) {
@@ -401,9 +422,7 @@ class repairer {
         if (known.status != status::ok && known.status != status::sheet) return;
         const bool is_as_measured = is_kept_ && did_.detached == 0;
         did_.area_after = is_as_measured ? did_.area_before : area(result_.mesh);
-        std::vector<std::uint8_t> is_left(given_.faces.size(), 0);
-        for (const std::uint32_t f : result_.face_source)
-            if (f != repair_result::none) is_left[f] = 1;
+        const std::vector<std::uint8_t>& is_left = result_.is_left;
         did_.removed = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
         const std::uint64_t dropped = did_.degenerate + did_.repeated + did_.strays + inner_faces_;
         did_.removed -= std::min(did_.removed, dropped);
@@ -433,7 +452,8 @@ class repairer {
             // What was closed had a volume: a fin has area, but none of that.
             before = did_.volume_before;
             const boolean_result meant =
-                detail::boolean::resolve_by_union(mesh_.view(), {.inside = fill_rule::nonzero});
+                detail::boolean::resolve_by_union(mesh_.view(), {.inside = fill_rule::nonzero})
+                    .made;
             if (meant.certificate) before = signed_volume(meant.mesh);
             after = did_.volume_after;
             if (after >= (1.0 - options_.max_loss) * before) return false;

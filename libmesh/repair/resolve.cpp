@@ -17,7 +17,14 @@
 namespace treeform {
 namespace {
 
-resolve_result from(boolean_result&& made) {
+/// A mesh without self-intersections, and what is left of each face of the input.
+struct resolved_mesh {
+    resolve_result result{};
+    std::vector<std::uint8_t> is_left{};  ///< [F]
+};
+
+resolved_mesh from(detail::boolean::resolved_operand&& resolved) {
+    boolean_result& made = resolved.made;
     resolve_result result;
     result.mesh = std::move(made.mesh);
     for (const operand_element& e : made.face_source) result.face_source.push_back(e.index);
@@ -26,29 +33,30 @@ resolve_result from(boolean_result&& made) {
     result.statistics.covered = made.statistics.covered;
     result.statistics.exact_faces = made.statistics.exact_faces;
     result.statistics.split_vertices = made.statistics.split_vertices;
-    return result;
+    return {std::move(result), std::move(resolved.is_left)};
 }
 
-/// Returns whether something is left of each face.
-std::vector<std::uint8_t> count_losses(mesh_view mesh, resolve_result& result) {
+resolved_mesh from(mesh_view mesh, resolve_result&& result) {
+    std::vector<std::uint8_t> is_left(mesh.faces.size(), 0);
+    for (const std::uint32_t f : result.face_source)
+        if (f != resolve_result::none) is_left[f] = 1;
+    return {std::move(result), std::move(is_left)};
+}
+
+void count_losses(mesh_view mesh, std::span<const std::uint8_t> is_left, resolve_result& result) {
     const std::vector<std::uint32_t> component = face_components(mesh.points.size(), mesh.faces);
     std::uint32_t components = 0;
     for (const std::uint32_t c : component) components = std::max(components, c + 1);
-    std::vector<std::uint8_t> is_left(mesh.faces.size()), has_face(components);
-    for (const std::uint32_t f : result.face_source) {
-        if (f == resolve_result::none) {
-            ++result.statistics.filled;
-            continue;
-        }
-        is_left[f] = 1;
-        has_face[component[f]] = 1;
-    }
+    std::vector<std::uint8_t> has_face(components);
+    for (std::size_t f = 0; f < is_left.size(); ++f)
+        if (is_left[f] != 0) has_face[component[f]] = 1;
+    result.statistics.filled =
+        static_cast<std::uint64_t>(std::ranges::count(result.face_source, resolve_result::none));
     const auto gone = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
     result.statistics.removed = gone - std::min(gone, result.statistics.covered);
     result.vanished_components = static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
     if (result.certificate && result.mesh.faces.empty() && !mesh.faces.empty())
         result.certificate.status = status::vanished;
-    return is_left;
 }
 
 /// `split` loses nothing; neither does `outer` where no component is inward.
@@ -74,15 +82,16 @@ void check_loss(mesh_view mesh, resolve_mode mode, const resolve_options& option
     result.certificate.size_is_volume = loss.is_volume;
 }
 
-resolve_result by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& options) {
+resolved_mesh by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& options) {
     if (mode == resolve_mode::remove) {
         detail::base::check_faces("resolve_self_intersections", mesh.points.size(), mesh.faces);
         detail::base::check_finite_faces("resolve_self_intersections", mesh);
-        return detail::repair::remove_faces(mesh, options);
+        return from(mesh, detail::repair::remove_faces(mesh, options));
     }
     const boolean_options as_boolean{.inside = options.inside,
                                      .precision = options.precision,
                                      .max_displacement = options.max_displacement,
+                                     .keep_cuts = options.keep_cuts,
                                      .progress = options.progress};
     return mode == resolve_mode::split ? from(detail::boolean::resolve_by_split(mesh, as_boolean))
                                        : from(detail::boolean::resolve_by_union(mesh, as_boolean));
@@ -96,12 +105,15 @@ resolve_result resolve_self_intersections(mesh_view mesh, resolve_mode mode,
     require_limit("resolve_self_intersections", options.max_loss, "the largest loss");
     require_limit("resolve_self_intersections", options.max_displacement,
                   "the largest displacement");
-    resolve_result result = by_mode(mesh, mode, options);
+    auto [result, is_left] = by_mode(mesh, mode, options);
     detail::base::describe(result.certificate, result.mesh, options.precision);
     const bool is_there = result.certificate.status != status::cancelled &&
                           result.certificate.status != status::open_input;
-    if (is_there) check_loss(mesh, mode, options, count_losses(mesh, result), result);
-    return result;
+    if (is_there) {
+        count_losses(mesh, is_left, result);
+        check_loss(mesh, mode, options, is_left, result);
+    }
+    return std::move(result);
 }
 
 }  // namespace treeform

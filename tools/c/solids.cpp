@@ -104,6 +104,7 @@ tf::repair_options options_of(const treeform_repair_options* options) {
     how.sheet = o.sheet != 0;
     how.precision = glue::precision(o.precision);
     how.max_displacement = o.max_displacement;
+    how.keep_cuts = o.keep_cuts != 0;
     how.progress = glue::progress(o);
     return how;
 }
@@ -147,6 +148,7 @@ template <class Result>
 void fill(glue::answer<treeform_repair_result>& made, const Result& kept) {
     treeform_repair_result& r = made.value;
     r.face_source = kept.face_source.data();
+    r.is_left = kept.is_left.data();
     r.certificate = glue::keep(made, kept.certificate);
     r.statistics = &made.keep(statistics_of(kept.statistics));
 }
@@ -303,6 +305,7 @@ treeform_code treeform_resolve_self_intersections(const treeform_mesh* mesh,
         how.touching = o.touching != 0;
         how.removal_rounds = o.removal_rounds;
         how.max_loss = o.max_loss;
+        how.keep_cuts = o.keep_cuts != 0;
         how.progress = glue::progress(o);
         auto made = glue::make<treeform_resolve_result>();
         const tf::resolve_result& kept = made->keep(tf::resolve_self_intersections(

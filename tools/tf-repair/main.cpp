@@ -72,6 +72,9 @@ void add_options(command_line& line, repair_settings& s) {
                 {"--inside", "RULE", "what is solid: auto | nonzero | odd | positive", "auto"},
                 rules);
     line.flag(s.steps.sheet, {"--sheet", "", "the input is an open surface: keep its border"});
+    line.flag(s.steps.keep_cuts, {"--keep-cuts", "",
+                                  "do not merge coplanar faces that were cut, or\n"
+                                  "that overlap"});
     line.flag(s.check, {"--check", "",
                         "change nothing; say what is wrong; exit 1 if\n"
                         "anything is"});
@@ -99,7 +102,9 @@ const char* const epilogue =
     "that needs nothing stays bit for bit. What is written has been checked in the\n"
     "coordinates written: it is closed and oriented, every edge has two faces, and no\n"
     "two faces meet. Loss is measured in volume; where there were holes, in area of\n"
-    "which nothing is left, except for what is hidden in the solid.\n"
+    "which nothing is left, except for what is hidden in the solid. Coplanar faces\n"
+    "that were cut are merged, but not where vertices have properties, or faces\n"
+    "different ones; of merged faces, --source writes the lowest.\n"
     "\n"
     "Objects of a file are mended one by one where the output has objects, too (3MF,\n"
     "OBJ): each is a solid of its own, and they may overlap. As STL, PLY, OFF or GLB\n"
@@ -135,7 +140,10 @@ void check_request(const command_line& line, request& r, common_options& options
     if (s.gap && !s.steps.join) refuse("--gap: --no-join closes no cracks");
     if (line.given("--holes") && (!s.steps.fill || s.steps.sheet))
         refuse("--holes: no hole is filled with --no-fill or --sheet");
-    if (line.given("--inside") && !s.steps.resolve) refuse("--inside: --no-resolve cuts nothing");
+    for (const char* name : {"--inside", "--keep-cuts"})
+        if (line.given(name) && !s.steps.resolve)
+            refuse(std::string(name) + ": --no-resolve cuts nothing");
+    if (s.steps.keep_cuts && s.steps.sheet) refuse("--keep-cuts: --sheet keeps all of them");
     if (!options.output.empty()) {
         const std::string format = tools::mesh_format(options, options.output);
         if (!s.source.empty() && format != "ply" && format != "glb")
@@ -147,8 +155,9 @@ void check_request(const command_line& line, request& r, common_options& options
         return;
     }
     if (tools::wants_mesh(options)) refuse("--check writes no mesh");
-    for (const char* name : {"--max-loss", "--accept-loss", "--max-move", "--gap", "--holes",
-                             "--strays", "--inside", "--sheet", "--source", "--precision"})
+    for (const char* name :
+         {"--max-loss", "--accept-loss", "--max-move", "--gap", "--holes", "--strays", "--inside",
+          "--sheet", "--keep-cuts", "--source", "--precision"})
         if (line.given(name)) refuse(std::string(name) + ": --check changes nothing");
 }
 
@@ -229,14 +238,14 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     if (!why.empty()) {
         work.out.result(work.name + ": not written: " + why);
         tools::write_page(work, input, "not written: " + why, false, made.file.mesh,
-                          made.face_source);
+                          made.face_source, made.is_left);
         return tools::found;
     }
     const std::string verdict = tools::verdict(input, made);
     work.out.result(work.name + ": " + verdict);
     tools::warn_of_surprises(work, s, made);
     tools::warn_of_moves(work, made.file.mesh.points, made.certificate);
-    tools::write_page(work, input, verdict, true, made.file.mesh, made.face_source);
+    tools::write_page(work, input, verdict, true, made.file.mesh, made.face_source, made.is_left);
     if (output && !o.dry_run) tools::write_solid(work, input, s, made, *output);
     return tools::done;
 }

@@ -80,9 +80,9 @@ void check_wrapping(const command_line& line, const wrap_settings& settings) {
         return;
     }
     for (const char* name :
-         {"--check", "--gap", "--holes", "--strays", "--inside", "--sheet", "--max-loss",
-          "--accept-loss", "--max-move", "--source", "--curves", "--no-join", "--no-orient",
-          "--no-fill", "--no-resolve", "--no-detach"})
+         {"--check", "--gap", "--holes", "--strays", "--inside", "--sheet", "--keep-cuts",
+          "--max-loss", "--accept-loss", "--max-move", "--source", "--curves", "--no-join",
+          "--no-orient", "--no-fill", "--no-resolve", "--no-detach"})
         if (line.given(name)) refuse(std::string(name) + ": --wrap takes none of the steps");
     if (!(settings.size->value > 0.0)) refuse("--wrap: SIZE is positive");
     if (settings.offset && !(settings.offset->value > 0.0)) refuse("--offset: DIST is positive");

@@ -98,6 +98,9 @@ void add_repair(command_line& line, request& r) {
     line.option(r.repair.inside,
                 {"--inside", "RULE", "for outer: nonzero | odd | positive", "nonzero"},
                 tools::fill_rules);
+    line.flag(r.repair.keep_cuts, {"--keep-cuts", "",
+                                   "for outer: do not merge coplanar faces that were\n"
+                                   "cut, or that overlap"});
     tools::add_max_move(line, r.repair.rails);
     tools::add_max_loss(line, r.repair.rails);
     line.flag(r.repair.keep_components,
@@ -121,7 +124,9 @@ const char* const epilogue =
     "keeps what it winds around; tf-repair closes holes and cracks first. remove is\n"
     "local, and for open sheets and scans: a hole that cannot be filled becomes\n"
     "wider, or stays where there is a border. Faces that meet nothing stay bit for\n"
-    "bit, except for those next to a place that was mended or widened.\n"
+    "bit, except for those next to a place that was mended or widened. outer merges\n"
+    "coplanar faces that were cut, but not where vertices have properties, or faces\n"
+    "different ones; of merged faces, source_face is the lowest.\n"
     "\n"
     "Examples:\n"
     "  tf-selfintersect part.stl --curves where.obj\n"
@@ -137,11 +142,13 @@ void check_request(const command_line& line, request& r, common_options& options
     using tools::refuse;
     if (r.search.between && r.search.within) refuse("--between and --within exclude each other");
     tools::check_curve_path(r.curves);
-    for (const char* name :
-         {"--inside", "--max-move", "--max-loss", "--accept-loss", "--keep-components"})
+    for (const char* name : {"--inside", "--keep-cuts", "--max-move", "--max-loss", "--accept-loss",
+                             "--keep-components"})
         if (!r.repairs && line.given(name)) refuse(std::string(name) + " needs --repair");
     if (line.given("--inside") && r.repair.mode != tf::resolve_mode::outer)
         refuse("--inside: only --repair=outer asks what is solid");
+    if (r.repair.keep_cuts && r.repair.mode != tf::resolve_mode::outer)
+        refuse("--keep-cuts: only --repair=outer merges faces");
     if (r.repairs && (r.search.first || r.search.between || r.search.within || r.search.box))
         refuse("--repair looks at the whole mesh: no --first, --between, --within or --box");
     if (options.in_place && !r.repairs)

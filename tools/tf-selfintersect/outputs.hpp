@@ -47,6 +47,7 @@ struct repair_settings {
     tf::resolve_mode mode = tf::resolve_mode::outer;
     tf::fill_rule inside = tf::fill_rule::nonzero;
     tools::rails rails{};
+    bool keep_cuts = false;
     bool keep_components = false;
     bool touching = false;  ///< faces that only touch are to be resolved, too
 };

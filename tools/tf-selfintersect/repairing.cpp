@@ -15,8 +15,15 @@
 namespace tools {
 namespace {
 
-tf::resolve_result compute(job& work, const findings& result, const repair_settings& settings,
-                           tf::precision precision) {
+/// Merging is not to lose what is written of vertices and faces.
+bool keeps_cuts(const tf::mesh_file& input, const repair_settings& settings) {
+    if (settings.keep_cuts || settings.mode != tf::resolve_mode::outer) return true;
+    const tf::carry_source source{&input, {}};
+    return tf::merging_mixes_values({&source, 1});
+}
+
+tf::resolve_result compute(job& work, const tf::mesh_file& input, const findings& result,
+                           const repair_settings& settings, tf::precision precision) {
     check_arrangeable(work.name, result.part.mesh);
     const auto timing = work.time("repair");
     tf::resolve_result repaired = tf::resolve_self_intersections(
@@ -24,6 +31,7 @@ tf::resolve_result compute(job& work, const findings& result, const repair_setti
         {.inside = settings.inside,
          .precision = precision,
          .max_displacement = settings.rails.max_move.used(result.diagonal()),
+         .keep_cuts = keeps_cuts(input, settings),
          .touching = settings.touching,
          .max_loss = settings.rails.loss(),
          .progress = work.progress("repair")});
@@ -156,7 +164,7 @@ bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
     if (output) form = form_of(work, input, *output);
     const tf::mesh_file* const inputs = &input;
     tf::resolve_result repaired =
-        compute(work, result, settings, written_precision(work.options, form, {&inputs, 1}));
+        compute(work, input, result, settings, written_precision(work.options, form, {&inputs, 1}));
     enter_repair(work, result, settings, repaired);
     const std::string too_far =
         move_objection(work.entry["repair"], settings.rails, result.diagonal(),

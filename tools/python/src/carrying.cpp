@@ -91,6 +91,8 @@ void carrying::keep_apart(tf::boolean_options& options) const {
     if (!options.simplify && tf::has_vertex_values(sources_)) options.keep_cuts = true;
 }
 
+bool carrying::mixes() const { return !sources_.empty() && tf::merging_mixes_values(sources_); }
+
 std::vector<std::uint32_t> carrying::face_groups() const {
     return sources_.empty() ? std::vector<std::uint32_t>() : tf::face_groups(sources_, true, false);
 }

@@ -25,6 +25,8 @@ class carrying {
 
     /// Keeps all cuts where vertices have values, unless `simplify` is asked for.
     void keep_apart(tf::boolean_options& options) const;
+    /// Whether merging faces may mix values, of one group or not.
+    [[nodiscard]] bool mixes() const;
     /// `boolean_options::face_groups` for merging coplanar faces: only those of equal values.
     [[nodiscard]] std::vector<std::uint32_t> face_groups() const;
 

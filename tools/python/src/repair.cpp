@@ -25,11 +25,11 @@ constexpr words<4> rule_words{"automatic", "nonzero", "odd", "positive"};
 
 /// Mesh, sources and certificate of a result.
 template <class Result>
-py::dict made_of(Result&& result, const held_mesh& input) {
+py::dict made_of(Result&& result, const carrying& attributes) {
     py::dict made;
     made["data"] = py::none();
     if constexpr (requires { result.face_source; })
-        made["data"] = carrying({&input}).to(result.mesh, result.face_source, result.vertex_source);
+        made["data"] = attributes.to(result.mesh, result.face_source, result.vertex_source);
     made["points"] = as_array(std::move(result.mesh.points));
     made["faces"] = as_array(std::move(result.mesh.faces));
     if constexpr (requires { result.face_source; }) {
@@ -41,11 +41,13 @@ py::dict made_of(Result&& result, const held_mesh& input) {
 }
 
 py::dict resolve(const held_mesh& mesh, const std::string& mode, const std::string& inside,
-                 const std::string& precision, double max_displacement, bool touching,
-                 double max_loss) {
+                 const std::string& precision, double max_displacement, bool keep_cuts,
+                 bool touching, double max_loss) {
+    const carrying attributes({&mesh});
     tf::resolve_options options{.inside = choice<tf::fill_rule>("inside", fill_rule_words, inside),
                                 .precision = precision_of(precision),
                                 .max_displacement = max_displacement,
+                                .keep_cuts = keep_cuts || attributes.mixes(),
                                 .touching = touching,
                                 .max_loss = max_loss};
     const auto how = choice<tf::resolve_mode>("mode", mode_words, mode);
@@ -61,7 +63,7 @@ py::dict resolve(const held_mesh& mesh, const std::string& mode, const std::stri
     statistics["exact_faces"] = result.statistics.exact_faces;
     statistics["split_vertices"] = result.statistics.split_vertices;
     statistics["vanished_components"] = result.vanished_components;
-    py::dict made = made_of(std::move(result), mesh);
+    py::dict made = made_of(std::move(result), attributes);
     made["statistics"] = statistics;
     return made;
 }
@@ -118,14 +120,16 @@ void set_steps(tf::repair_options& options, const std::vector<std::string>& step
 py::dict repair(const held_mesh& mesh, const std::vector<std::string>& steps,
                 std::optional<double> gap, std::optional<std::uint64_t> largest_hole, double strays,
                 const std::string& inside, double max_loss, bool sheet,
-                const std::string& precision, double max_displacement) {
+                const std::string& precision, double max_displacement, bool keep_cuts) {
+    const carrying attributes({&mesh});
     tf::repair_options options{.gap = gap,
                                .strays = strays,
                                .inside = choice<tf::repair_rule>("inside", rule_words, inside),
                                .max_loss = max_loss,
                                .sheet = sheet,
                                .precision = precision_of(precision),
-                               .max_displacement = max_displacement};
+                               .max_displacement = max_displacement,
+                               .keep_cuts = keep_cuts || attributes.mixes()};
     set_steps(options, steps);
     if (largest_hole) options.largest_hole = *largest_hole;
     tf::repair_result result = run([&](const tf::progress_callback& report) {
@@ -133,8 +137,10 @@ py::dict repair(const held_mesh& mesh, const std::vector<std::string>& steps,
         return tf::repair(mesh.view(), options);
     });
     const py::dict done = steps_of(result.statistics);
-    py::dict made = made_of(std::move(result), mesh);
+    const py::array is_left = column(result.is_left, [](std::uint8_t left) { return left; });
+    py::dict made = made_of(std::move(result), attributes);
     made["steps"] = done;
+    made["is_left"] = is_left.attr("view")("bool");
     return made;
 }
 
@@ -152,7 +158,7 @@ py::dict wrap(const held_mesh& mesh, double size, std::optional<double> offset,
     statistics["points"] = result.statistics.points;
     statistics["tetrahedra"] = result.statistics.tetrahedra;
     statistics["filled"] = result.statistics.filled;
-    py::dict made = made_of(std::move(result), mesh);
+    py::dict made = made_of(std::move(result), carrying({}));
     made["statistics"] = statistics;
     return made;
 }

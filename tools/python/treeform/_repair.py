@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Iterable, Union
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
@@ -37,7 +37,8 @@ class MadeMesh(MeshResult):
 class ResolveResult(MadeMesh):
     """A mesh without self-intersections.
 
-    face_source: (F,) the input's face that each face lies in; 4294967295 where it fills a hole.
+    face_source: (F,) the input's face that each face lies in, the lowest of those that were merged;
+        4294967295 where it fills a hole.
     vertex_source: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
     statistics: Counts of what was done.
     """
@@ -51,13 +52,17 @@ class ResolveResult(MadeMesh):
 class RepairResult(MadeMesh):
     """A mended mesh.
 
-    face_source: (F,) the input's face that each face lies in; 4294967295 where it fills a hole.
+    face_source: (F,) the input's face that each face lies in, the lowest of those that were merged;
+        4294967295 where it fills a hole.
     vertex_source: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
+    is_left: (faces of the input,) whether something is left of each, also where it was merged with
+        others.
     steps: What each step has done: faces flipped, holes filled, ...
     """
 
     face_source: Ids
     vertex_source: Ids
+    is_left: NDArray[np.bool_]
     steps: dict[str, Any]
 
 
@@ -82,13 +87,16 @@ def _mesh_of(made: dict[str, Any], check: bool, *also: str) -> dict[str, Any]:
 
 def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: str = "nonzero",
                                precision: str = "float64", max_displacement: float = np.inf,
-                               touching: bool = False, max_loss: float = 0.05, check: bool = True,
+                               keep_cuts: bool = False, touching: bool = False,
+                               max_loss: float = 0.05, check: bool = True,
                                progress: Progress = None) -> ResolveResult:
     """The mesh without self-intersections.
 
     mode: 'outer' cuts faces along each other and keeps what bounds the solid; 'split' keeps every
     piece; 'remove' deletes faces that meet and fills the holes, for surfaces that bound no solid.
     inside: for 'outer', what is solid: 'nonzero', 'odd' or 'positive' winding numbers.
+    keep_cuts: for 'outer', leave coplanar faces apart that were cut, or overlap; they are merged
+    otherwise, but not where vertices have values, or faces different ones.
     touching: for 'remove', delete faces that only touch, too.
     max_loss: more than this share of the volume (or area) lost is an error; 1 allows any loss.
     precision, max_displacement, check: as for `boolean`.
@@ -104,8 +112,8 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     (Mesh(326 vertices, 648 faces), Certificate(ok), 0)
     """
     return ResolveResult(**_mesh_of(
-        _core.resolve(held(mesh), mode, inside, precision, max_displacement, touching, max_loss,
-                      progress=progress), check))
+        _core.resolve(held(mesh), mode, inside, precision, max_displacement, keep_cuts, touching,
+                      max_loss, progress=progress), check))
 
 
 _STEPS = ("join", "orient", "fill", "resolve", "detach")
@@ -114,7 +122,7 @@ _STEPS = ("join", "orient", "fill", "resolve", "detach")
 def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None = None,
            largest_hole: int | None = None, strays: float = 0.001, inside: str = "automatic",
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
-           max_displacement: float = np.inf, check: bool = True,
+           max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
     """A solid made of a dirty mesh: closed, oriented, manifold, free of self-intersections.
 
@@ -125,7 +133,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None =
     strays: loose open pieces below this share of the area are dropped.
     inside: 'automatic', 'nonzero', 'odd' or 'positive'.
     sheet: the mesh is an open surface, and its border stays.
-    max_loss, precision, max_displacement, check: as for `resolve_self_intersections`.
+    max_loss, precision, max_displacement, keep_cuts, check: as for `resolve_self_intersections`.
 
     What meets and what is inside is decided exactly; which cracks close, which way faces look and
     what fills a hole are guesses, and counted in `steps`. A solid comes back bit for bit.
@@ -139,7 +147,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None =
     """
     return RepairResult(**_mesh_of(
         _core.repair(held(mesh), _arrays.several(steps, "steps"), gap, largest_hole, strays,
-                     inside, max_loss, sheet, precision, max_displacement,
+                     inside, max_loss, sheet, precision, max_displacement, keep_cuts,
                      progress=progress), check, "sheet"))
 
 

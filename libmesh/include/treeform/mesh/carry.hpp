@@ -116,6 +116,7 @@ struct repaired_file {
     mesh_file file{};  ///< in the format of the input, with its attributes (`carry`)
     /// [F'] the number in the input file of the face that each lies in, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
+    std::vector<std::uint8_t> is_left{};  ///< [F] of the input's mesh, as in `repair_result`
     /// Of the first part that is not what was asked for; where all are, of all together.
     /// Numbers in `open` are those of the input file.
     treeform::certificate certificate{};
@@ -127,7 +128,8 @@ struct repaired_file {
 ///
 /// Parts are those of `scene_parts` with the vertices as the file numbers them; those whose open
 /// edges coincide are patches of one surface, and one part. What `repair_options` says of the mesh,
-/// such as `max_loss`, then holds of each part.
+/// such as `max_loss`, then holds of each part. Cuts are kept where merging would mix values
+/// (`merging_mixes_values`), of faces within a part.
 ///
 /// \throws std::invalid_argument as `repair`
 /// \cost   as `repair` and `carry`
@@ -156,6 +158,11 @@ find_solid_defects(const carry_source& input, repair_scope scope = repair_scope:
 
 /// Whether vertices of an input have values that `carry` carries.
 [[nodiscard]] TREEFORM_API bool has_vertex_values(std::span<const carry_source> inputs);
+
+/// Whether merging faces, as `boolean_options::keep_cuts` prevents, may mix values that `carry`
+/// carries: vertices have some, or not all faces have the same.
+/// \cost as `face_groups`
+[[nodiscard]] TREEFORM_API bool merging_mixes_values(std::span<const carry_source> inputs);
 
 /// Whether an input has values that `carry` leaves out.
 [[nodiscard]] TREEFORM_API bool has_values_left_out(std::span<const carry_source> inputs);

@@ -31,6 +31,10 @@ struct resolve_options {
     treeform::precision precision = treeform::precision::float64;
     /// For `split` and `outer`: as in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
+    /// For `outer`: otherwise coplanar faces that were cut, or that overlap, are merged, as in
+    /// `boolean_options`. Where vertices or faces have values that one face cannot hold, keep them
+    /// apart. `split` keeps all cuts.
+    bool keep_cuts = false;
     /// For `remove`: delete faces that only touch (`pair_kind::touching`), too. Otherwise they
     /// stay.
     bool touching = false;
@@ -60,8 +64,9 @@ struct TREEFORM_API resolve_result {
     /// Instead of a source: the face fills a hole, or the vertex is new.
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    treeform::mesh mesh;                       ///< faces in the order of their sources
-    std::vector<std::uint32_t> face_source;    ///< [F'] input face that each lies in, or none
+    treeform::mesh mesh;  ///< faces in the order of their sources
+    /// [F'] input face that each lies in, the lowest of those that were merged; or none.
+    std::vector<std::uint32_t> face_source;
     std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
     /// Status ok says, checked on the coordinates above: no face is degenerate, and any two faces
     /// have a corner, an edge or nothing in common. For `outer` also: the mesh is a closed
@@ -133,6 +138,8 @@ struct repair_options {
     treeform::precision precision = treeform::precision::float64;
     /// As in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
+    /// As in `resolve_options`. Faces that fill holes are merged with each other alone.
+    bool keep_cuts = false;
     progress_callback progress{};
 };
 
@@ -177,8 +184,11 @@ struct TREEFORM_API repair_result {
     static constexpr std::uint32_t none = resolve_result::none;
 
     treeform::mesh mesh;
-    std::vector<std::uint32_t> face_source;    ///< [F'] input face that each lies in, or none
+    /// [F'] input face that each lies in, the lowest of those that were merged; or none.
+    std::vector<std::uint32_t> face_source;
     std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
+    /// [F] 1 for input faces of which something is left, also where it was merged with others.
+    std::vector<std::uint8_t> is_left{};
     /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind every
     /// face, and any two faces have a corner, an edge or nothing in common. Status sheet says the
     /// same of a surface with a border.

@@ -141,6 +141,7 @@ typedef struct treeform_resolve_options {
     double max_loss;         ///< share of the volume or area that may be lost; default 0.05
     treeform_progress progress;
     void* progress_data;
+    int32_t keep_cuts;  ///< for `outer`: leave coplanar faces apart that were cut, or overlap
 } treeform_resolve_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* options, size_t size);
@@ -193,6 +194,7 @@ typedef struct treeform_repair_options {
     double max_displacement;
     treeform_progress progress;
     void* progress_data;
+    int32_t keep_cuts;  ///< leave coplanar faces apart that were cut, or overlap
 } treeform_repair_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);
@@ -241,6 +243,7 @@ typedef struct treeform_repair_result {
     const treeform_certificate* certificate;
     const treeform_repair_statistics* statistics;
     const treeform_file* file;  ///< of `treeform_repair_file`: with attributes; else null
+    const uint8_t* is_left;     ///< [faces of the input] 1 where something is left of one
 } treeform_repair_result;
 
 /// A solid made of a dirty mesh: closed, oriented, manifold, free of self-intersections.
