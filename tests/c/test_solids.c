@@ -115,6 +115,18 @@ static void test_open(void) {
     treeform_free(solid);
 }
 
+/// That overlap, side by side.
+static treeform_mesh* two_cubes(void) {
+    double points[48];
+    uint32_t faces[72];
+    treeform_mesh* mesh = NULL;
+    int i;
+    for (i = 0; i < 48; ++i) points[i] = cube_points[i % 24] + (i >= 24 && i % 3 == 0 ? 0.5 : 0.0);
+    for (i = 0; i < 72; ++i) faces[i] = cube_faces[i % 36] + (i >= 36 ? 8 : 0);
+    OK(treeform_mesh_create(points, 16, faces, 24, TREEFORM_COPY, &mesh));
+    return mesh;
+}
+
 static void test_resolve(void) {
     treeform_mesh* mesh = model("data/two_spheres.stl");
     treeform_resolve_options options;
@@ -127,6 +139,15 @@ static void test_resolve(void) {
     CHECK(result->certificate->max_displacement > 0.0 && result->face_source[0] < 640);
     treeform_free(result);
     INVALID("mode is 3", treeform_resolve_self_intersections(mesh, 3, NULL, &result));
+    treeform_free(mesh);
+    mesh = two_cubes();
+    OK(treeform_resolve_self_intersections(mesh, TREEFORM_RESOLVE_OUTER, &options, &result));
+    CHECK(result->mesh.face_count == 12);
+    treeform_free(result);
+    options.keep_cuts = 1;
+    OK(treeform_resolve_self_intersections(mesh, TREEFORM_RESOLVE_OUTER, &options, &result));
+    CHECK(result->mesh.face_count > 12);
+    treeform_free(result);
     treeform_free(mesh);
 }
 
@@ -177,6 +198,17 @@ static void test_repair(void) {
     CHECK(result != NULL && result->certificate->status == TREEFORM_STATUS_OPEN_INPUT);
     treeform_free(result);
     treeform_free(file);
+    treeform_free(mesh);
+    mesh = two_cubes();
+    OK(treeform_repair(mesh, NULL, &result));
+    CHECK(result->mesh.face_count == 12 && result->statistics->removed == 4);
+    CHECK(result->is_left[10] == 0 && result->is_left[22] == 1);
+    treeform_free(result);
+    treeform_repair_options_init(&options, sizeof options);
+    options.keep_cuts = 1;
+    OK(treeform_repair(mesh, &options, &result));
+    CHECK(result->mesh.face_count > 12 && result->statistics->removed == 4);
+    treeform_free(result);
     treeform_free(mesh);
 }
 

@@ -260,6 +260,14 @@ class Mend(ToolTest):
         self.assertEqual([tuple(map(int, line.split()[4:])) for line in body],
                          [(10 * i, i) for i in range(11)] + [(0, -1)])
 
+    def test_coplanar_faces_that_were_cut_are_merged_unless_told(self):
+        part = write(self.path("part.obj"), together(cube(), cube((0.5, 0.0, 0.0))))
+        merged = self.mended(part, "-o", "out.stl")["repair"]
+        kept = self.mended(part, "--keep-cuts", "-o", "cut.stl")["repair"]
+        self.assertEqual(merged["faces"], 12)
+        self.assertGreater(kept["faces"], 12)
+        self.assertEqual(merged["steps"]["resolve"], kept["steps"]["resolve"])
+
     def test_lines_where_faces_met(self):
         part = write(self.path("part.obj"), TWO_CUBES)
         self.run_tool(part, "-o", "out.stl", "--curves", "lines.obj", status=0)
@@ -331,7 +339,9 @@ class Mend(ToolTest):
                         ["--max-loss", "-1", "-n"], ["--inside", "even", "-n"],
                         ["--holes", "3", "--sheet", "-n"], ["--source", "s", "-o", "out.stl"],
                         ["--curves", "out.stl", "-n"],
-                        ["--inside", "odd", "--no-resolve", "-n"], ["-o", "out.xyz"]):
+                        ["--inside", "odd", "--no-resolve", "-n"], ["-o", "out.xyz"],
+                        ["--keep-cuts", "--no-resolve", "-n"], ["--keep-cuts", "--sheet", "-n"],
+                        ["--keep-cuts", "--check"]):
             with self.subTest(options=options):
                 run = self.run_tool(part, *options, status=2)
                 self.assertTrue(run.err.startswith("tf-repair: error: "), msg=run.err)

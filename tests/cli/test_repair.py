@@ -208,6 +208,13 @@ class Repair(ToolTest):
         for *_, number, source in (line.split() for line in body[count:]):
             self.assertEqual(number, source)
 
+    def test_coplanar_faces_that_were_cut_are_merged_unless_told(self):
+        part = write(self.path("part.obj"), together(cube(), cube((0.5, 0.0, 0.0))))
+        self.assertEqual(self.repaired(part, "--repair", "-o", "out.ply")["repair"]["faces"], 12)
+        kept = self.repaired(part, "--repair", "--keep-cuts", "-o", "cut.ply")["repair"]
+        self.assertGreater(kept["faces"], 12)
+        self.assertEqual((kept["volume"]["after"], kept["removed_faces"]), (1.5, 4))
+
     def test_what_loses_too_much_is_not_written(self):
         points, faces = TWO_CUBES
         part = write(self.path("part.obj"), (points, faces))
@@ -231,6 +238,7 @@ class Repair(ToolTest):
         part = write(self.path("part.obj"), TWO_CUBES)
         for options in (["--repair=all"], ["--max-move", "1"], ["--keep-components"],
                         ["--inside", "odd"], ["--max-loss", "5%"], ["--accept-loss"],
+                        ["--keep-cuts"], ["--repair=split", "--keep-cuts", "-n"],
                         ["--repair=split", "--inside", "odd", "-n"],
                         ["--repair", "--first"], ["--repair", "--within"],
                         ["-o", "out.stl"], ["--repair", "-o", "out.xyz"]):

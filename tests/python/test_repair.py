@@ -46,6 +46,24 @@ def test_a_solid_comes_back_bit_for_bit():
     assert same_mesh(tf.repair(CUBE).mesh, CUBE)
 
 
+def test_coplanar_faces_that_were_cut_are_merged_unless_values_part_them():
+    both = tf.Mesh(np.vstack([CUBE.vertices, CUBE.vertices + [0.5, 0, 0]]),
+                   np.vstack([CUBE.faces, CUBE.faces + 8]))
+    merged, as_cut = tf.repair(both), tf.repair(both, keep_cuts=True)
+    assert len(merged.mesh.faces) == 12 < len(as_cut.mesh.faces)
+    assert merged.is_left.dtype == bool and merged.is_left.sum() == 20
+    assert np.array_equal(merged.is_left, as_cut.is_left)
+    assert set(as_cut.face_source) == set(np.flatnonzero(merged.is_left))
+    outer = tf.resolve_self_intersections
+    assert len(outer(both).mesh.faces) == 12
+    assert len(outer(both, keep_cuts=True).mesh.faces) == len(as_cut.mesh.faces)
+    both.attributes.set_face("number", np.arange(24))
+    for verb in (tf.repair, outer):
+        made = verb(both)
+        assert len(made.mesh.faces) == len(as_cut.mesh.faces)
+        assert np.array_equal(made.mesh.attributes.face["number"], made.face_source)
+
+
 def test_what_cannot_be_mended_is_said():
     with pytest.raises(tf.CertificateError) as caught:
         tf.repair(SHEET)

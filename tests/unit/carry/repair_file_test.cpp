@@ -1,3 +1,4 @@
+#include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
@@ -111,4 +112,50 @@ TEST_CASE("repair_file: a part that is no solid is named, with the numbers of th
     CHECK(tf::find_solid_defects({&file}, tf::repair_scope::each_part, [](double) {
               return false;
           }).cancelled);
+}
+
+TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix values") {
+    const tf::mesh pair = test::together(box_at(0), box_at(0.5));
+    tf::mesh_file file{.mesh = pair};
+    file.stored_faces = pair.faces.size();
+    const auto faces_made = [&] {
+        const tf::repaired_file made = tf::repair_file({&file});
+        CHECK(made.certificate);
+        CHECK(made.is_left.size() == 24);
+        CHECK(std::ranges::count(made.is_left, 0) == 4);  // the two ends within
+        return made.file.mesh.faces.size();
+    };
+    const tf::carry_source source{&file, {}};
+    const auto set = [&](const char* element, const std::vector<std::int32_t>& values) {
+        tf::set_column(tf::obtain_element(file.attributes, element, values.size()),
+                       tf::make_column<std::int32_t>("number", values));
+    };
+    CHECK(faces_made() == 12);
+    std::vector<std::int32_t> numbers(24, 1);
+    set("face", numbers);
+    CHECK_FALSE(tf::merging_mixes_values({&source, 1}));
+    CHECK(faces_made() == 12);
+    numbers[23] = 2;
+    set("face", numbers);
+    CHECK(tf::merging_mixes_values({&source, 1}));
+    const std::size_t as_cut = faces_made();
+    CHECK(as_cut > 12);
+    CHECK(as_cut == tf::repair(pair, {.keep_cuts = true}).mesh.faces.size());
+    file.attributes = {};
+    set("vertex", std::vector<std::int32_t>(16, 1));
+    CHECK(tf::merging_mixes_values({&source, 1}));
+    CHECK(faces_made() == as_cut);
+}
+
+TEST_CASE("repair_file: parts of one value each are merged, each in itself") {
+    const tf::mesh pair = test::together(box_at(0), box_at(0.5));
+    tf::mesh_file file = scene({{"a", pair}, {"b", test::moved(pair, {5, 0, 0})}});
+    std::vector<std::int32_t> numbers(48, 1);
+    std::fill(numbers.begin() + 24, numbers.end(), 2);
+    tf::set_column(tf::obtain_element(file.attributes, "face", 48),
+                   tf::make_column<std::int32_t>("number", numbers));
+    const tf::repaired_file made = tf::repair_file({&file});
+    CHECK(made.file.mesh.faces.size() == 24);
+    CHECK(std::ranges::count(made.is_left, 0) == 8);
+    CHECK(tf::repair_file({&file}, {}, tf::repair_scope::whole_file).file.mesh.faces.size() > 24);
 }

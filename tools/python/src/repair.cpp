@@ -158,7 +158,7 @@ py::dict wrap(const held_mesh& mesh, double size, std::optional<double> offset,
     statistics["points"] = result.statistics.points;
     statistics["tetrahedra"] = result.statistics.tetrahedra;
     statistics["filled"] = result.statistics.filled;
-    py::dict made = made_of(std::move(result), carrying({}));
+    py::dict made = made_of(std::move(result), carrying(held_meshes{}));
     made["statistics"] = statistics;
     return made;
 }
