@@ -57,9 +57,10 @@ def test_coplanar_faces_that_were_cut_are_merged_unless_values_part_them():
     outer = tf.resolve_self_intersections
     assert len(outer(both).mesh.faces) == 12
     assert len(outer(both, keep_cuts=True).mesh.faces) == len(as_cut.mesh.faces)
-    both.attributes.set_face("number", np.arange(24))
+    numbers = tf.Attributes()
+    numbers.set_face("number", np.arange(24))
     for verb in (tf.repair, outer):
-        made = verb(both)
+        made = verb(tf.Mesh(both.vertices, both.faces, numbers))
         assert len(made.mesh.faces) == len(as_cut.mesh.faces)
         assert np.array_equal(made.mesh.attributes.face["number"], made.face_source)
 

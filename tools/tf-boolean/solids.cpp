@@ -51,9 +51,10 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     return s;
 }
 
-void mend(job& work, solid& s, json& about) {
+void mend(job& work, const boolean_settings& settings, solid& s, json& about) {
     const std::string name = name_of(s);
-    const tf::repair_options options{.progress = work.progress("repair")};
+    const tf::repair_options options{.keep_cuts = settings.keep_cuts,
+                                     .progress = work.progress("repair")};
     tf::repaired_file made = tf::repair_file(s.source(), options, tf::repair_scope::whole_file);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     about["repair"] = steps_entry(made.statistics, options);
@@ -164,7 +165,7 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
         names = operand_names(work, settings, solids[0]);
     if (!names.empty()) solids = named_parts(work, std::move(names), solids);
     for (std::size_t i = 0; settings.repair && i < solids.size(); ++i)
-        mend(work, solids[i], work.entry["inputs"][i]);
+        mend(work, settings, solids[i], work.entry["inputs"][i]);
     if (!settings.check && !settings.no_attributes) settle_textures(work, solids);
     return solids;
 }
