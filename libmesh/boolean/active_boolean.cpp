@@ -45,7 +45,7 @@ std::optional<boolean_result> boolean_in_active_space(joined_operands& joined,
                                                       operand_edges&& edges,
                                                       const boolean_expression& expression,
                                                       const boolean_options& options,
-                                                      std::vector<std::uint8_t>* is_left) {
+                                                      left_faces is_left) {
     if (edges.piece.count() < fewest_components) return std::nullopt;
     // What each face has a number in goes as soon as it may: the crowd is far larger than the result.
     std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();

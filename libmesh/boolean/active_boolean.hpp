@@ -2,13 +2,12 @@
 /// \file
 /// Set operations whose cost follows the result: what cannot be in it is not cut.
 
+#include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <treeform/mesh/boolean.hpp>
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace treeform::detail::boolean {
 
@@ -18,11 +17,10 @@ namespace treeform::detail::boolean {
 /// None where that would leave out too little to be worth it, or only the general way will do;
 /// `joined` is as before then. Otherwise it is used up.
 ///
-/// \param edges   of `joined`; used up
-/// \param is_left as in `finish_surface`
+/// \param edges of `joined`; used up
 /// \same  on any number of threads
 [[nodiscard]] std::optional<boolean_result> boolean_in_active_space(
     joined_operands& joined, operand_edges&& edges, const boolean_expression& expression,
-    const boolean_options& options, std::vector<std::uint8_t>* is_left = nullptr);
+    const boolean_options& options, left_faces is_left = nullptr);
 
 }  // namespace treeform::detail::boolean

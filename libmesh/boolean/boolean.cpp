@@ -45,6 +45,7 @@ using detail::boolean::cut_operand;
 using detail::boolean::finish_surface;
 using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
+using detail::boolean::left_faces;
 using detail::boolean::near_result;
 using detail::boolean::open_input_edges;
 using detail::boolean::operand_edges;
@@ -127,9 +128,6 @@ std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t fa
     for (const std::uint32_t f : arranged.degenerate) is_lowest[f] = 1;
     return static_cast<std::uint64_t>(std::count(is_lowest.begin(), is_lowest.end(), 0));
 }
-
-/// Where to say which faces of a single operand something is left of (`finish_surface`); or null.
-using left_faces = std::vector<std::uint8_t>*;
 
 boolean_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
                           const boolean_options& options, std::optional<label_counts>& counts,
@@ -445,14 +443,13 @@ boolean_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
 }
 
 boolean_result split(std::span<const mesh_view> operands, const boolean_options& options) {
-    return evaluate("split", operands, options, false,
-                    [](auto given, const auto& how) { return split_of(given, how); });
+    return evaluate("split", operands, options, false, split_of);
 }
 
 resolved_operand detail::boolean::resolve_by_split(mesh_view mesh, const boolean_options& options) {
     return resolved(mesh, [&](left_faces) {
         return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, false,
-                        [](auto given, const auto& how) { return split_of(given, how); });
+                        split_of);
     });
 }
 
@@ -466,15 +463,13 @@ resolved_operand detail::boolean::resolve_by_union(mesh_view mesh, const boolean
 detail::boolean::labeled_result detail::boolean::resolve_by_labels(
     mesh_view mesh, std::span<const std::uint32_t> is_guess, const boolean_options& options) {
     std::optional<label_counts> counts;
-    labeled_result result;
-    result.resolved = resolved(mesh, [&](left_faces is_left) {
+    resolved_operand made = resolved(mesh, [&](left_faces is_left) {
         return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, true,
                         [&](auto given, const auto& how) {
                             return labeled_of(given.front(), is_guess, how, counts, is_left);
                         });
     });
-    if (counts) result.counts = *counts;
-    return result;
+    return {std::move(made), counts.value_or(label_counts{})};
 }
 
 const mesh& boolean_result::value() const& {

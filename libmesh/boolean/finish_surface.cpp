@@ -42,7 +42,7 @@ void sort_by_source(std::vector<std::uint32_t>& source, std::vector<face>& faces
 
 void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_faces chosen,
                     joined_operands& joined, bool solid, const boolean_options& options,
-                    std::vector<std::uint8_t>* is_left) {
+                    left_faces is_left) {
     std::vector<std::uint32_t> face_of = std::move(chosen.face_of);
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed),
                         std::move(chosen.faces), std::vector<std::uint8_t>(face_of.size())};

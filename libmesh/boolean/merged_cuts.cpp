@@ -81,6 +81,16 @@ class part_of_surface {
     std::vector<std::uint32_t> point_of_{};  ///< given ones, ascending
 };
 
+/// All but `of_face`: where the faces of before went, of which those `listed` were merged.
+void tell(face_origins& origins, const std::vector<std::uint32_t>& source_of,
+          const std::vector<std::uint32_t>& listed, const merged_faces& merged) {
+    origins.source = source_of;
+    origins.merged_into.resize(source_of.size());
+    std::iota(origins.merged_into.begin(), origins.merged_into.end(), 0U);
+    for (std::size_t i = 0; i < listed.size(); ++i)
+        origins.merged_into[listed[i]] = listed[merged.merged_into[i]];
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> groups_of(const boolean_options& options,
@@ -128,13 +138,7 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
                              .stays = options.simplify ? std::span<const std::uint8_t>() : sound});
         for (face& f : merged.faces) f = part.to_whole(f);
     }
-    if (origins != nullptr) {
-        origins->source = source_of;
-        origins->merged_into.resize(source_of.size());
-        std::iota(origins->merged_into.begin(), origins->merged_into.end(), 0U);
-        for (std::size_t i = 0; i < listed.size(); ++i)
-            origins->merged_into[listed[i]] = listed[merged.merged_into[i]];
-    }
+    if (origins != nullptr) tell(*origins, source_of, listed, merged);
     std::vector<face> faces;
     std::vector<std::uint8_t> sound;
     std::vector<std::uint32_t> source;

@@ -163,6 +163,13 @@ class assembly {
     std::size_t given_ = 0;
 };
 
+/// Puts a value of each piece where that is among `count` faces; others have none.
+void spread(ids& of_piece, const ids& pieces, std::size_t count) {
+    ids of_face(count, rounded_surface::none);
+    for (std::size_t i = 0; i < pieces.size(); ++i) of_face[pieces[i]] = of_piece[i];
+    of_piece = std::move(of_face);
+}
+
 /// Takes in all faces that stay, so that near is all that the result has. They have no origin.
 void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
                  exact_surface& exact, ids& source, ids& face_of_point, ids& origin_of_face) {
@@ -214,15 +221,10 @@ void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
             fates[f] = fate::cut;
         }
     }
-    const auto more = static_cast<std::uint32_t>(exact.given.size() - given);
     for (const std::uint32_t f : pieces)
         for (std::uint32_t& p : surface[f])
-            if (p >= given) p += more;
-    if (!origin_of_face.empty()) {
-        ids origins(surface.size(), rounded_surface::none);
-        for (std::size_t i = 0; i < pieces.size(); ++i) origins[pieces[i]] = origin_of_face[i];
-        origin_of_face = std::move(origins);
-    }
+            if (p >= given) p += static_cast<std::uint32_t>(exact.given.size() - given);
+    if (!origin_of_face.empty()) spread(origin_of_face, pieces, surface.size());
     exact.faces = std::move(surface);
     exact.sound = std::move(sound);
     source = std::move(surface_source);
@@ -290,8 +292,7 @@ void name_cut_vertices(const bundles& operands, const near_faces& near,
 }  // namespace
 
 near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
-                       chosen_surface chosen, const boolean_options& options,
-                       std::vector<std::uint8_t>* is_left) {
+                       chosen_surface chosen, const boolean_options& options, left_faces is_left) {
     near_result made;
     boolean_result& result = made.result;
     ids source = std::move(chosen.near.face_of);

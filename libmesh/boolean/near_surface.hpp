@@ -3,12 +3,12 @@
 /// The surface of a result, from faces that were cut and faces that need not be.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <treeform/mesh/boolean.hpp>
 
 #include <cstdint>
-#include <vector>
 
 namespace treeform::detail::boolean {
 
@@ -32,11 +32,9 @@ struct near_result {
 ///
 /// \param near     all but the pairs of `local`; is used up, as the others are
 /// \param arranged of `near.local`
-/// \param is_left  as in `finish_surface`
 /// \same  on any number of threads
 [[nodiscard]] near_result surface_of(const bundles& operands, near_faces& near,
                                      arrange_faces_result& arranged, chosen_surface chosen,
-                                     const boolean_options& options,
-                                     std::vector<std::uint8_t>* is_left = nullptr);
+                                     const boolean_options& options, left_faces is_left = nullptr);
 
 }  // namespace treeform::detail::boolean

@@ -143,15 +143,12 @@ filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sh
     return done;
 }
 
-filled_holes filled_holes::used(std::vector<std::uint32_t> faces_of_mesh) const {
+filled_holes filled_holes::used(std::span<const std::uint8_t> is_used) const {
     filled_holes left;
     if (all.empty()) return left;
-    std::erase_if(faces_of_mesh, [&](std::uint32_t f) { return f < all.front().first_face; });
-    std::ranges::sort(faces_of_mesh);
-    faces_of_mesh.erase(std::unique(faces_of_mesh.begin(), faces_of_mesh.end()),
-                        faces_of_mesh.end());
-    left.faces = faces_of_mesh.size();
-    for (const std::uint32_t f : faces_of_mesh) {
+    for (std::uint32_t f = all.front().first_face; f < is_used.size(); ++f) {
+        if (is_used[f] == 0) continue;
+        ++left.faces;
         const filled_hole& own =
             *(std::ranges::upper_bound(all, f, {}, &filled_hole::first_face) - 1);
         if (!left.all.empty() && left.all.back().first_face == own.first_face) continue;

@@ -6,6 +6,7 @@
 #include <libmesh/repair/working_mesh.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace treeform::detail::repair {
@@ -22,8 +23,9 @@ struct filled_holes {
     std::uint64_t sheets = 0;  ///< rims left, as those of sheets
     std::vector<filled_hole> all{};
 
-    /// Those of which some of the faces are used, and these faces.
-    [[nodiscard]] filled_holes used(std::vector<std::uint32_t> faces_of_mesh) const;
+    /// Those of which some of the faces are used, and how many these are.
+    /// \param is_used [faces of the mesh]
+    [[nodiscard]] filled_holes used(std::span<const std::uint8_t> is_used) const;
 };
 
 /// Whether to fill what then bounds little or nothing.

@@ -29,7 +29,6 @@
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -305,28 +304,19 @@ class repairer {
             return;
         }
         did_.resolved = !clean;
-        boolean_options how = how_to_resolve();
-        how.progress = part_of(options_.progress, 0.4, 0.95);
-        const std::vector<std::uint32_t> is_filling = fillings();
-        how.face_groups = is_filling;
+        const boolean_options how = how_to_resolve();
         take(options_.sheet ? detail::boolean::resolve_by_split(mesh_.view(), how)
                             : detail::boolean::resolve_by_union(mesh_.view(), how));
     }
 
-    [[nodiscard]] boolean_options how_to_resolve() const {
+    [[nodiscard]] boolean_options how_to_resolve() {
+        fillings_ = mesh_.fillings();
         return {.inside = rule(),
                 .precision = options_.precision,
                 .max_displacement = options_.max_displacement,
-                .keep_cuts = options_.keep_cuts};
-    }
-
-    /// [F] 1 for faces that fill holes, which have no source; empty where there are none.
-    [[nodiscard]] std::vector<std::uint32_t> fillings() const {
-        std::vector<std::uint32_t> is_filling;
-        if (std::ranges::count(mesh_.source, repair_result::none) == 0) return is_filling;
-        for (const std::uint32_t f : mesh_.source)
-            is_filling.push_back(f == repair_result::none ? 1 : 0);
-        return is_filling;
+                .keep_cuts = options_.keep_cuts,
+                .face_groups = fillings_,
+                .progress = part_of(options_.progress, 0.4, 0.95)};
     }
 
     /// What fills holes along edges of several faces is there for the labels to use or not.
@@ -335,19 +325,12 @@ class repairer {
         std::vector<std::uint32_t> is_guess(mesh_.faces.size(), 0);
         for (std::size_t f = mesh_.faces.size() - guesses_.faces; f < is_guess.size(); ++f)
             is_guess[f] = 1;
-        boolean_options how = how_to_resolve();
-        how.progress = part_of(options_.progress, 0.4, 0.95);
-        const std::vector<std::uint32_t> is_filling = fillings();
-        how.face_groups = is_filling;
         detail::boolean::labeled_result labeled =
-            detail::boolean::resolve_by_labels(mesh_.view(), is_guess, how);
+            detail::boolean::resolve_by_labels(mesh_.view(), is_guess, how_to_resolve());
         did_.labeled_cells = labeled.counts.cells;
         did_.dropped_area = labeled.counts.dropped_area;
         did_.turned_area = labeled.counts.turned_area;
-        std::vector<std::uint32_t> left;
-        for (std::uint32_t f = 0; f < labeled.resolved.is_left.size(); ++f)
-            if (labeled.resolved.is_left[f] != 0) left.push_back(f);
-        count(guesses_.used(std::move(left)));
+        count(guesses_.used(labeled.resolved.is_left));
         take(std::move(labeled.resolved));
     }
 
@@ -478,6 +461,7 @@ class repairer {
     std::uint64_t inner_faces_ = 0;               ///< of tetrahedra
     std::vector<std::uint32_t> dropped_walls_{};  ///< input faces
     detail::repair::filled_holes guesses_{};      ///< holes filled on trial: the last faces
+    std::vector<std::uint32_t> fillings_{};       ///< of `mesh_`, while it is resolved
     std::optional<detail::repair::closed_components> closed_{};
     detail::repair::turned_as_one turned_as_one_ = detail::repair::turned_as_one::component;
     repair_statistics did_{};

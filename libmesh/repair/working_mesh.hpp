@@ -3,6 +3,7 @@
 /// A mesh while it is repaired.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/repair.hpp>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +25,14 @@ struct working_mesh {
     void append(const face& f, std::uint32_t from) {
         faces.push_back(f);
         source.push_back(from);
+    }
+
+    /// [F] 1 for faces that fill holes, which have no source; empty where there are none.
+    [[nodiscard]] std::vector<std::uint32_t> fillings() const {
+        std::vector<std::uint32_t> is_filling;
+        if (std::ranges::count(source, repair_result::none) == 0) return is_filling;
+        for (const std::uint32_t f : source) is_filling.push_back(f == repair_result::none ? 1 : 0);
+        return is_filling;
     }
 
     /// Drops the faces for which `is_dropped(f)`; returns how many.

@@ -72,12 +72,6 @@ class Triangles:
     def arrays(self):
         return self.vertices, self.faces
 
-    @property
-    def parted(self):
-        """Whether a face that is merged of several would mix what these have."""
-        kinds = (self.material, self.smooth)
-        return bool(self.uvs) or any(len(np.unique(one)) > 1 for one in kinds)
-
 
 def triangles_as_seen(context, object, move=None):
     """Those of an object with its modifiers and shape keys."""
@@ -340,8 +334,9 @@ def mend(context, object, sheet=False, progress=None):
     """Repairs an object; None where nothing was to be done."""
     changeable(object)
     before = triangles_as_seen(context, object)
-    made = treeform.repair(before.arrays(), sheet=sheet, precision="float32",
-                           keep_cuts=before.parted, progress=progress)
+    mixes = bool(before.uvs) or len(set(zip(before.material, before.smooth))) > 1
+    made = treeform.repair(before.arrays(), sheet=sheet, precision="float32", keep_cuts=mixes,
+                           progress=progress)
     if np.array_equal(made.faces, before.faces) and np.array_equal(made.vertices, before.vertices):
         return None
     sources = [np.stack([np.zeros_like(one), one], axis=1)

@@ -31,10 +31,7 @@ struct resolve_options {
     treeform::precision precision = treeform::precision::float64;
     /// For `split` and `outer`: as in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// For `outer`: otherwise coplanar faces that were cut, or that overlap, are merged, as in
-    /// `boolean_options`. Where vertices or faces have values that one face cannot hold, keep them
-    /// apart. `split` keeps all cuts.
-    bool keep_cuts = false;
+    bool keep_cuts = false;  ///< for `outer`: as in `boolean_options`; `split` keeps all cuts
     /// For `remove`: delete faces that only touch (`pair_kind::touching`), too. Otherwise they
     /// stay.
     bool touching = false;
@@ -64,9 +61,8 @@ struct TREEFORM_API resolve_result {
     /// Instead of a source: the face fills a hole, or the vertex is new.
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    treeform::mesh mesh;  ///< faces in the order of their sources
-    /// [F'] input face that each lies in, the lowest of those that were merged; or none.
-    std::vector<std::uint32_t> face_source;
+    treeform::mesh mesh;                       ///< faces in the order of their sources
+    std::vector<std::uint32_t> face_source;    ///< [F'] input face, lowest of those merged, or none
     std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
     /// Status ok says, checked on the coordinates above: no face is degenerate, and any two faces
     /// have a corner, an edge or nothing in common. For `outer` also: the mesh is a closed
@@ -138,8 +134,7 @@ struct repair_options {
     treeform::precision precision = treeform::precision::float64;
     /// As in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// As in `resolve_options`. Faces that fill holes are merged with each other alone.
-    bool keep_cuts = false;
+    bool keep_cuts = false;  ///< likewise; faces that fill holes are merged with each other alone
     progress_callback progress{};
 };
 
@@ -171,8 +166,7 @@ struct repair_statistics {
     std::uint64_t touching = 0;             ///< vertices that still have a twin at their place
     std::uint64_t vanished_components = 0;  ///< larger than `repair_options::strays`
     std::uint64_t dropped_shells = 0;  ///< closed, within the solid; `odd` makes cavities of them
-    double volume_before =
-        0.0;  ///< after `join`, `orient`, `fill`; as below 0 where it is no solid
+    double volume_before = 0.0;        ///< after `join`, `orient`, `fill`; 0 where it is no solid
     double volume_after = 0.0;
     double area_before = 0.0;
     double area_after = 0.0;
@@ -184,11 +178,9 @@ struct TREEFORM_API repair_result {
     static constexpr std::uint32_t none = resolve_result::none;
 
     treeform::mesh mesh;
-    /// [F'] input face that each lies in, the lowest of those that were merged; or none.
-    std::vector<std::uint32_t> face_source;
+    std::vector<std::uint32_t> face_source;    ///< [F'] input face, lowest of those merged, or none
     std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
-    /// [F] 1 for input faces of which something is left, also where it was merged with others.
-    std::vector<std::uint8_t> is_left{};
+    std::vector<std::uint8_t> is_left{};       ///< [F] 1 where something is left of an input face
     /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind every
     /// face, and any two faces have a corner, an edge or nothing in common. Status sheet says the
     /// same of a surface with a border.
