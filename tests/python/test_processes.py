@@ -132,10 +132,12 @@ def test_where_one_is_interrupted_nobody_waits(tmp_path, cloud, error):
     work = Impatient(cloud, tmp_path / "thin.ply")
     work.error = error
     first, second, third = in_team(3, work)
-    assert first == third == ("Error", "process 1: interrupted")
+    ready = (tmp_path / "thin.ply").exists()  # before the others heard of that
+    for other in (first, third):
+        assert ready or other == ("Error", "process 1: interrupted")
     assert second == (("Cancelled", "progress has returned False") if error is None
                       else ("RuntimeError", "stopped by hand"))
-    if (tmp_path / "thin.ply").exists():  # the first one was ready before it heard of that
+    if ready:
         tf.weld_stream(cloud, tmp_path / "whole.ply", 0.1)
         assert (tmp_path / "thin.ply").read_bytes() == (tmp_path / "whole.ply").read_bytes()
 
