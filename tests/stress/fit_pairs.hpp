@@ -4,6 +4,7 @@
 /// and noised by a seed, and one of them moved by 10 degrees and a tenth of the size.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/tf.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <cstddef>

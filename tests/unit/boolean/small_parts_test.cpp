@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <support/solid_checks.hpp>
 #include <support/solids.hpp>
+#include <support/soups.hpp>
 
 #include <limits>
 #include <span>
