@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace treeform::detail::arrange {
@@ -185,6 +187,17 @@ surface_patches find_patches(const mesh_arrangement& cut,
 surface_patches find_patches(const mesh_arrangement& cut,
                              std::span<const std::uint32_t> operand_of_face, edge_judge judge) {
     return find_patches_of(cut, operand_of_face, &judge);
+}
+
+surface_patches find_closed_patches(const mesh_arrangement& cut,
+                                    std::span<const std::uint32_t> operand_of_face,
+                                    edge_judge judge) {
+    surface_patches patches = find_patches(cut, operand_of_face, judge);
+    if (patches.open_count > 0)
+        throw std::logic_error("treeform: faces are missing at the edge between points " +
+                               std::to_string(patches.open[0].points[0]) + " and " +
+                               std::to_string(patches.open[0].points[1]));
+    return patches;
 }
 
 }  // namespace treeform::detail::arrange

@@ -66,4 +66,10 @@ using edge_judge = function_ref<edge_use(const std::array<std::uint32_t, 2>& poi
                                            std::span<const std::uint32_t> operand_of_face,
                                            edge_judge judge);
 
+/// The same of operands known to be closed.
+/// \throws std::logic_error naming an edge at which faces are missing all the same
+[[nodiscard]] surface_patches find_closed_patches(const mesh_arrangement& cut,
+                                                  std::span<const std::uint32_t> operand_of_face,
+                                                  edge_judge judge);
+
 }  // namespace treeform::detail::arrange

@@ -13,8 +13,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace treeform::detail::boolean {
@@ -100,12 +98,7 @@ surface_patches find_active_patches(const mesh_arrangement& cut,
         return space.is_within_active(ends) ? arrange::edge_use::junction
                                             : arrange::edge_use::nothing;
     };
-    surface_patches patches = arrange::find_patches(cut, operand_of_face, judge);
-    if (patches.open_count > 0)
-        throw std::logic_error("treeform::boolean: faces are missing at the edge between points " +
-                               std::to_string(patches.open[0].points[0]) + " and " +
-                               std::to_string(patches.open[0].points[1]));
-    return patches;
+    return arrange::find_closed_patches(cut, operand_of_face, judge);
 }
 
 arrange::numbered_sets find_regions(mesh_view mesh, const mesh_arrangement& cut,

@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace treeform::detail::boolean {
@@ -96,12 +94,7 @@ surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_fa
                           std::span<const arrange::face_side> sides) {
         return sides.size() == 1 ? arrange::edge_use::nothing : arrange::edge_use::all;
     };
-    surface_patches patches = arrange::find_patches(cut, operand_of_face, judge);
-    if (patches.open_count > 0)
-        throw std::logic_error("treeform::boolean: faces are missing at the edge between points " +
-                               std::to_string(patches.open[0].points[0]) + " and " +
-                               std::to_string(patches.open[0].points[1]));
-    return patches;
+    return arrange::find_closed_patches(cut, operand_of_face, judge);
 }
 
 arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,

@@ -52,6 +52,8 @@ HOME_OF_PACKAGE = {
     r"openssl/": "tools/common/sha256.cpp",
     r"(CGAL/|gmp|mpfr|lib3mf|Model/COM)": "tests/",
 }
+TOP = {"libtree", "libmesh", "tools", "tests", "data", "CMakeLists.txt", "CMakePresets.json", "README.md",
+       "LICENSE", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "compile_commands.json"}
 READS_FILES = ("stream", "carry")  # besides tools and tests, only these rooms know of `io`
 
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
@@ -69,6 +71,12 @@ def public_headers(root):
     """Those of the door: what is in detail/ is there for the compiler alone."""
     return [path for path in sources(root, "libtree/include", "libmesh/include")
             if "detail" not in path.parts]
+
+
+def check_top(root):
+    for path in sorted(root.iterdir()):
+        if not path.name.startswith((".", "build")) and path.name not in TOP:
+            yield path, 1, "does not belong at the top level"
 
 
 def lines_of(path):
@@ -281,7 +289,7 @@ def check_tools(root):
             yield folder, count, f"{count} lines of a tool, {most} at most"
 
 
-CHECKS = [check_door, check_headers, check_whole_door, check_bindings, check_lists,
+CHECKS = [check_top, check_door, check_headers, check_whole_door, check_bindings, check_lists,
           check_listed, check_floors, check_packages, check_silence, check_lengths, check_tools]
 
 
@@ -291,6 +299,7 @@ def faults(root):
 
 
 WRONG = {  # each file with what is to be said of it
+    "box.ply": ("", ["does not belong"]),
     "libmesh/include/treeform/mesh/door.hpp": ("#include <libmesh/weld/a.hpp>\n" * 251,
                                                ["the inside", "more than 250"]),
     "libmesh/include/treeform/treeform.hpp": ("#include <treeform/tf.hpp>\n",
