@@ -1,7 +1,6 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/arrange/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/arrange/wanted_meetings.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
 #include <libmesh/base/face_boxes.hpp>
@@ -31,7 +30,6 @@ namespace treeform {
 namespace {
 
 using detail::arrange::cut_cluster;
-using detail::arrange::is_box_wanted;
 using detail::base::part_of;
 using detail::intersect::meeting;
 using detail::intersect::mesh_meetings;
@@ -346,16 +344,12 @@ std::vector<cut_cluster> cut_clusters(mesh_view mesh, const mesh_meetings& met,
 }
 
 /// `arrange_pairs` without the given points.
-///
-/// \param is_wanted none where all is
 arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pairs,
                                    std::vector<std::uint32_t> degenerate,
-                                   const is_box_wanted* is_wanted,
                                    const progress_callback& progress) {
     arrange_faces_result result;
     const std::size_t count = mesh.faces.size();
     mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
-    if (is_wanted != nullptr) detail::arrange::keep_wanted(met, mesh.points, *is_wanted);
     result.pairs = met.meetings.size();
     const clusters groups = gather(count, met);
     result.cut_faces = groups.members.size();
@@ -389,13 +383,11 @@ void copy_points(mesh_view mesh, arrange_faces_result& result) {
     if (!result.cancelled) result.cut.given_points.assign(mesh.points.begin(), mesh.points.end());
 }
 
-/// Of the pairs of faces that meet, those that are wanted.
-///
-/// \param where none where all that these have in common is
-arrange_faces_result arrange_found(mesh_view mesh,
-                                   detail::function_ref<bool(const face_pair&)> is_wanted,
-                                   const is_box_wanted* where,
-                                   const arrange_faces_options& options) {
+}  // namespace
+
+arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
+                                                     function_ref<bool(const face_pair&)> is_wanted,
+                                                     const arrange_faces_options& options) {
     detail::base::check_faces("arrange_faces", mesh.points.size(), mesh.faces);
     std::vector<std::uint32_t> degenerate = degenerate_faces(mesh);
     // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
@@ -423,18 +415,16 @@ arrange_faces_result arrange_found(mesh_view mesh,
             pair.b = kept_number[pair.b];
         }
     std::erase_if(found.pairs, [&](const face_pair& pair) { return !is_wanted(pair); });
-    return arrange_known(mesh, found.pairs, std::move(degenerate), where,
+    return arrange_known(mesh, found.pairs, std::move(degenerate),
                          part_of(options.progress, 0.5, 1.0));
 }
-
-}  // namespace
 
 arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
                                                     std::span<const face_pair> pairs,
                                                     std::vector<std::uint32_t> degenerate,
                                                     const progress_callback& progress) {
     arrange_faces_result result =
-        arrange_known(mesh, pairs, std::move(degenerate), nullptr, progress);
+        arrange_known(mesh, pairs, std::move(degenerate), progress);
     copy_points(mesh, result);
     return result;
 }
@@ -443,23 +433,6 @@ arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
                                                              const arrange_faces_options& options) {
     return arrange_wanted(
         mesh, [](const face_pair&) { return true; }, options);
-}
-
-arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
-                                                     function_ref<bool(const face_pair&)> is_wanted,
-                                                     const arrange_faces_options& options) {
-    return arrange_found(mesh, is_wanted, nullptr, options);
-}
-
-arrange_faces_result detail::arrange::arrange_where(mesh_view mesh, const is_box_wanted& is_wanted,
-                                                    const arrange_faces_options& options) {
-    const auto box_of = detail::base::face_boxes(mesh.points);
-    return arrange_found(
-        mesh,
-        [&](const face_pair& pair) {
-            return is_wanted(common_box(box_of(mesh.faces[pair.a]), box_of(mesh.faces[pair.b])));
-        },
-        &is_wanted, options);
 }
 
 arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {

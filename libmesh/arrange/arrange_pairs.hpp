@@ -3,7 +3,6 @@
 /// The arrangement of faces of which something is known.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/arrange/wanted_meetings.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -28,10 +27,5 @@ namespace treeform::detail::arrange {
 [[nodiscard]] arrange_faces_result arrange_wanted(mesh_view mesh,
                                                   function_ref<bool(const face_pair&)> is_wanted,
                                                   const arrange_faces_options& options);
-
-/// The same where faces may meet in a box that `is_wanted`, and do: first the common box of two
-/// faces is asked about, then that around what they have in common.
-[[nodiscard]] arrange_faces_result arrange_where(mesh_view mesh, const is_box_wanted& is_wanted,
-                                                 const arrange_faces_options& options);
 
 }  // namespace treeform::detail::arrange

@@ -1,4 +1,5 @@
 #include <libmesh/arrange/corner_line.hpp>
+#include <libmesh/exact/box_around.hpp>
 #include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
@@ -8,23 +9,11 @@
 
 namespace treeform::detail::arrange {
 
-aabb<double, 3> box_around(const implicit_point& p) {
-    aabb<double, 3> box;
-    for (std::size_t k = 0; k < 3; ++k) {  // rounded outward
-        const double at = p.center()[k];
-        const double off =
-            p.radius() > 0.0 ? p.radius() + 0x1p-51 * (std::abs(at) + p.radius()) : 0.0;
-        box.min[k] = at - off;
-        box.max[k] = at + off;
-    }
-    return box;
-}
-
 corner_line::corner_line(const std::array<implicit_point, 3>& corners, int along)
     : corners_(corners),
       along_(along),
       faces_(orient2d(along, corners[0], corners[1], corners[2])),
-      start_(box_around(corners[0])) {
+      start_(exact::box_around(corners[0])) {
     assert(faces_ != 0);
     is_given_ =
         std::ranges::all_of(corners, [](const implicit_point& p) { return p.radius() == 0.0; });

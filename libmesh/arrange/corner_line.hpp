@@ -46,7 +46,4 @@ class corner_line {
     aabb<double, 3> start_{};
 };
 
-/// A box around a point.
-[[nodiscard]] aabb<double, 3> box_around(const implicit_point& p);
-
 }  // namespace treeform::detail::arrange

@@ -28,12 +28,13 @@ class subdivision {
     /// The first node is the box.
     [[nodiscard]] std::vector<node> divide(const place& p) {
         nodes_.resize(1);
-        if (!state_.value()) divide(p, 0);
+        if (!state_.value()) static_cast<void>(divide(p, 0));
         return std::move(nodes_);
     }
 
   private:
-    void divide(const place& p, std::size_t own) {
+    /// Returns what has not been spent.
+    double divide(const place& p, std::size_t own) {
         halves parts;
         const auto settles = [&](const std::vector<settled_component>& gone) {
             const auto changes = division_.changes_by(gone, p);
@@ -46,7 +47,7 @@ class subdivision {
             !division_.halve(p, parts, settles)) {
             nodes_[own].axis = node::active;
             division_.mark_faces(p);
-            return;
+            return p.budget;
         }
         const std::size_t below = nodes_.size();
         nodes_[own] = {static_cast<std::uint8_t>(parts.axis), parts.at,
@@ -62,14 +63,19 @@ class subdivision {
             is_settled[i] = state_.value().has_value();
             settle(known[i], false);
         }
+        double unspent = 0.0;
+        for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
+            if (is_settled[i])
+                unspent += part[i]->budget +
+                           pay_of_face * static_cast<double>(p.faces - part[1 - i]->faces);
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
             if (is_settled[i]) continue;
-            if (is_settled[1 - i])
-                part[i]->budget += pay_of_face * static_cast<double>(p.faces - part[i]->faces);
+            part[i]->budget += unspent;
             settle(known[i], true);
-            divide(*part[i], below + i);
+            unspent = divide(*part[i], below + i);
             settle(known[i], false);
         }
+        return unspent;
     }
 
     void settle(const std::vector<range_change>& known, bool is_known) {

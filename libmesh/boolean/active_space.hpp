@@ -7,6 +7,7 @@
 #include <libmesh/boolean/surface_components.hpp>
 #include <treeform/tree/aabb.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -18,7 +19,7 @@ namespace treeform::detail::boolean {
 struct division_limits {
     double effort = 1.0;  ///< how much may be spent on it
     /// Boxes with that few faces are not halved: to arrange those costs less.
-    std::size_t faces_not_halved = 12;
+    std::size_t faces_not_halved = 16;
     /// Nor are boxes that few components reach into, none of which can settle them alone, as in an
     /// exclusive or.
     std::size_t few_components = 8;
@@ -52,6 +53,9 @@ class active_space {
     }
     [[nodiscard]] bool is_within_active(std::span<const aabb<double, 3>> corners) const {
         return halves_.is_within_active(corners);
+    }
+    [[nodiscard]] bool leaves_active(const std::array<aabb<double, 3>, 3>& corners) const {
+        return halves_.leaves_active(corners);
     }
 
   private:

@@ -7,10 +7,10 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/require_share.hpp>
-#include <libmesh/boolean/active_boolean.hpp>
+#include <libmesh/boolean/active_part.hpp>
+#include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/check_solid.hpp>
 #include <libmesh/boolean/clip_sheet.hpp>
-#include <libmesh/boolean/cut_operand.hpp>
 #include <libmesh/boolean/filled_gaps.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
@@ -39,9 +39,8 @@ namespace treeform {
 namespace {
 
 using detail::base::part_of;
-using detail::boolean::bundle;
-using detail::boolean::bundles;
-using detail::boolean::cut_operand;
+using detail::boolean::active_part;
+using detail::boolean::bundled_operands;
 using detail::boolean::finish_surface;
 using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
@@ -219,80 +218,6 @@ boolean_result evaluate(const char* function, std::span<const mesh_view> operand
                        [&] { return finished(make(operands, options), solid, options); });
 }
 
-/// Operands as bundles: one or two as they are, more as one mesh.
-class bundled_operands {
-  public:
-    explicit bundled_operands(std::span<const mesh_operand> operands) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            const bool is_given = k < operands.size() && operands.size() <= 2;
-            const prepared_mesh* mesh = is_given ? operands[k].prepared() : nullptr;
-            if (mesh == nullptr) {
-                own_[k] = prepared_mesh::borrow(is_given ? operands[k].view() : mesh_view{});
-                mesh = &own_[k];
-                once_ |= is_given;
-            }
-            take(k, detail::boolean::cut_operand_of(*mesh), *mesh);
-        }
-    }
-    explicit bundled_operands(joined_operands&& joined)
-        : joined_(detail::boolean::cut_operand_of(std::move(joined))), once_(true) {
-        take(0, *joined_, own_[0]);
-        take(1, detail::boolean::cut_operand_of(own_[1]), own_[1]);
-        all_[0].operand_of_face = joined_->joined.operand_of_face();
-    }
-    bundled_operands(const bundled_operands&) = delete;
-    bundled_operands& operator=(const bundled_operands&) = delete;
-
-    [[nodiscard]] const bundles& all() const { return all_; }
-    /// Whether nothing that is prepared will be asked for again.
-    [[nodiscard]] bool once() const { return once_; }
-
-    [[nodiscard]] open_input_edges open() const {
-        open_input_edges found = all_[0].known->open;
-        const open_input_edges& more = all_[1].known->open;
-        found.count += more.count;
-        found.boundary_edges += more.boundary_edges;
-        found.misoriented_edges += more.misoriented_edges;
-        return found;
-    }
-
-    /// Whether few of the faces of each bundle meet each other.
-    [[nodiscard]] bool have_few_pairs(const progress_callback& progress) const {
-        const auto are_few = [&](std::size_t k, double from, double to) {
-            return detail::boolean::few_own_pairs(*all_[k].mesh, part_of(progress, from, to))
-                .has_value();
-        };
-        return are_few(0, 0.0, 0.3) && are_few(1, 0.3, 0.6);
-    }
-    void find_pairs(const progress_callback& progress) {
-        for (bundle& b : all_) b.pairs = detail::boolean::own_pairs(*b.mesh, progress);
-    }
-
-  private:
-    void take(std::size_t k, const cut_operand& known, const prepared_mesh& given) {
-        all_[k].known = &known;
-        all_[k].mesh = &known.mesh(given);
-        all_[k].operand = static_cast<std::uint32_t>(k);
-    }
-
-    std::array<prepared_mesh, 2> own_{};
-    std::optional<cut_operand> joined_{};
-    bundles all_{};
-    bool once_ = false;
-};
-
-/// Where the surface of the result can be is told by what winds around what, before anything is cut.
-std::optional<boolean_result> in_active_space(joined_operands& joined,
-                                              const boolean_expression& expression,
-                                              const boolean_options& options, left_faces is_left) {
-    operand_edges edges = detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
-    if (const auto open = open_edges_of(joined, edges); open.count > 0)
-        return open_result(open_input(open, joined));
-    if (options.volumes) return std::nullopt;
-    return detail::boolean::boolean_in_active_space(joined, std::move(edges), expression, options,
-                                                    is_left);
-}
-
 /// What meets is cut, what is on both sides of its pieces told, and what bounds the result put
 /// together with the faces that nothing meets.
 near_result boolean_of(bundled_operands& operands, const boolean_expression& expression,
@@ -312,7 +237,8 @@ near_result boolean_of(bundled_operands& operands, const boolean_expression& exp
     detail::boolean::chosen_surface chosen;
     std::optional<operand_volumes> volumes;
     {
-        const detail::boolean::near_labels labels(operands.all(), near, arranged.cut);
+        const detail::boolean::near_labels labels(operands.all(), near, arranged.cut,
+                                                  operands.part());
         if (options.volumes) volumes = labels.volumes(options.inside);
         chosen = labels.choose(expression, options.inside);
     }
@@ -321,20 +247,33 @@ near_result boolean_of(bundled_operands& operands, const boolean_expression& exp
     made = detail::boolean::surface_of(operands.all(), near, arranged, std::move(chosen), options,
                                        is_left);
     made.result.volumes = volumes;
+    if (operands.part() != nullptr)
+        made.result.statistics.skipped_faces = operands.part()->left_out();
     return made;
+}
+
+/// Operands as one mesh, or what of it can be on the surface of the result.
+near_result boolean_of_joined(std::span<const mesh_view> views,
+                              const boolean_expression& expression, const boolean_options& options,
+                              left_faces is_left) {
+    joined_operands joined = join_usable(views);
+    operand_edges edges = detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
+    if (const auto open = open_edges_of(joined, edges); open.count > 0)
+        return {open_result(open_input(open, joined)), false};
+    near_result made;
+    if (!made.goes_on(options.progress, 0.1)) return made;
+    std::unique_ptr<const active_part> part;
+    if (!options.volumes)  // which ask for more than the expression does
+        part = active_part::find(joined, std::move(edges), expression, options.inside);
+    bundled_operands bundled(std::move(joined), std::move(part));
+    return boolean_of(bundled, expression, options, is_left);
 }
 
 near_result boolean_of(std::span<const mesh_operand> operands, std::span<const mesh_view> views,
                        const boolean_expression& expression, boolean_options options,
                        left_faces is_left = nullptr) {
     options.volumes = options.volumes && views.size() == 2;
-    if (views.size() > 2) {
-        joined_operands joined = join_usable(views);
-        if (auto made = in_active_space(joined, expression, options, is_left))
-            return {std::move(*made), false};
-        bundled_operands bundled(std::move(joined));
-        return boolean_of(bundled, expression, options, is_left);
-    }
+    if (views.size() > 2) return boolean_of_joined(views, expression, options, is_left);
     bundled_operands bundled(operands);
     double looked = 0.0;  // no share of the work where all is known
     const progress_callback report = [&](double done) {
@@ -344,11 +283,7 @@ near_result boolean_of(std::span<const mesh_operand> operands, std::span<const m
     const bool may_hide = bundled.open().count > 0 || !bundled.have_few_pairs(report);
     boolean_options rest = options;
     rest.progress = part_of(options.progress, looked, 1.0);
-    if (may_hide) {
-        joined_operands joined = join_usable(views);
-        if (auto made = in_active_space(joined, expression, rest, is_left))
-            return {std::move(*made), false};
-    }
+    if (may_hide) return boolean_of_joined(views, expression, rest, is_left);
     return boolean_of(bundled, expression, rest, is_left);
 }
 

@@ -84,7 +84,7 @@ void leave_out(const ids& degenerate, joined_operands& joined) {
             continue;
         }
         faces[left.size()] = faces[f];
-        left.push_back(f);
+        left.push_back(joined.number_of_face.empty() ? f : joined.number_of_face[f]);
     }
     faces.resize(left.size());
     joined.number_of_face = std::move(left);
@@ -112,13 +112,13 @@ known_pairs find_pairs(const prepared_mesh& mesh, const progress_callback& progr
 
 }  // namespace
 
-cut_operand cut_operand_of(joined_operands&& joined) {
+cut_operand cut_operand_of(joined_operands&& joined, bool is_closed) {
     cut_operand result;
     result.joined = std::move(joined);
     mesh& all = result.joined.all;
     check_usable(all.points);
     result.rough = topology::points_without_fan(all);
-    result.open = find_open(all, result.rough, result.joined.operand_of_face());
+    if (!is_closed) result.open = find_open(all, result.rough, result.joined.operand_of_face());
     if (const ids degenerate = degenerate_of(all); !degenerate.empty() && result.open.count == 0) {
         result.degenerate = degenerate.size();
         leave_out(degenerate, result.joined);
@@ -132,7 +132,7 @@ const cut_operand& cut_operand_of(const prepared_mesh& mesh) {
     constexpr base::slot<cut_operand> slot{base::slot_name::cut_operand};
     return base::prepared_slots::get(mesh, slot, [&] {
         const mesh_view view = mesh.view();
-        const auto join = [&] { return cut_operand_of(join_operands(std::array{view})); };
+        const auto join = [&] { return cut_operand_of(join_operands(std::array{view}), false); };
         // Points that none uses may be anything.
         if (base::used_points(view.points.size(), view.faces).size() != view.points.size())
             return join();

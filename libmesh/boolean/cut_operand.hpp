@@ -45,7 +45,9 @@ struct cut_operand {
 [[nodiscard]] const cut_operand& cut_operand_of(const prepared_mesh& mesh);
 
 /// What operands that were joined are cut as.
-[[nodiscard]] cut_operand cut_operand_of(joined_operands&& joined);
+///
+/// \param is_closed whether what is left out closes them, so that nobody need look
+[[nodiscard]] cut_operand cut_operand_of(joined_operands&& joined, bool is_closed);
 
 /// The pairs of a mesh's own faces that meet beyond shared corners, ascending; none where there are
 /// more than a pair for each 16 faces. The mesh keeps the answer.

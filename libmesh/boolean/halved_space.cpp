@@ -1,6 +1,9 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/halved_space.hpp>
 #include <libmesh/boolean/rough_corners.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace treeform::detail::boolean {
@@ -39,7 +42,86 @@ bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
     }
 }
 
+/// A convex polygon, points of which are off by no more than `off` from some of a triangle.
+///
+/// A point where an edge is cut is a + t (b - a) for some t from 0 to 1: with M for the largest
+/// coordinate, three roundings put it off by less than 2^-50 M from where exact numbers had, and a
+/// and b are off already.
+class clipped_triangle {
+  public:
+    explicit clipped_triangle(const std::array<box3, 3>& corners) : count_(corners.size()) {
+        for (std::size_t i = 0; i < count_; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                at_[i][k] = 0.5 * corners[i].min[k] + 0.5 * corners[i].max[k];
+                off_ = std::max(off_, corners[i].max[k] - corners[i].min[k]);
+                rounding_ = std::max({rounding_, -0x1p-50 * corners[i].min[k],
+                                      0x1p-50 * corners[i].max[k]});
+            }
+    }
+
+    /// What is on one side of a plane; empty where that is not known well enough.
+    [[nodiscard]] clipped_triangle side(std::size_t axis, double at, bool upper) const {
+        clipped_triangle part;
+        part.rounding_ = rounding_;
+        part.off_ = off_ + rounding_;
+        const auto is_in = [&](const point3& p) { return upper ? p[axis] >= at : p[axis] <= at; };
+        for (std::size_t i = 0; i < count_; ++i) {
+            const point3 &p = at_[i], &q = at_[i + 1 == count_ ? 0 : i + 1];
+            if (part.count_ + 2 > at_.size()) return {};
+            if (is_in(p)) part.at_[part.count_++] = p;
+            if (is_in(p) == is_in(q)) continue;
+            const double t = std::clamp((at - p[axis]) / (q[axis] - p[axis]), 0.0, 1.0);
+            part.at_[part.count_++] = base::plus(p, base::scaled(base::minus(q, p), t));
+        }
+        return part;
+    }
+
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+    /// Has a point of the triangle in it.
+    [[nodiscard]] box3 middle() const {
+        point3 sum{};
+        for (std::size_t i = 0; i < count_; ++i) sum = base::plus(sum, at_[i]);
+        const point3 mean = base::scaled(sum, 1.0 / static_cast<double>(count_));
+        const double off = off_ + 16.0 * rounding_;  // of the sum, with as many points as there may be
+        box3 box;
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.min[k] = mean[k] - off;
+            box.max[k] = mean[k] + off;
+        }
+        return box;
+    }
+
+  private:
+    clipped_triangle() = default;
+
+    std::size_t count_ = 0;
+    std::array<point3, 16> at_{};
+    double off_ = 0.0;
+    double rounding_ = 0.0;
+};
+
+/// Calls `visit(part)` for what settled leaves below node `at` have of a triangle, until that is true.
+template <class Visit>
+bool visit_settled(const std::vector<node>& nodes, std::size_t at, clipped_triangle part,
+                   const Visit& visit) {
+    for (;;) {
+        const node& n = nodes[at];
+        if (part.empty() || n.axis == node::active) return false;
+        if (n.axis == node::settled) return visit(part);
+        if (visit_settled(nodes, n.below, part.side(n.axis, n.at, false), visit)) return true;
+        part = part.side(n.axis, n.at, true);
+        at = n.below + 1;
+    }
+}
+
 }  // namespace
+
+bool halved_space::leaves_active(const std::array<box3, 3>& corners) const {
+    if (std::ranges::any_of(corners, [&](const box3& c) { return !reaches_active(c); })) return true;
+    return visit_settled(nodes, 0, clipped_triangle(corners), [&](const clipped_triangle& part) {
+        return !reaches_active(part.middle());
+    });
+}
 
 bool halved_space::reaches_active(const box3& part) const { return reaches(nodes, 0, part); }
 

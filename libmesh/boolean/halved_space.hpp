@@ -4,6 +4,7 @@
 
 #include <treeform/tree/aabb.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,9 @@ struct halved_space {
     /// Whether all points of the triangle or segment are, whose corners are somewhere in these boxes.
     /// False also for some of which it is true.
     [[nodiscard]] bool is_within_active(std::span<const aabb<double, 3>> corners) const;
+    /// Whether some point of a triangle is in no active one, whose corners are somewhere in these
+    /// boxes. False also for some of which it is true.
+    [[nodiscard]] bool leaves_active(const std::array<aabb<double, 3>, 3>& corners) const;
 };
 
 }  // namespace treeform::detail::boolean

@@ -168,4 +168,30 @@ joined_operands join_operands(std::span<const mesh_view> operands) {
     return joined;
 }
 
+joined_operands part_of(const joined_operands& joined, std::span<const std::uint32_t> faces) {
+    joined_operands part{{}, joined.first_face, joined.first_point, joined.number_of_point, {}};
+    part.all.faces.resize(faces.size());
+    part.number_of_face.resize(faces.size());
+    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            part.all.faces[i] = joined.all.faces[faces[i]];
+            part.number_of_face[i] =
+                joined.number_of_face.empty() ? faces[i] : joined.number_of_face[faces[i]];
+        }
+    });
+    const std::vector<std::uint32_t> used =
+        base::used_points(joined.all.points.size(), part.all.faces);
+    std::vector<std::uint32_t> new_of_old(joined.all.points.size(), 0);
+    part.all.points.resize(used.size());
+    part.number_of_point.resize(used.size());
+    for (std::uint32_t i = 0; i < used.size(); ++i) {
+        const std::uint32_t p = used[i];
+        new_of_old[p] = i;
+        part.all.points[i] = joined.all.points[p];
+        part.number_of_point[i] = joined.number_of_point.empty() ? p : joined.number_of_point[p];
+    }
+    renumber(part.all.faces, new_of_old);
+    return part;
+}
+
 }  // namespace treeform::detail::boolean

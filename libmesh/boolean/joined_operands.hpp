@@ -38,4 +38,8 @@ void check_coordinates(const char* function, std::span<const mesh_view> operands
 /// \pre the operands have been checked
 [[nodiscard]] joined_operands join_operands(std::span<const mesh_view> operands);
 
+/// The same with some of the faces, ascending, and their points alone.
+[[nodiscard]] joined_operands part_of(const joined_operands& joined,
+                                      std::span<const std::uint32_t> faces);
+
 }  // namespace treeform::detail::boolean

@@ -26,7 +26,9 @@ constexpr std::size_t labels_a_chunk = 64;
 /// How often operands wind around places beside their faces.
 class line_windings {
   public:
-    explicit line_windings(const bundles& operands) : operands_(operands) {
+    line_windings(const bundles& operands, const active_part* part)
+        : operands_(operands), part_(part) {
+        if (part != nullptr) box_ = part->components().box();
         for (std::size_t k = 0; k < 2; ++k) {
             trees_[k] = &build_face_tree(*operands[k].mesh);
             if (!operands[k].view().faces.empty()) box_.include(box_of_root(*trees_[k]));
@@ -52,6 +54,10 @@ class line_windings {
     [[nodiscard]] beside_face follow(const way_out& out) const {
         const aabb<double, 3> way = way_along(out.line, out.ahead);
         beside_face found{(out.line.faces() > 0) == out.ahead};
+        if (part_ != nullptr) {
+            found.of = part_->components().windings_beside(out.line, out.ahead);
+            return found;
+        }
         for (std::size_t k = 0; k < 2; ++k) {
             const mesh_view mesh = operands_[k].view();
             visit_beside(
@@ -74,6 +80,7 @@ class line_windings {
     }
 
     const bundles& operands_;
+    const active_part* part_;
     std::array<const tree<3>*, 2> trees_{};
     aabb<double, 3> box_{};
 };
@@ -88,19 +95,19 @@ ids operands_of(const bundles& operands, const near_faces& near) {
 }
 
 /// A face that is cut is near together with all at its edges, and so are all at an edge of other than
-/// two. So faces are missing only where a whole one ends.
-surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_face) {
-    const auto judge = [](const std::array<std::uint32_t, 2>&,
-                          std::span<const arrange::face_side> sides) {
-        return sides.size() == 1 ? arrange::edge_use::nothing : arrange::edge_use::all;
-    };
-    return arrange::find_closed_patches(cut, operand_of_face, judge);
+/// two. So faces are missing only where a whole one ends, or out of active space.
+surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_face,
+                           const active_places& places) {
+    return arrange::find_closed_patches(
+        cut, operand_of_face,
+        [&](const std::array<std::uint32_t, 2>& points,
+            std::span<const arrange::face_side> sides) { return places.use_of(points, sides); });
 }
 
 arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
-                                  const surface_patches& patches) {
+                                  const surface_patches& patches, const active_places& places) {
     arrange::patch_regions joined(patches);
-    joined.join_about_edges(local, cut);
+    joined.join_about_edges(local, cut, places.is_within());
     return joined.number();
 }
 
@@ -109,20 +116,23 @@ face turned_if(bool turn, const face& f) { return turn ? face{f[0], f[2], f[1]} 
 }  // namespace
 
 near_labels::near_labels(const bundles& operands, const near_faces& near,
-                         const mesh_arrangement& cut)
+                         const mesh_arrangement& cut, const active_part* part)
     : operands_(operands),
       cut_(cut),
       operand_of_face_(operands_of(operands, near)),
-      patches_(patches_of(cut, operand_of_face_)),
-      regions_(cut, operand_of_face_, patches_, regions_of(near.local, cut, patches_)),
+      places_(cut, part == nullptr ? nullptr : &part->space()),
+      patches_(patches_of(cut, operand_of_face_, places_)),
+      regions_(cut, operand_of_face_, patches_, regions_of(near.local, cut, patches_, places_)),
+      is_hidden_(places_.hidden(patches_)),
       far_{far_faces(*operands[0].mesh, near.is_near[0]),
            far_faces(*operands[1].mesh, near.is_near[1])} {
-    const line_windings windings(operands);
+    const line_windings windings(operands, part);
     const buffer<std::uint32_t> group = regions_.groups();
     ids asked;  // the first patch of each group
     std::vector<std::uint8_t> is_asked(regions_.size(), 0);
     for (std::uint32_t p = 0; p < patches_.count(); ++p)
-        if (std::exchange(is_asked[group[regions_.patches().front(p)]], std::uint8_t{1}) == 0)
+        if (is_hidden_[p] == 0 &&
+            std::exchange(is_asked[group[regions_.patches().front(p)]], std::uint8_t{1}) == 0)
             asked.push_back(p);
     seeds_.resize(asked.size());
     for_chunks(asked.size(), labels_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -160,7 +170,9 @@ chosen_surface near_labels::choose(const boolean_expression& expression, fill_ru
         cut_.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t f = begin; f < end; ++f) {
                 const std::uint32_t p = patches_.patch[f];
-                cells.cell_of_side[f] = {regions_.patches().front(p), regions_.patches().behind(p)};
+                const std::uint32_t front = regions_.patches().front(p);
+                cells.cell_of_side[f] = {front,
+                                         is_hidden_[p] != 0 ? front : regions_.patches().behind(p)};
             }
         });
     result.near = round::faces_around(cut_, cells, inside);

@@ -4,6 +4,8 @@
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/arrange/patches.hpp>
+#include <libmesh/boolean/active_part.hpp>
+#include <libmesh/boolean/active_places.hpp>
 #include <libmesh/boolean/far_faces.hpp>
 #include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/region_graph.hpp>
@@ -35,7 +37,9 @@ class near_labels {
     /// \pre   all operands are closed; what is referred to outlives this
     /// \cost  O(F' log F') for the F' faces of the arrangement, that of `far_faces`, and O(log F) a line
     /// \same  on any number of threads
-    near_labels(const bundles& operands, const near_faces& near, const mesh_arrangement& cut);
+    /// \param part  that the operands are, or null where they are whole
+    near_labels(const bundles& operands, const near_faces& near, const mesh_arrangement& cut,
+                const active_part* part = nullptr);
 
     /// \cost  a change of the expression for each patch, and O(F)
     [[nodiscard]] chosen_surface choose(const boolean_expression& expression, fill_rule rule) const;
@@ -55,8 +59,10 @@ class near_labels {
     const bundles& operands_;
     const mesh_arrangement& cut_;
     std::vector<std::uint32_t> operand_of_face_;  ///< of `near.local`
+    active_places places_;
     arrange::surface_patches patches_;
     region_graph regions_;
+    std::vector<std::uint8_t> is_hidden_;  ///< [patch]
     std::vector<region_seed> seeds_{};  ///< one for each group of regions
     std::array<far_faces, 2> far_;
     std::array<std::vector<far_side>, 2> sides_{};  ///< of each set

@@ -118,10 +118,13 @@ class divider {
             if (result.lower.is_settled && result.upper.is_settled) return true;
         }
         const double rest = p.budget - static_cast<double>(p.inside.size());
-        const std::size_t all = result.lower.inside.size() + result.upper.inside.size();
+        const auto weight = [](const half& part) {
+            const auto count = static_cast<double>(part.inside.size());
+            return count * count;
+        };
+        const double all = weight(result.lower) + weight(result.upper);
         for (half* part : {&result.lower, &result.upper}) {
-            part->budget =
-                rest * static_cast<double>(part->inside.size()) / static_cast<double>(all);
+            part->budget = all > 0.0 ? rest * weight(*part) / all : 0.0;
             for (const std::uint32_t c : p.unusual)
                 if (std::ranges::any_of(components_.unusual_boxes(c),
                                         [&](const aabb<double, 3>& unusual) {

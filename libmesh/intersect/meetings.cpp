@@ -1,4 +1,5 @@
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/exact/box_around.hpp>
 #include <libmesh/geometry/features.hpp>
 #include <libmesh/intersect/meetings.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -86,6 +87,22 @@ mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
                        result.points[i] = point_of(mesh, result.names[i]);
                });
     return result;
+}
+
+aabb<double, 3> box_of_meeting(mesh_view mesh, const face_pair& pair) {
+    const triangle_contact common =
+        treeform::intersect(triangle_of(mesh, pair.a), triangle_of(mesh, pair.b));
+    aabb<double, 3> box;
+    for (std::uint8_t k = 0; k < common.count; ++k) {
+        const contact at = common.ends[k];
+        if (geometry::is_corner(at.on_a))
+            box.include(mesh.points[mesh.faces[pair.a][place_of(at.on_a)]]);
+        else if (geometry::is_corner(at.on_b))
+            box.include(mesh.points[mesh.faces[pair.b][place_of(at.on_b)]]);
+        else
+            box.include(exact::box_around(point_of(mesh, name_of(mesh, pair.a, pair.b, at))));
+    }
+    return box;
 }
 
 }  // namespace treeform::detail::intersect

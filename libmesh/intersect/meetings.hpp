@@ -6,6 +6,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <array>
 #include <compare>
@@ -61,5 +62,8 @@ struct mesh_meetings {
 /// Looks at the pairs once more, and names what they have in common.
 /// \pre the faces of `pairs` are not degenerate
 [[nodiscard]] mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs);
+
+/// A box around what two faces have in common. \pre they meet, and are not degenerate
+[[nodiscard]] aabb<double, 3> box_of_meeting(mesh_view mesh, const face_pair& pair);
 
 }  // namespace treeform::detail::intersect

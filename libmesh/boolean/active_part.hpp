@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// The part of operands that can be on the surface of a result.
+
+#include <libmesh/boolean/active_space.hpp>
+#include <libmesh/boolean/joined_operands.hpp>
+#include <libmesh/boolean/operand_edges.hpp>
+#include <libmesh/boolean/surface_components.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace treeform::detail::boolean {
+
+/// What of operands that were joined reaches into active space: all else is dropped. Lines that tell
+/// what winds around a place pass through all of it, though.
+class active_part {
+  public:
+    /// None where operands hide too little of each other to look for it. How far to look follows
+    /// from what a few faces have beside them (`sample_faces`); the result is the same.
+    ///
+    /// \param joined closed operands; used up where there is a part
+    /// \param edges  theirs; used up
+    /// \cost  that of `surface_components` and `sample_faces`, then of `active_space`
+    /// \same  on any number of threads
+    [[nodiscard]] static std::unique_ptr<const active_part> find(
+        joined_operands& joined, operand_edges&& edges, const boolean_expression& expression,
+        fill_rule rule);
+    /// As far as `limits` say. \param components of `joined.all`
+    active_part(joined_operands&& joined, surface_components&& components,
+                const partial_expression& at_nowhere, const division_limits& limits);
+
+    [[nodiscard]] const active_space& space() const { return space_; }
+    /// Of all operands.
+    [[nodiscard]] const surface_components& components() const { return components_; }
+
+    /// The faces that reach into active space.
+    [[nodiscard]] joined_operands faces() const;
+    /// How many do not.
+    [[nodiscard]] std::size_t left_out() const;
+
+    /// Of the pairs of faces that meet, those that meet in active space.
+    /// \param mesh of some of its faces
+    [[nodiscard]] std::vector<face_pair> pairs_within(mesh_view mesh,
+                                                      std::span<const face_pair> pairs) const;
+
+  private:
+    joined_operands whole_;
+    surface_components components_;
+    active_space space_;
+};
+
+}  // namespace treeform::detail::boolean
