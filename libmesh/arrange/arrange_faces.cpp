@@ -423,8 +423,7 @@ arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
                                                     std::span<const face_pair> pairs,
                                                     std::vector<std::uint32_t> degenerate,
                                                     const progress_callback& progress) {
-    arrange_faces_result result =
-        arrange_known(mesh, pairs, std::move(degenerate), progress);
+    arrange_faces_result result = arrange_known(mesh, pairs, std::move(degenerate), progress);
     copy_points(mesh, result);
     return result;
 }

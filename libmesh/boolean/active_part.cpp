@@ -63,11 +63,10 @@ std::vector<face_pair> active_part::pairs_within(mesh_view mesh,
         for (std::size_t i = begin; i < end; ++i) {
             const auto& [a, b, kind] = pairs[i];
             const auto around = common_box(box_of(mesh.faces[a]), box_of(mesh.faces[b]));
-            is_within[i] =
-                space_.reaches_active(around) &&
-                        space_.reaches_active(intersect::box_of_meeting(mesh, pairs[i]))
-                    ? 1
-                    : 0;
+            is_within[i] = space_.reaches_active(around) &&
+                                   space_.reaches_active(intersect::box_of_meeting(mesh, pairs[i]))
+                               ? 1
+                               : 0;
         }
     });
     std::vector<face_pair> within;

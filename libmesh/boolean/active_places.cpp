@@ -27,11 +27,11 @@ std::array<aabb<double, 3>, 3> active_places::corners_of(const face& f) const {
 
 void active_places::find() {
     is_within_.resize(cut_.faces.size(), 0);
-    for_chunks(
-        cut_.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t f = begin; f < end; ++f)
-                is_within_[f] = space_->is_within_active(corners_of(cut_.faces[f])) ? 1 : 0;
-        });
+    for_chunks(cut_.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f)
+                       is_within_[f] = space_->is_within_active(corners_of(cut_.faces[f])) ? 1 : 0;
+               });
 }
 
 arrange::edge_use active_places::use_of(const std::array<std::uint32_t, 2>& points,
@@ -39,9 +39,8 @@ arrange::edge_use active_places::use_of(const std::array<std::uint32_t, 2>& poin
     using arrange::edge_use;
     if (sides.size() == 1) return edge_use::nothing;
     if (space_ == nullptr) return edge_use::all;
-    const auto within = std::ranges::count_if(sides, [&](arrange::face_side side) {
-        return is_within_[arrange::face_of(side)] != 0;
-    });
+    const auto within = std::ranges::count_if(
+        sides, [&](arrange::face_side side) { return is_within_[arrange::face_of(side)] != 0; });
     if (within == std::ssize(sides)) return edge_use::all;
     if (within > 0) return edge_use::junction;
     const std::array<aabb<double, 3>, 2> ends = {box_of(points[0]), box_of(points[1])};
@@ -51,14 +50,13 @@ arrange::edge_use active_places::use_of(const std::array<std::uint32_t, 2>& poin
 std::vector<std::uint8_t> active_places::hidden(const arrange::surface_patches& patches) const {
     std::vector<std::uint8_t> result(patches.count(), 0);
     if (space_ == nullptr) return result;
-    for_chunks(
-        result.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t p = begin; p < end; ++p) {
-                const std::uint32_t f = patches.first_face(static_cast<std::uint32_t>(p));
-                result[p] =
-                    is_within_[f] == 0 && space_->leaves_active(corners_of(cut_.faces[f])) ? 1 : 0;
-            }
-        });
+    for_chunks(result.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t p = begin; p < end; ++p) {
+            const std::uint32_t f = patches.first_face(static_cast<std::uint32_t>(p));
+            result[p] =
+                is_within_[f] == 0 && space_->leaves_active(corners_of(cut_.faces[f])) ? 1 : 0;
+        }
+    });
     return result;
 }
 

@@ -19,7 +19,7 @@ namespace treeform::detail::boolean {
 struct division_limits {
     double effort = 1.0;  ///< how much may be spent on it
     /// Boxes with that few faces are not halved: to arrange those costs less.
-    std::size_t faces_not_halved = 16;
+    std::size_t faces_not_halved = 12;
     /// Nor are boxes that few components reach into, none of which can settle them alone, as in an
     /// exclusive or.
     std::size_t few_components = 8;

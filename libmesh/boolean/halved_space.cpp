@@ -54,8 +54,8 @@ class clipped_triangle {
             for (std::size_t k = 0; k < 3; ++k) {
                 at_[i][k] = 0.5 * corners[i].min[k] + 0.5 * corners[i].max[k];
                 off_ = std::max(off_, corners[i].max[k] - corners[i].min[k]);
-                rounding_ = std::max({rounding_, -0x1p-50 * corners[i].min[k],
-                                      0x1p-50 * corners[i].max[k]});
+                rounding_ = std::max(
+                    {rounding_, -0x1p-50 * corners[i].min[k], 0x1p-50 * corners[i].max[k]});
             }
     }
 
@@ -82,7 +82,8 @@ class clipped_triangle {
         point3 sum{};
         for (std::size_t i = 0; i < count_; ++i) sum = base::plus(sum, at_[i]);
         const point3 mean = base::scaled(sum, 1.0 / static_cast<double>(count_));
-        const double off = off_ + 16.0 * rounding_;  // of the sum, with as many points as there may be
+        const double off =
+            off_ + 16.0 * rounding_;  // of the sum, with as many points as there may be
         box3 box;
         for (std::size_t k = 0; k < 3; ++k) {
             box.min[k] = mean[k] - off;
@@ -117,7 +118,8 @@ bool visit_settled(const std::vector<node>& nodes, std::size_t at, clipped_trian
 }  // namespace
 
 bool halved_space::leaves_active(const std::array<box3, 3>& corners) const {
-    if (std::ranges::any_of(corners, [&](const box3& c) { return !reaches_active(c); })) return true;
+    if (std::ranges::any_of(corners, [&](const box3& c) { return !reaches_active(c); }))
+        return true;
     return visit_settled(nodes, 0, clipped_triangle(corners), [&](const clipped_triangle& part) {
         return !reaches_active(part.middle());
     });

@@ -100,8 +100,9 @@ surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_fa
                            const active_places& places) {
     return arrange::find_closed_patches(
         cut, operand_of_face,
-        [&](const std::array<std::uint32_t, 2>& points,
-            std::span<const arrange::face_side> sides) { return places.use_of(points, sides); });
+        [&](const std::array<std::uint32_t, 2>& points, std::span<const arrange::face_side> sides) {
+            return places.use_of(points, sides);
+        });
 }
 
 arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
@@ -166,15 +167,15 @@ chosen_surface near_labels::choose(const boolean_expression& expression, fill_ru
     chosen_surface result;
     arrangement_cells cells;
     cells.cell_of_side.resize(cut_.faces.size());
-    for_chunks(
-        cut_.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t f = begin; f < end; ++f) {
-                const std::uint32_t p = patches_.patch[f];
-                const std::uint32_t front = regions_.patches().front(p);
-                cells.cell_of_side[f] = {front,
-                                         is_hidden_[p] != 0 ? front : regions_.patches().behind(p)};
-            }
-        });
+    for_chunks(cut_.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f) {
+                       const std::uint32_t p = patches_.patch[f];
+                       const std::uint32_t front = regions_.patches().front(p);
+                       cells.cell_of_side[f] = {
+                           front, is_hidden_[p] != 0 ? front : regions_.patches().behind(p)};
+                   }
+               });
     result.near = round::faces_around(cut_, cells, inside);
 
     const std::array faces{operands_[0].view().faces.size(), operands_[1].view().faces.size()};

@@ -63,7 +63,7 @@ class near_labels {
     arrange::surface_patches patches_;
     region_graph regions_;
     std::vector<std::uint8_t> is_hidden_;  ///< [patch]
-    std::vector<region_seed> seeds_{};  ///< one for each group of regions
+    std::vector<region_seed> seeds_{};     ///< one for each group of regions
     std::array<far_faces, 2> far_;
     std::array<std::vector<far_side>, 2> sides_{};  ///< of each set
 };

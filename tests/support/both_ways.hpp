@@ -4,23 +4,25 @@
 /// what is hidden, however little that is.
 
 #include <libmesh/arrange/arrange_pairs.hpp>
-#include <libmesh/boolean/active_cells.hpp>
-#include <libmesh/boolean/active_space.hpp>
+#include <libmesh/boolean/active_part.hpp>
+#include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
+#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/near_labels.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/surface_components.hpp>
-#include <libmesh/round/solid_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/exact_chain.hpp>
 #include <support/rational_volume.hpp>
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace test {
@@ -53,7 +55,7 @@ struct surface_of_some {
     std::size_t uncut = 0;     ///< pairs of the other faces that were not looked at
 };
 
-/// As `boolean` does where it pays, but always, and in boxes as small as `limits` says.
+/// As `boolean` does where operands hide each other, but always, and in boxes as small as `limits` says.
 /// \pre each operand bounds a solid
 inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
                                          const tf::boolean_expression& expression,
@@ -62,45 +64,40 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
                                          exact_numbers& numbers) {
     namespace detail = tf::detail::boolean;
     const std::vector<tf::mesh_view> views(operands.begin(), operands.end());
-    const detail::joined_operands joined = detail::join_operands(views);
+    detail::joined_operands joined = detail::join_operands(views);
     const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
-    const detail::operand_edges edges = detail::find_operand_edges(joined.all, operand_of_face);
-    const detail::surface_components components(joined.all, operand_of_face, edges);
-    const detail::partial_expression at_nowhere(expression, rule);
-    const detail::active_space space(components, at_nowhere, limits);
+    detail::surface_components components(joined.all, operand_of_face,
+                                          detail::find_operand_edges(joined.all, operand_of_face));
+    detail::bundled_operands bundled({}, std::make_unique<const detail::active_part>(
+                                             std::move(joined), std::move(components),
+                                             detail::partial_expression(expression, rule), limits));
+    bundled.find_pairs({});
+    const detail::bundles& all = bundled.all();
+    const auto near = detail::find_near_faces(all, bundled.once());
+    const auto arranged = tf::detail::arrange::arrange_pairs(near.local, near.pairs, {}, {});
+    const auto chosen =
+        detail::near_labels(all, near, arranged.cut, bundled.part()).choose(expression, rule);
+
     surface_of_some result;
-    std::vector<tf::face> faces;
-    std::vector<std::uint32_t> operand;
-    for (std::size_t f = 0; f < joined.all.faces.size(); ++f) {
-        if (space.is_active_face()[f] == 0) continue;
-        faces.push_back(joined.all.faces[f]);
-        operand.push_back(operand_of_face[f]);
-    }
-    result.left_out = joined.all.faces.size() - faces.size();
-    const tf::mesh_view active{joined.all.points, faces};
-    const auto corners = [&](std::uint32_t f) {
-        const auto& [a, b, c] = faces[f];
-        return tf::triangle3{active.points[a], active.points[b], active.points[c]};
+    result.left_out = bundled.part()->left_out();
+    result.uncut = detail::own_pairs(*all[0].mesh, {}).size() - all[0].pairs.size();
+    const auto triangle = [](tf::mesh_view mesh, std::size_t f) {
+        const auto& [a, b, c] = mesh.faces[f];
+        return tf::triangle3{mesh.points[a], mesh.points[b], mesh.points[c]};
     };
-    std::atomic<std::size_t> uncut = 0;
-    tf::arrange_faces_result arranged =
-        tf::detail::arrange::arrange_where(active,
-                                           [&](const tf::aabb<double, 3>& box) {
-                                               const bool wanted = space.reaches_active(box);
-                                               uncut += wanted ? 0 : 1;
-                                               return wanted;
-                                           },
-                                           {});
-    result.uncut = uncut;
-    arranged.cut.given_points = joined.all.points;
-    const auto cells =
-        find_active_cells(active, arranged.cut, operand, components, space, at_nowhere);
-    const auto chosen = tf::detail::round::faces_around(arranged.cut, cells.cells, cells.inside);
-    for (std::size_t f = 0; f < chosen.faces.size(); ++f) {
-        const auto& [a, b, c] = chosen.faces[f];
+    for (std::size_t f = 0; f < chosen.near.faces.size(); ++f) {
+        const auto& [a, b, c] = chosen.near.faces[f];
         add(result.chain, numbers,
             {arranged.cut.point(a), arranged.cut.point(b), arranged.cut.point(c)},
-            corners(arranged.cut.covers_of(chosen.face_of[f]).front().face));
+            triangle(near.local, arranged.cut.covers_of(chosen.near.face_of[f]).front().face));
+    }
+    const tf::mesh_view whole = all[0].view();
+    for (std::size_t f = 0; f < whole.faces.size(); ++f) {
+        const detail::fate of = chosen.fates[f];
+        if (of != detail::fate::kept && of != detail::fate::turned) continue;
+        const tf::triangle3 t = triangle(whole, f);
+        const bool kept = of == detail::fate::kept;
+        add(result.chain, numbers, {t[0], kept ? t[1] : t[2], kept ? t[2] : t[1]}, t);
     }
     return result;
 }

@@ -1,4 +1,5 @@
 #include <libmesh/arrange/corner_line.hpp>
+#include <libmesh/exact/box_around.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
@@ -132,11 +133,11 @@ TEST_CASE("corner_line: a face between whose edges there is no double has a line
 }
 
 TEST_CASE("corner_line: corners are in their boxes") {
-    const tf::aabb<double, 3> given = tf::detail::arrange::box_around(tf::point3{0.1, -2, 3});
+    const tf::aabb<double, 3> given = tf::detail::exact::box_around(tf::point3{0.1, -2, 3});
     CHECK(given.min[0] == 0.1);
     CHECK(given.max[1] == -2);
     for (const implicit_point& p : thin_face()) {
-        const tf::aabb<double, 3> box = tf::detail::arrange::box_around(p);
+        const tf::aabb<double, 3> box = tf::detail::exact::box_around(p);
         for (int k = 0; k < 3; ++k) {
             tf::point3 low, high;
             for (std::size_t j = 0; j < 3; ++j) {
