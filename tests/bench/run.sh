@@ -5,6 +5,7 @@
 # build/bench, runs the workloads named by id, or by its letter (all when none is), prints a table,
 # and writes DIR/bench.csv, DIR/machine.txt and, with pictures, DIR/index.html (default:
 # build/bench/results).
+# P1, which is a program of its own, prints a table and writes DIR/span.csv.
 # --quick ends within a few minutes, once built. Close other programs first.
 #
 # run.sh --write DIR [--size N] [FAMILY ...]: writes the families of meshes that are hard to decide
@@ -57,7 +58,13 @@ if [[ -n $families ]]; then
     cmake --build build/bench --target stress_files
     exec build/bench/tests/bench/stress_files ${size+"${size[@]}"} "$families" "${options[@]}"
 fi
-cmake --build build/bench --target treeform_bench
+spans=
+ids=()
+for option in "${options[@]}"; do
+    if [[ $option == P1 ]]; then spans=1; else ids+=("$option"); fi
+done
+[[ -z $spans ]] || cmake --build build/bench --target treeform_span
+[[ -n $spans && ${#ids[@]} == 0 ]] || cmake --build build/bench --target treeform_bench
 
 models=${TREEFORM_MODELS_DIR-}
 [[ -z $models || $models == /* ]] || models=$here/$models
@@ -65,6 +72,11 @@ models=${TREEFORM_MODELS_DIR-}
 read -r load _ </proc/loadavg
 awk -v load="$load" 'BEGIN { exit load < 0.7 }' &&
     echo "load average $load: other programs run; figures, those of two threads above all, suffer" >&2
-exec build/bench/tests/bench/bench ${models:+--models "$models"} \
-    --cache "${TREEFORM_BENCH_CACHE:-${TMPDIR:-/tmp}/treeform-bench-$(id -u)}" --out "$out" \
-    "${options[@]}"
+given=(${models:+--models "$models"}
+    --cache "${TREEFORM_BENCH_CACHE:-${TMPDIR:-/tmp}/treeform-bench-$(id -u)}")
+if [[ -n $spans ]]; then
+    mkdir -p "$out"
+    build/bench/tests/bench/span "${given[@]}" --out "$out/span.csv"
+    ((${#ids[@]})) || exit 0
+fi
+exec build/bench/tests/bench/bench "${given[@]}" --out "$out" "${ids[@]}"
