@@ -1,22 +1,30 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/arrange/cluster.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/arrange/point_numbering.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/checked_face_tree.hpp>
+#include <libmesh/base/compact.hpp>
 #include <libmesh/base/face_boxes.hpp>
+#include <libmesh/base/fill_stars.hpp>
+#include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/flattened.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
+#include <libmesh/base/parallel_sort.hpp>
 #include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/resize_all.hpp>
+#include <libmesh/base/running_sums.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/intersect/meetings.hpp>
 #include <libmesh/intersect/pairs_by_tree.hpp>
-#include <libmesh/intersect/same_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -30,6 +38,7 @@ namespace treeform {
 namespace {
 
 using detail::arrange::cut_cluster;
+using detail::arrange::point_numbering;
 using detail::base::part_of;
 using detail::intersect::meeting;
 using detail::intersect::mesh_meetings;
@@ -37,6 +46,8 @@ using detail::intersect::mesh_meetings;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 /// Beyond this, differences and the frames of clusters might overflow.
 constexpr double largest_coordinate = 0x1p1000;
+constexpr std::size_t clusters_a_chunk = 16;
+constexpr std::size_t meetings_a_chunk = std::size_t{1} << 10;
 
 bool is_degenerate(mesh_view mesh, const face& f) {
     if (!detail::base::has_three_corners(f)) return true;
@@ -78,20 +89,19 @@ unfit_faces find_unfit(mesh_view mesh) {
 
 /// \throws std::invalid_argument naming a corner that cannot be used
 std::vector<std::uint32_t> degenerate_faces(mesh_view mesh) {
-    const unfit_faces unfit = find_unfit(mesh);
+    unfit_faces unfit = find_unfit(mesh);
     for (const std::uint32_t corner : unfit.corner)
         if (corner != none)
             throw std::invalid_argument("treeform::arrange_faces: point " + std::to_string(corner) +
                                         " is not finite or beyond 2^1000");
-    std::vector<std::uint32_t> all;
-    for (const auto& part : unfit.degenerate) all.insert(all.end(), part.begin(), part.end());
-    return all;
+    return detail::base::flattened(std::move(unfit.degenerate));
 }
 
 /// Faces to be cut, those that overlap in one plane together.
 struct clusters {
-    std::vector<std::uint32_t> members;  ///< cluster by cluster, ascending within
-    std::vector<std::size_t> begin{0};   ///< clusters ascend by their first member
+    std::vector<std::uint32_t> members{};   ///< cluster by cluster, ascending within
+    std::vector<std::size_t> begin{0};      ///< clusters ascend by their first member
+    std::vector<std::uint8_t> is_member{};  ///< [F]
 
     [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t i) const {
@@ -110,84 +120,37 @@ bool spares(const meeting& m, std::uint32_t f) {
 
 clusters gather(std::size_t face_count, const mesh_meetings& met) {
     detail::base::union_find sets(face_count);
-    std::vector<std::uint32_t> cut;
-    for (const meeting& m : met.meetings) {
-        if (m.kind == overlap::area) sets.join(m.a, m.b);
-        for (const std::uint32_t f : {m.a, m.b})
-            if (!spares(m, f)) cut.push_back(f);
-    }
-    std::sort(cut.begin(), cut.end());
-    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
-    std::vector<std::array<std::uint32_t, 2>> rooted;
-    rooted.reserve(cut.size());
-    for (const std::uint32_t f : cut) rooted.push_back({sets.root(f), f});
-    std::sort(rooted.begin(), rooted.end());
     clusters result;
-    for (std::size_t i = 0; i < rooted.size(); ++i) {
-        result.members.push_back(rooted[i][1]);
-        if (i + 1 == rooted.size() || rooted[i + 1][0] != rooted[i][0])
-            result.begin.push_back(i + 1);
-    }
-    return result;
-}
-
-/// Final numbers of the points of all clusters.
-struct numbering {
-    std::vector<implicit_point> constructed;
-    std::vector<std::uint32_t> of_item;     ///< [named + made] final number
-    std::vector<std::uint32_t> made_begin;  ///< [clusters] item of a cluster's first made point
-};
-
-/// `named` are the points that meetings have; those that clusters made are taken from them.
-numbering number_points(std::size_t given, std::vector<implicit_point> named,
-                        std::vector<cut_cluster>& cuts) {
-    numbering result;
-    std::vector<implicit_point> items = std::move(named);
-    // Points are large: room for all that are made, and no more.
-    std::size_t made = 0;
-    for (const cut_cluster& c : cuts) made += c.made.size();
-    items.reserve(items.size() + made);
-    for (cut_cluster& c : cuts) {
-        result.made_begin.push_back(static_cast<std::uint32_t>(items.size()));
-        items.insert(items.end(), c.made.begin(), c.made.end());
-        c.made = std::vector<implicit_point>();
-    }
-    detail::base::union_find sets(items.size());
-    std::vector<std::uint32_t> given_of(items.size(), none);
-    std::vector<std::array<std::uint32_t, 2>> is_given;  // item, given point
-    for (const cut_cluster& c : cuts)
-        for (auto [a, b] : c.same) {
-            if (a > b) std::swap(a, b);
-            if (b < given)
-                throw std::invalid_argument("treeform::arrange_faces: points " + std::to_string(a) +
-                                            " and " + std::to_string(b) + " are equal");
-            const auto item = static_cast<std::uint32_t>(b - given);
-            if (a < given)
-                is_given.push_back({item, a});
-            else
-                sets.join(static_cast<std::uint32_t>(a - given), item);
-        }
-    for (const auto& [a, b] : detail::intersect::equal_pairs(items)) sets.join(a, b);
-    for (const auto& [item, point] : is_given) given_of[sets.root(item)] = point;
-
-    // Named points that no face kept (they are corners by another name, or lie in faces that a
-    // lower name covers) take no number of their own: a set is numbered once.
-    result.of_item.assign(items.size(), none);
-    std::size_t count = 0;
-    for (std::uint32_t i = 0; i < items.size(); ++i) {
-        const std::uint32_t root = sets.root(i);
-        if (given_of[root] != none) {
-            result.of_item[i] = given_of[root];
-        } else if (root == i) {
-            result.of_item[i] = static_cast<std::uint32_t>(given + count);
-            if (i != count) items[count] = items[i];
-            ++count;
-        } else {
-            result.of_item[i] = result.of_item[root];  // roots are the lowest of their set
-        }
-    }
-    items.resize(count);
-    result.constructed = std::move(items);
+    detail::base::resize_all(face_count, result.is_member);
+    for_chunks(
+        met.meetings.size(), meetings_a_chunk,
+        [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const meeting& m = met.meetings[i];
+                if (m.kind == overlap::area) sets.join(m.a, m.b);
+                for (const std::uint32_t f : {m.a, m.b})
+                    if (!spares(m, f))
+                        std::atomic_ref(result.is_member[f]).store(1, std::memory_order_relaxed);
+            }
+        });
+    std::vector<std::array<std::uint32_t, 2>> rooted;
+    detail::base::compact(
+        face_count, [&](std::size_t f) { return result.is_member[f] != 0; },
+        [&](std::size_t count) { rooted.resize(count); },
+        [&](std::size_t i, std::size_t place) {
+            const auto f = static_cast<std::uint32_t>(i);
+            rooted[place] = {sets.root(f), f};
+        });
+    detail::base::parallel_sort(rooted);
+    result.members.resize(rooted.size());
+    detail::base::compact(
+        rooted.size(),
+        [&](std::size_t i) {
+            result.members[i] = rooted[i][1];
+            return i + 1 == rooted.size() || rooted[i + 1][0] != rooted[i][0];
+        },
+        [&](std::size_t count) { result.begin.resize(count + 1); },
+        [&](std::size_t i, std::size_t place) { result.begin[place + 1] = i + 1; });
     return result;
 }
 
@@ -208,15 +171,23 @@ struct piece {
 };
 
 std::vector<piece> pieces_of(const std::vector<cut_cluster>& cuts) {
+    const std::vector<std::size_t> first = detail::base::running_sums(
+        cuts.size(), [&](std::size_t c) { return cuts[c].faces.size(); });
     std::vector<piece> pieces;
-    for (std::uint32_t c = 0; c < cuts.size(); ++c)
-        for (std::uint32_t i = 0; i < cuts[c].faces.size(); ++i)
-            pieces.push_back({cuts[c].covers[cuts[c].faces[i].covers].face, c, i});
+    detail::base::resize_all(first.back(), pieces);
+    for_chunks(cuts.size(), clusters_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t c = begin; c < end; ++c)
+            for (std::uint32_t i = 0; i < cuts[c].faces.size(); ++i)
+                pieces[first[c] + i] = {cuts[c].covers[cuts[c].faces[i].covers].face,
+                                        static_cast<std::uint32_t>(c), i};
+    });
     const auto before = [](const piece& p, const piece& q) {
         return p.first_cover != q.first_cover ? p.first_cover < q.first_cover : p.index < q.index;
     };
-    if (!std::is_sorted(pieces.begin(), pieces.end(), before))  // where no faces overlap, it is
-        std::sort(pieces.begin(), pieces.end(), before);
+    const auto falls = [&](std::size_t i) { return before(pieces[i + 1], pieces[i]); };
+    if (!pieces.empty() &&  // where no faces overlap, they ascend
+        detail::base::first_bad(pieces.size() - 1, falls) != pieces.size() - 1)
+        detail::base::parallel_sort(pieces, before);
     return pieces;
 }
 
@@ -224,8 +195,8 @@ std::vector<piece> pieces_of(const std::vector<cut_cluster>& cuts) {
 /// whole, and the pieces in between.
 class emitter {
   public:
-    emitter(mesh_view mesh, const std::vector<char>& is_not_whole,
-            const std::vector<cut_cluster>& cuts, const numbering& numbers)
+    emitter(mesh_view mesh, const std::vector<std::uint8_t>& is_not_whole,
+            const std::vector<cut_cluster>& cuts, const point_numbering& numbers)
         : mesh_(mesh),
           is_not_whole_(is_not_whole),
           cuts_(cuts),
@@ -238,8 +209,9 @@ class emitter {
     void write(mesh_arrangement& out) const {
         const std::size_t faces = begin_.back().face, covers = begin_.back().cover;
         detail::base::parallel_invoke(
-            [&] { out.faces.resize(faces); }, [&] { out.cover_begin.resize(faces + 1); },
-            [&] { out.covers.resize(covers); }, [&] { out.whole.resize(faces); });
+            [&] { detail::base::resize_all(faces, out.faces, out.whole); },
+            [&] { detail::base::resize_all(faces + 1, out.cover_begin); },
+            [&] { detail::base::resize_all(covers, out.covers); });
         for_chunks(mesh_.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t c) {
                        write(begin, end, begin_[c], out);
@@ -318,18 +290,21 @@ class emitter {
     }
 
     mesh_view mesh_;
-    const std::vector<char>& is_not_whole_;
+    const std::vector<std::uint8_t>& is_not_whole_;
     const std::vector<cut_cluster>& cuts_;
-    const numbering& numbers_;
+    const point_numbering& numbers_;
     std::vector<piece> pieces_;
     std::vector<place> begin_;  ///< [chunks + 1]
 };
 
 std::vector<cut_cluster> cut_clusters(mesh_view mesh, const mesh_meetings& met,
                                       const clusters& groups) {
-    constexpr std::size_t clusters_a_chunk = 16;
     constexpr std::size_t memory_a_chunk = std::size_t{1} << 15;  // enough for nearly all clusters
-    const detail::arrange::meetings_by_face by_face(met.meetings);
+    const detail::arrange::meetings_by_face by_face = detail::base::fill_stars<std::uint64_t>(
+        mesh.faces.size(), met.meetings.size(), [&](std::size_t i, const auto& visit) {
+            visit(met.meetings[i].a);
+            visit(met.meetings[i].b);
+        });
     std::vector<cut_cluster> cuts(groups.size());
     for_chunks(groups.size(), clusters_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -351,7 +326,7 @@ arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pa
     const std::size_t count = mesh.faces.size();
     mesh_meetings met = detail::intersect::meetings_of(mesh, pairs);
     result.pairs = met.meetings.size();
-    const clusters groups = gather(count, met);
+    clusters groups = gather(count, met);
     result.cut_faces = groups.members.size();
     std::vector<cut_cluster> cuts = cut_clusters(mesh, met, groups);
     std::vector<implicit_point> named = std::move(met.points);
@@ -361,11 +336,14 @@ arrange_faces_result arrange_known(mesh_view mesh, std::span<const face_pair> pa
         return result;
     }
 
-    numbering numbers = number_points(mesh.points.size(), std::move(named), cuts);
-    std::vector<char> is_not_whole(count, 0);
-    for (const std::uint32_t f : groups.members) is_not_whole[f] = 1;
+    point_numbering numbers =
+        detail::arrange::number_points(mesh.points.size(), std::move(named), cuts);
+    std::vector<std::uint8_t>& is_not_whole = groups.is_member;
     for (const std::uint32_t f : degenerate) is_not_whole[f] = 1;
     emitter(mesh, is_not_whole, cuts, numbers).write(result.cut);
+    for_chunks(cuts.size(), clusters_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t c = begin; c < end; ++c) cuts[c] = {};  // many small pieces of memory
+    });
     result.cut.constructed = std::move(numbers.constructed);
     result.degenerate = std::move(degenerate);
     if (progress) progress(1.0);
@@ -380,7 +358,7 @@ arrange_faces_result cancelled_result(std::vector<std::uint32_t> degenerate) {
 }
 
 void copy_points(mesh_view mesh, arrange_faces_result& result) {
-    if (!result.cancelled) result.cut.given_points.assign(mesh.points.begin(), mesh.points.end());
+    if (!result.cancelled) result.cut.given_points = detail::base::copied(mesh.points);
 }
 
 }  // namespace

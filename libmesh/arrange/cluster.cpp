@@ -363,29 +363,6 @@ class cutter {
 
 }  // namespace
 
-meetings_by_face::meetings_by_face(const std::vector<intersect::meeting>& meetings) {
-    std::vector<std::array<std::uint32_t, 2>> of_face;
-    of_face.reserve(2 * meetings.size());
-    for (std::uint32_t i = 0; i < meetings.size(); ++i)
-        of_face.insert(of_face.end(), {{meetings[i].a, i}, {meetings[i].b, i}});
-    std::sort(of_face.begin(), of_face.end());
-    which_.reserve(of_face.size());
-    for (const auto& [face, i] : of_face) {
-        if (faces_.empty() || faces_.back() != face) {
-            faces_.push_back(face);
-            begin_.push_back(which_.size());
-        }
-        which_.push_back(i);
-    }
-    begin_.push_back(which_.size());
-}
-
-std::span<const std::uint32_t> meetings_by_face::operator[](std::uint32_t face) const {
-    const std::size_t at = place_in(faces_, face);
-    if (at == faces_.size() || faces_[at] != face) return {};
-    return {which_.data() + begin_[at], begin_[at + 1] - begin_[at]};
-}
-
 cut_cluster cut(const cluster_input& input) { return cutter(input).run(); }
 
 }  // namespace treeform::detail::arrange

@@ -3,6 +3,7 @@
 /// The common subdivision of input faces that overlap in one plane.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
+#include <libmesh/base/fill_stars.hpp>
 #include <libmesh/exact/implicit_point.hpp>
 #include <libmesh/intersect/meetings.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -32,19 +33,8 @@ struct cut_cluster {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> same;
 };
 
-/// The meetings of each face that has any.
-class meetings_by_face {
-  public:
-    explicit meetings_by_face(const std::vector<intersect::meeting>& meetings);
-
-    /// Their numbers, ascending.
-    [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t face) const;
-
-  private:
-    std::vector<std::uint32_t> faces_;  ///< ascending
-    std::vector<std::size_t> begin_;    ///< [faces_ + 1]
-    std::vector<std::uint32_t> which_;  ///< face by face
-};
+/// The numbers of the meetings of each face, ascending.
+using meetings_by_face = base::faces_by_point<std::uint64_t>;
 
 /// What a cluster needs to know of the mesh.
 struct cluster_input {

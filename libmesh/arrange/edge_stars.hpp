@@ -15,7 +15,7 @@ namespace treeform::detail::arrange {
 /// those with edges from it to higher points. Every edge is at its lower end, once.
 ///
 /// \pre  every corner is less than `point_count`, and there are less than 2^31 faces
-/// \cost O(V + F) time, in parallel; 8 bytes a face and 4 a point, 16 a point on the way
+/// \cost O(V + F) time, in parallel; 8 bytes a face and 4 a point; 16 a face on the way
 /// \same on any number of threads
 class edge_stars {
   public:

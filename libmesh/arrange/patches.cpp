@@ -14,10 +14,9 @@
 namespace treeform::detail::arrange {
 namespace {
 
-constexpr std::size_t star_grain = std::size_t{1} << 9;  // points a chunk
-constexpr std::size_t face_grain = std::size_t{1} << 14;
-constexpr std::size_t ahead = 4;          // stars whose memory is under way
-constexpr std::size_t most_listed = 100;  // open edges
+constexpr std::size_t star_grain = std::size_t{1} << 7;  // points a chunk
+constexpr std::size_t ahead = 4;                         // stars whose memory is under way
+constexpr std::size_t most_listed = 100;                 // open edges
 
 /// Operands that a byte can tell; of others, and of faces with several covers, those are looked up.
 using short_operand = std::uint8_t;
@@ -27,7 +26,7 @@ constexpr auto not_told = std::numeric_limits<short_operand>::max();
 buffer<short_operand> sole_operands(const mesh_arrangement& cut,
                                     std::span<const std::uint32_t> operand_of_face) {
     buffer<short_operand> sole(cut.faces.size());
-    for_chunks(cut.faces.size(), face_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(cut.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
             const auto covers = cut.covers_of(f);
             const std::uint32_t operand =

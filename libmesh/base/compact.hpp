@@ -15,15 +15,16 @@ namespace treeform::detail::base {
 /// \same on any number of threads
 template <class Keep, class Resize, class Write>
 void compact(std::size_t count, const Keep& keep, const Resize& resize, const Write& write) {
-    std::vector<std::size_t> first(chunk_count(count, light_grain) + 1, 0);
-    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    constexpr std::size_t grain = std::size_t{1} << 11;
+    std::vector<std::size_t> first(chunk_count(count, grain) + 1, 0);
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         std::size_t kept = 0;
         for (std::size_t i = begin; i < end; ++i) kept += keep(i) ? 1 : 0;
         first[chunk + 1] = kept;
     });
     for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
     resize(first.back());
-    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         std::size_t place = first[chunk];
         for (std::size_t i = begin; i < end; ++i)
             if (keep(i)) write(i, place++);

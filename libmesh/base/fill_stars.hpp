@@ -6,6 +6,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,53 +15,82 @@
 
 namespace treeform::detail::base {
 
-/// Faces point by point, ascending at each.
-template <class Index>
+/// Faces point by point, ascending at each; or what else there is at points.
+template <class Index, class Value = std::uint32_t>
 struct faces_by_point {
-    buffer<Index> end;            ///< [points] where the faces of each end in `faces`
-    buffer<std::uint32_t> faces;  ///< point by point
+    buffer<Index> end;    ///< [points] where the faces of each end in `faces`
+    buffer<Value> faces;  ///< point by point
 
-    [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t point) const {
+    [[nodiscard]] std::span<const Value> operator[](std::size_t point) const {
         const std::size_t begin = point == 0 ? 0 : static_cast<std::size_t>(end[point - 1]);
         return {faces.data() + begin, static_cast<std::size_t>(end[point]) - begin};
     }
 };
 
-/// Lists every i < `faces` at the points that `for_corners(i, visit)` hands to `visit`. Cut into at
-/// most four slices of faces, since each has a count of its own at every point, and into fewer where
-/// there are few faces for all these counts.
+/// Lists the values of i < `count`, ascending, at the points that `for_values(i, visit)` hands with
+/// them to `visit(point, value)`: first those of each bucket of points, then of each point of it.
 ///
 /// \pre  `Index` holds the number of entries
+/// \cost O(points + entries) time; an entry's memory, and 4 bytes, on the way
 /// \same on any number of threads
+template <class Index, class Value, class ForValues>
+[[nodiscard]] faces_by_point<Index, Value> fill_lists(std::size_t points, std::size_t count,
+                                                      const ForValues& for_values) {
+    constexpr std::size_t least_slice = std::size_t{1} << 11, most_slices = 64;
+    constexpr int least_bits = 10, most_bucket_bits = 9;
+    const int shift =
+        std::max(static_cast<int>(std::bit_width(points)) - most_bucket_bits, least_bits);
+    const std::size_t buckets = (points >> shift) + 1;
+    const std::size_t slice = std::max(least_slice, chunk_count(count, most_slices));
+    const std::size_t slices = chunk_count(count, slice);
+    std::vector<std::size_t> next(slices * buckets, 0);  // of each slice in each bucket
+    for_chunks(count, slice, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::size_t* const size = next.data() + c * buckets;
+        for (std::size_t i = begin; i < end; ++i)
+            for_values(i, [&](std::uint32_t p, const Value&) { ++size[p >> shift]; });
+    });
+    std::vector<std::size_t> first(buckets + 1, 0);
+    for (std::size_t b = 0; b < buckets; ++b) {
+        first[b + 1] = first[b];
+        for (std::size_t c = 0; c < slices; ++c)
+            first[b + 1] += std::exchange(next[c * buckets + b], first[b + 1]);
+    }
+    struct entry {
+        Value value;
+        std::uint32_t point;
+    };
+    buffer<entry> entries(first[buckets]);
+    for_chunks(count, slice, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::size_t* const at = next.data() + c * buckets;
+        for (std::size_t i = begin; i < end; ++i)
+            for_values(i, [&](std::uint32_t p, const Value& value) {
+                entries[at[p >> shift]++] = {value, p};
+            });
+    });
+    faces_by_point<Index, Value> result;
+    result.end.resize(points);
+    result.faces.resize(entries.size());
+    for_chunks(buckets, 1, [&](std::size_t b, std::size_t, std::size_t) {
+        const std::size_t begin = b << shift, end = std::min((b + 1) << shift, points);
+        const std::span<const entry> mine(entries.data() + first[b], entries.data() + first[b + 1]);
+        Index* const place = result.end.data();
+        for (std::size_t p = begin; p < end; ++p) place[p] = 0;
+        for (const entry& e : mine) ++place[e.point];
+        Index total = static_cast<Index>(first[b]);
+        for (std::size_t p = begin; p < end; ++p) total += std::exchange(place[p], total);
+        for (const entry& e : mine)
+            result.faces[static_cast<std::size_t>(place[e.point]++)] = e.value;
+    });
+    return result;
+}
+
+/// The same for faces: those at the points that `for_corners(i, visit)` hands to `visit`.
 template <class Index, class ForCorners>
 [[nodiscard]] faces_by_point<Index> fill_stars(std::size_t points, std::size_t faces,
                                                const ForCorners& for_corners) {
-    constexpr std::size_t least_slice = std::size_t{1} << 14, most_slices = 4;
-    const std::size_t slice =
-        std::max({least_slice, chunk_count(faces, most_slices), points / most_slices});
-    // Counts of each slice, then where it puts its next face at each point.
-    std::vector<buffer<Index>> next(std::max<std::size_t>(chunk_count(faces, slice), 1));
-    for_chunks(next.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {
-        next[c].resize(points);
-        std::fill_n(next[c].data(), points, Index{0});
-        const std::size_t end = std::min((c + 1) * slice, faces);
-        for (std::size_t i = c * slice; i < end; ++i)
-            for_corners(i, [&](std::uint32_t p) { ++next[c][p]; });
+    return fill_lists<Index, std::uint32_t>(points, faces, [&](std::size_t i, const auto& visit) {
+        for_corners(i, [&](std::uint32_t p) { visit(p, static_cast<std::uint32_t>(i)); });
     });
-    faces_by_point<Index> result;
-    Index total = 0;
-    for (std::size_t p = 0; p < points; ++p)
-        for (buffer<Index>& of_slice : next) total += std::exchange(of_slice[p], total);
-    result.faces.resize(static_cast<std::size_t>(total));
-    for_chunks(faces, slice, [&](std::size_t begin, std::size_t end, std::size_t c) {
-        for (std::size_t i = begin; i < end; ++i)
-            for_corners(i, [&](std::uint32_t p) {
-                result.faces[static_cast<std::size_t>(next[c][p]++)] =
-                    static_cast<std::uint32_t>(i);
-            });
-    });
-    result.end = std::move(next.back());
-    return result;
 }
 
 }  // namespace treeform::detail::base

@@ -15,9 +15,10 @@ namespace treeform::detail::base {
 /// \cost O(count) calls, in parallel, of all in a chunk: as a rule none is bad
 /// \same on any number of threads
 template <class Bad>
-[[nodiscard]] std::size_t first_bad(std::size_t count, const Bad& bad) {
-    std::vector<std::size_t> first(chunk_count(count, light_grain), count);
-    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+[[nodiscard]] std::size_t first_bad(std::size_t count, const Bad& bad,
+                                    std::size_t grain = light_grain) {
+    std::vector<std::size_t> first(chunk_count(count, grain), count);
+    for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         bool any = false;  // without a branch in the loop
         for (std::size_t i = begin; i < end; ++i) any |= bad(i);
         if (!any) return;

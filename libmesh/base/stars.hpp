@@ -26,7 +26,7 @@ namespace treeform::detail::base {
 /// For each point, the numbers of the faces with three different corners that have it as one.
 ///
 /// \pre  every corner is less than `point_count`
-/// \cost O(V + F) time, in parallel; 12 bytes a face and 8 a point, 32 a point on the way
+/// \cost O(V + F) time, in parallel; 12 bytes a face and 8 a point; 24 a face on the way
 /// \same on any number of threads
 class stars {
   public:

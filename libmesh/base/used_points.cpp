@@ -1,4 +1,5 @@
 #include <libmesh/base/compact.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -16,7 +17,7 @@ std::vector<std::uint32_t> used_points(std::size_t point_count, std::span<const 
     std::vector<std::uint32_t> points;
     compact(
         point_count, [&](std::size_t p) { return used[p] != 0; },
-        [&](std::size_t count) { points.resize(count); },
+        [&](std::size_t count) { resize_all(count, points); },
         [&](std::size_t p, std::size_t place) { points[place] = static_cast<std::uint32_t>(p); });
     return points;
 }

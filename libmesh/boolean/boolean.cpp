@@ -7,6 +7,8 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/require_share.hpp>
+#include <libmesh/base/resize_all.hpp>
+#include <libmesh/base/running_sums.hpp>
 #include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/check_solid.hpp>
@@ -27,9 +29,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -41,6 +43,7 @@ namespace {
 using detail::base::part_of;
 using detail::boolean::active_part;
 using detail::boolean::bundled_operands;
+using detail::boolean::far_faces;
 using detail::boolean::finish_surface;
 using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
@@ -122,10 +125,15 @@ void check_expression(const char* function, std::span<const mesh_view> operands,
 /// Faces with an area no piece of which is the lowest face's there.
 std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t faces) {
     std::vector<std::uint8_t> is_lowest(faces, 0);
-    for (std::size_t f = 0; f < arranged.cut.faces.size(); ++f)
-        is_lowest[arranged.cut.covers_of(f).front().face] = 1;
+    for_chunks(arranged.cut.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f)
+                       std::atomic_ref(is_lowest[arranged.cut.covers_of(f).front().face])
+                           .store(1, std::memory_order_relaxed);
+               });
     for (const std::uint32_t f : arranged.degenerate) is_lowest[f] = 1;
-    return static_cast<std::uint64_t>(std::count(is_lowest.begin(), is_lowest.end(), 0));
+    const auto not_lowest = [&](std::size_t f) { return std::size_t{1} - is_lowest[f]; };
+    return detail::base::running_sums(faces, not_lowest).back();
 }
 
 boolean_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
@@ -166,8 +174,7 @@ boolean_result split_of(std::span<const mesh_view> operands, const boolean_optio
     auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.7));
     boolean_result result = with_counts(arranged);
     if (arranged.cancelled) return result;
-    std::vector<std::uint32_t> all(arranged.cut.faces.size());
-    std::iota(all.begin(), all.end(), 0U);
+    std::vector<std::uint32_t> all = detail::base::numbers_below(arranged.cut.faces.size());
     result.statistics.covered = count_covered(arranged, joined.all.faces.size());
     boolean_options as_cut = options;
     as_cut.simplify = false;
@@ -228,8 +235,17 @@ near_result boolean_of(bundled_operands& operands, const boolean_expression& exp
     detail::boolean::near_faces near =
         detail::boolean::find_near_faces(operands.all(), operands.once());
     if (!made.goes_on(options.progress, 0.4)) return made;
-    arrange_faces_result arranged = detail::arrange::arrange_pairs(
-        near.local, near.pairs, {}, part_of(options.progress, 0.4, 0.5));
+    arrange_faces_result arranged;
+    std::array<std::optional<far_faces>, 2> far;
+    const auto find_far = [&](std::size_t k) {
+        far[k].emplace(*operands.all()[k].mesh, near.is_near[k]);
+    };
+    detail::base::parallel_invoke(
+        [&] {
+            arranged = detail::arrange::arrange_pairs(near.local, near.pairs, {},
+                                                      part_of(options.progress, 0.4, 0.5));
+        },
+        [&] { find_far(0); }, [&] { find_far(1); });
     if (arranged.cancelled || !made.goes_on(options.progress, 0.5)) {
         made.result.certificate.status = status::cancelled;
         return made;
@@ -238,6 +254,7 @@ near_result boolean_of(bundled_operands& operands, const boolean_expression& exp
     std::optional<operand_volumes> volumes;
     {
         const detail::boolean::near_labels labels(operands.all(), near, arranged.cut,
+                                                  {std::move(*far[0]), std::move(*far[1])},
                                                   operands.part());
         if (options.volumes) volumes = labels.volumes(options.inside);
         chosen = labels.choose(expression, options.inside);

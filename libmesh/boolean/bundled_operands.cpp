@@ -1,5 +1,6 @@
-#include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -8,15 +9,17 @@
 namespace treeform::detail::boolean {
 
 bundled_operands::bundled_operands(std::span<const mesh_operand> operands) {
+    std::array<const prepared_mesh*, 2> meshes{};
     for (std::size_t k = 0; k < 2; ++k) {
-        const prepared_mesh* mesh = k < operands.size() ? operands[k].prepared() : nullptr;
-        if (mesh == nullptr) {
-            own_[k] = prepared_mesh::borrow(k < operands.size() ? operands[k].view() : mesh_view{});
-            mesh = &own_[k];
-            once_ |= k < operands.size();
-        }
-        take(k, cut_operand_of(*mesh), *mesh);
+        meshes[k] = k < operands.size() ? operands[k].prepared() : nullptr;
+        if (meshes[k] != nullptr) continue;
+        own_[k] = prepared_mesh::borrow(k < operands.size() ? operands[k].view() : mesh_view{});
+        meshes[k] = &own_[k];
+        once_ |= k < operands.size();
     }
+    for_chunks(2, 1, [&](std::size_t k, std::size_t, std::size_t) {
+        take(k, cut_operand_of(*meshes[k]), *meshes[k]);
+    });
 }
 
 bundled_operands::bundled_operands(joined_operands&& joined,
@@ -45,10 +48,13 @@ open_input_edges bundled_operands::open() const {
 }
 
 bool bundled_operands::have_few_pairs(const progress_callback& progress) const {
-    const auto are_few = [&](std::size_t k, double from, double to) {
-        return few_own_pairs(*all_[k].mesh, base::part_of(progress, from, to)).has_value();
-    };
-    return are_few(0, 0.0, 0.3) && are_few(1, 0.3, 0.6);
+    base::work_progress both(progress);
+    std::array<bool, 2> are_few{};
+    for_chunks(2, 1, [&](std::size_t k, std::size_t, std::size_t) {
+        const double from = k == 0 ? 0.0 : 0.3;
+        are_few[k] = few_own_pairs(*all_[k].mesh, both.part(from, from + 0.3)).has_value();
+    });
+    return are_few[0] && are_few[1];
 }
 
 void bundled_operands::find_pairs(const progress_callback& progress) {

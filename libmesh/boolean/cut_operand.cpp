@@ -1,6 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
 #include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/used_points.hpp>
@@ -139,8 +140,12 @@ const cut_operand& cut_operand_of(const prepared_mesh& mesh) {
         check_usable(view.points);
         if (weld::few_equal_points(view.points) || !degenerate_of(view).empty()) return join();
         cut_operand result;
-        result.rough = topology::points_without_fan(view);
-        result.open = find_open(view, result.rough, {});
+        base::parallel_invoke(
+            [&] {
+                result.rough = topology::points_without_fan(view);
+                result.open = find_open(view, result.rough, {});
+            },
+            [&] { static_cast<void>(build_face_tree(mesh)); });  // asked for next
         return result;
     });
 }

@@ -1,4 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/compact.hpp>
+#include <libmesh/base/flattened.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/far_faces.hpp>
@@ -8,6 +10,7 @@
 #include <atomic>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace treeform::detail::boolean {
 namespace {
@@ -17,6 +20,14 @@ constexpr std::size_t lots_a_chunk = light_grain / lot;
 constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
 
 std::size_t lots_of(std::size_t faces) { return (faces + lot - 1) / lot; }
+
+/// Several threads may do so at the same time.
+void lower(std::uint32_t& number, std::uint32_t to) {
+    const std::atomic_ref at(number);
+    std::uint32_t now = at.load(std::memory_order_relaxed);
+    while (now > to && !at.compare_exchange_weak(now, to, std::memory_order_relaxed)) {
+    }
+}
 
 /// Finds the clusters of one lot after the other.
 class lot_reader {
@@ -86,21 +97,17 @@ face_clusters find_clusters(const prepared_mesh& mesh) {
     });
     std::partial_sum(first.begin(), first.end(), first.begin());
     result.first_place.resize(first.back());
-    std::vector<std::uint32_t> lowest(mesh.view().points.size(),
-                                      no_number);  // cluster at each point
+    buffer<std::uint32_t> lowest(mesh.view().points.size());  // cluster at each point
+    for_chunks(lowest.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        std::fill(lowest.data() + begin, lowest.data() + end, no_number);
+    });
     for_chunks(lots, lots_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t l = begin; l < end; ++l) {
             const auto [from, to] = places(l);
             for (std::size_t i = to; i-- > from;) {
                 const std::uint32_t c = result.of_place[i] += first[l];
                 result.first_place[c] = static_cast<std::uint32_t>(i);
-                for (const std::uint32_t p : faces[face_at[i]]) {
-                    const std::atomic_ref at(lowest[p]);
-                    std::uint32_t now = at.load(std::memory_order_relaxed);
-                    while (now > c &&
-                           !at.compare_exchange_weak(now, c, std::memory_order_relaxed)) {
-                    }
-                }
+                for (const std::uint32_t p : faces[face_at[i]]) lower(lowest[p], c);
             }
         }
     });
@@ -118,8 +125,7 @@ face_clusters find_clusters(const prepared_mesh& mesh) {
             mine.erase(std::unique(mine.begin() + own, mine.end()), mine.end());
         }
     });
-    for (const auto& part : links)
-        result.linked.insert(result.linked.end(), part.begin(), part.end());
+    result.linked = base::flattened(std::move(links));
     return result;
 }
 
@@ -148,12 +154,21 @@ far_faces::far_faces(const prepared_mesh& mesh, std::span<const std::uint8_t> is
     });
     base::union_find alike(clusters + mesh_.points.size());
     std::vector<std::uint8_t> is_beside(clusters, 0);  // one that is mixed
-    for (const auto& [a, b] : clusters_.linked) {
-        if (is_mixed_[a] == 0 && is_mixed_[b] == 0)
-            alike.join(a, b);
-        else
-            is_beside[a] = is_beside[b] = 1;
-    }
+    const auto is_beside_mixed = [&](std::uint32_t c) {
+        std::atomic_ref(is_beside[c]).store(1, std::memory_order_relaxed);
+    };
+    for_chunks(clusters_.linked.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                       const auto [a, b] = clusters_.linked[i];
+                       if (is_mixed_[a] == 0 && is_mixed_[b] == 0) {
+                           alike.join(a, b);
+                       } else {
+                           is_beside_mixed(a);
+                           is_beside_mixed(b);
+                       }
+                   }
+               });
     // Calls `visit(place)` for the faces that are not near of mixed clusters and those beside them.
     const auto for_faces = [&](const auto& visit) {
         for_chunks(lots_of(faces), lots_a_chunk,
@@ -184,22 +199,28 @@ far_faces::far_faces(const prepared_mesh& mesh, std::span<const std::uint8_t> is
 /// Roots, the lowest of each set, become numbers of sets.
 void far_faces::number_sets() {
     const std::size_t clusters = is_mixed_.size(), faces = face_at_.size();
-    std::vector<std::uint32_t> number(set_.size(), no_number);
-    const auto enter = [&](std::uint32_t root, std::size_t place) {
-        if (number[root] != no_number) return;
-        number[root] = static_cast<std::uint32_t>(faces_.size());
-        faces_.push_back(face_at_[place]);
-    };
-    for (std::size_t c = 0; c < clusters; ++c)
-        if (is_mixed_[c] == 0) enter(set_[c], clusters_.first_place[c]);
-    for (std::size_t l = 0, c = 0; l < lots_of(faces); ++l) {
-        const std::size_t end = std::min((l + 1) * lot, faces);
-        bool mixed = false;
-        for (; c < clusters && clusters_.first_place[c] < end; ++c) mixed |= is_mixed_[c] != 0;
-        for (std::size_t i = l * lot; mixed && i < end; ++i)
+    buffer<std::uint32_t> number(
+        set_.size());  // the lowest place that stands for a set, then its number
+    for_chunks(number.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        std::fill(number.data() + begin, number.data() + end, no_number);
+    });
+    for_chunks(clusters, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t c = begin; c < end; ++c)
+            if (is_mixed_[c] == 0) lower(number[set_[c]], clusters_.first_place[c]);
+    });
+    for_chunks(faces, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
             if (is_mixed_[clusters_.of_place[i]] != 0 && is_near_[i] == 0)
-                enter(set_[clusters + mesh_.faces[face_at_[i]][0]], i);
-    }
+                lower(number[set_[clusters + mesh_.faces[face_at_[i]][0]]],
+                      static_cast<std::uint32_t>(i));
+    });
+    base::compact(
+        number.size(), [&](std::size_t root) { return number[root] != no_number; },
+        [&](std::size_t count) { faces_.resize(count); },
+        [&](std::size_t root, std::size_t place) {
+            faces_[place] = face_at_[number[root]];
+            number[root] = static_cast<std::uint32_t>(place);
+        });
     for_chunks(set_.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) set_[i] = number[set_[i]];
     });

@@ -1,5 +1,7 @@
+#include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/merged_cuts.hpp>
 #include <libmesh/round/round_surface.hpp>
@@ -30,7 +32,8 @@ boolean_result with_counts(const arrange_faces_result& arranged) {
 }
 
 void sort_by_source(std::vector<std::uint32_t>& source, std::vector<face>& faces) {
-    if (std::ranges::is_sorted(source)) return;
+    const auto falls = [&](std::size_t i) { return source[i] > source[i + 1]; };
+    if (source.empty() || base::first_bad(source.size() - 1, falls) == source.size() - 1) return;
     std::vector<std::uint32_t> order(source.size());
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return source[i]; });
@@ -78,10 +81,15 @@ void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_
     result.vanished_at = std::move(r.vanished_at);
     origins.for_sources_in(r.face_of,
                            [&](std::uint32_t f) { (*is_left)[joined.face_source(f).index] = 1; });
-    for (std::uint32_t& f : r.face_of) f = face_of[f];
+    for_chunks(r.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f) r.face_of[f] = face_of[r.face_of[f]];
+    });
     sort_by_source(r.face_of, result.mesh.faces);
-    base::parallel_invoke([&] { result.face_source.resize(r.face_of.size()); },
-                          [&] { result.vertex_source.resize(r.point_of.size()); });
+    const std::size_t points = r.point_of.size();
+    base::parallel_invoke(
+        [&] { base::resize_all(r.face_of.size(), result.face_source); },
+        [&] { base::resize_all(points, result.vertex_source); },
+        [&] { base::resize_all(merges_faces(options) ? points : 0, result.face_of_cut_vertex); });
     for_chunks(r.face_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             result.face_source[f] = joined.face_source(r.face_of[f]);
@@ -93,10 +101,11 @@ void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_
                            result.vertex_source[p] = joined.point_source(r.point_of[p]);
                });
     if (!merges_faces(options)) return;
-    for (const std::uint32_t p : r.point_of)
-        result.face_of_cut_vertex.push_back(p < given || p == rounded_surface::none
-                                                ? operand_element{}
-                                                : joined.face_source(face_of_point[p - given]));
+    for_chunks(points, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (const std::uint32_t p = r.point_of[i]; p >= given && p != rounded_surface::none)
+                result.face_of_cut_vertex[i] = joined.face_source(face_of_point[p - given]);
+    });
 }
 
 }  // namespace treeform::detail::boolean

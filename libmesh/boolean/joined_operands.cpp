@@ -1,6 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/operand_name.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
@@ -160,8 +161,8 @@ joined_operands join_operands(std::span<const mesh_view> operands) {
         points += operand.points.size();
         faces += operand.faces.size();
     }
-    base::parallel_invoke([&] { joined.all.points.resize(points); },
-                          [&] { joined.all.faces.resize(faces); });
+    base::parallel_invoke([&] { base::resize_all(points, joined.all.points); },
+                          [&] { base::resize_all(faces, joined.all.faces); });
     append_all(operands, joined);
     keep_used(joined);
     join_equal(joined);

@@ -1,6 +1,9 @@
 #include <libmesh/base/compact.hpp>
+#include <libmesh/base/resize_all.hpp>
+#include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/merged_cuts.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
+#include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -36,22 +39,39 @@ std::vector<std::uint32_t> faces_at_cuts(const exact_surface& surface) {
     return found;
 }
 
+/// Calls `visit(i, number)` for all numbers.
+template <class Visit>
+void for_listed(const std::vector<std::uint32_t>& numbers, const Visit& visit) {
+    for_chunks(numbers.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) visit(i, numbers[i]);
+    });
+}
+
 /// Some faces of a surface, with points of their own. Takes the constructed ones, and gives them
 /// back when it is destroyed.
 class part_of_surface {
   public:
     part_of_surface(exact_surface& whole, const std::vector<std::uint32_t>& faces) : whole_(whole) {
-        for (const std::uint32_t f : faces)
-            for (const std::uint32_t p : whole.faces[f])
-                if (p < whole.given.size()) point_of_.push_back(p);
-        std::sort(point_of_.begin(), point_of_.end());
-        point_of_.erase(std::unique(point_of_.begin(), point_of_.end()), point_of_.end());
-        for (const std::uint32_t p : point_of_) part_.given.push_back(whole.given[p]);
-        for (const std::uint32_t f : faces) {
-            part_.faces.push_back(whole.faces[f]);
-            for (std::uint32_t& p : part_.faces.back()) p = to_part(p);
-            part_.sound.push_back(whole.sound[f]);
-        }
+        const std::size_t given = whole.given.size();
+        base::resize_all(faces.size(), part_.faces, part_.sound);
+        for_listed(faces, [&](std::size_t i, std::uint32_t f) {
+            part_.faces[i] = whole.faces[f];
+            part_.sound[i] = whole.sound[f];
+        });
+        point_of_ = base::used_points(given + whole.constructed.size(), part_.faces);
+        point_of_.resize(static_cast<std::size_t>(std::ranges::lower_bound(point_of_, given) -
+                                                  point_of_.begin()));
+        buffer<std::uint32_t> number(given);
+        part_.given.resize(point_of_.size());
+        for_listed(point_of_, [&](std::size_t i, std::uint32_t p) {
+            number[p] = static_cast<std::uint32_t>(i);
+            part_.given[i] = whole.given[p];
+        });
+        for_listed(faces, [&](std::size_t i, std::uint32_t) {
+            for (std::uint32_t& p : part_.faces[i])
+                p = p < given ? number[p]
+                              : static_cast<std::uint32_t>(p - given + point_of_.size());
+        });
         part_.constructed = std::move(whole.constructed);
     }
     part_of_surface(const part_of_surface&) = delete;
@@ -69,13 +89,6 @@ class part_of_surface {
     }
 
   private:
-    [[nodiscard]] std::uint32_t to_part(std::uint32_t p) const {
-        if (p >= whole_.given.size())
-            return static_cast<std::uint32_t>(p - whole_.given.size() + point_of_.size());
-        return static_cast<std::uint32_t>(std::lower_bound(point_of_.begin(), point_of_.end(), p) -
-                                          point_of_.begin());
-    }
-
     exact_surface& whole_;
     exact_surface part_{};
     std::vector<std::uint32_t> point_of_{};  ///< given ones, ascending
@@ -119,14 +132,20 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
     } else {
         listed = faces_at_cuts(surface);
     }
+    // Sources ascend, so that the lowest is that of the first face.
     std::vector<std::uint32_t> source_of_point(surface.constructed.size(), operand_element::none);
-    for (std::size_t i = listed.size(); i-- > 0;)
-        for (const std::uint32_t p : surface.faces[listed[i]])
-            if (p >= surface.given.size())
-                source_of_point[p - surface.given.size()] = source_of[listed[i]];
-    std::vector<std::uint32_t> plane_of;
-    plane_of.reserve(listed.size());
-    for (const std::uint32_t f : listed) plane_of.push_back(source_of[f]);
+    std::vector<std::uint32_t> plane_of(listed.size());
+    for_listed(listed, [&](std::size_t i, std::uint32_t f) {
+        plane_of[i] = source_of[f];
+        for (const std::uint32_t p : surface.faces[f]) {
+            if (p < surface.given.size()) continue;
+            const std::atomic_ref at(source_of_point[p - surface.given.size()]);
+            std::uint32_t now = at.load(std::memory_order_relaxed);
+            while (now > source_of[f] &&
+                   !at.compare_exchange_weak(now, source_of[f], std::memory_order_relaxed)) {
+            }
+        }
+    });
     merged_faces merged;
     {
         const part_of_surface part(surface, listed);
@@ -136,31 +155,43 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
                              .plane_of = plane_of,
                              .group_of = group_of,
                              .stays = options.simplify ? std::span<const std::uint8_t>() : sound});
-        for (face& f : merged.faces) f = part.to_whole(f);
+        for_chunks(merged.faces.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t f = begin; f < end; ++f)
+                           merged.faces[f] = part.to_whole(merged.faces[f]);
+                   });
     }
     if (origins != nullptr) tell(*origins, source_of, listed, merged);
     std::vector<face> faces;
     std::vector<std::uint8_t> sound;
     std::vector<std::uint32_t> source;
     const std::size_t count = surface.faces.size() - listed.size() + merged.faces.size();
-    faces.reserve(count);
-    sound.reserve(count);
-    source.reserve(count);
-    const auto put = [&](const face& corners, std::size_t f, bool is_new) {
-        faces.push_back(corners);
-        sound.push_back(is_new ? std::uint8_t{0} : surface.sound[f]);
-        source.push_back(source_of[f]);
-        if (origins != nullptr) origins->of_face.push_back(static_cast<std::uint32_t>(f));
-    };
-    for (std::size_t f = 0, part = 0, next = 0; f < surface.faces.size(); ++f) {
-        if (part == listed.size() || listed[part] != f) {
-            put(surface.faces[f], f, false);
-            continue;
-        }
-        for (; next < merged.faces.size() && merged.face_of[next] == part; ++next)
-            put(merged.faces[next], f, merged.is_new[next] != 0);
-        ++part;
-    }
+    base::resize_all(count, faces, sound, source);
+    if (origins != nullptr) base::resize_all(count, origins->of_face);
+    for_chunks(
+        surface.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            const auto before = [](const std::vector<std::uint32_t>& all, std::size_t f) {
+                return static_cast<std::size_t>(std::ranges::lower_bound(all, f) - all.begin());
+            };
+            std::size_t part = before(listed, begin), next = before(merged.face_of, part);
+            std::size_t place = begin - part + next;
+            const auto put = [&](const face& corners, std::size_t f, bool is_new) {
+                faces[place] = corners;
+                sound[place] = is_new ? std::uint8_t{0} : surface.sound[f];
+                source[place] = source_of[f];
+                if (origins != nullptr) origins->of_face[place] = static_cast<std::uint32_t>(f);
+                ++place;
+            };
+            for (std::size_t f = begin; f < end; ++f) {
+                if (part == listed.size() || listed[part] != f) {
+                    put(surface.faces[f], f, false);
+                    continue;
+                }
+                for (; next < merged.faces.size() && merged.face_of[next] == part; ++next)
+                    put(merged.faces[next], f, merged.is_new[next] != 0);
+                ++part;
+            }
+        });
     surface.faces = std::move(faces);
     surface.sound = std::move(sound);
     source_of = std::move(source);

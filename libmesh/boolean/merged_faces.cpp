@@ -1,12 +1,21 @@
 #include <libmesh/arrange/face_side.hpp>
+#include <libmesh/base/compact.hpp>
+#include <libmesh/base/fill_stars.hpp>
+#include <libmesh/base/flattened.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
+#include <libmesh/base/resize_all.hpp>
+#include <libmesh/base/running_sums.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
 #include <libmesh/boolean/region_triangles.hpp>
+#include <libmesh/weld/edge_uses.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -15,21 +24,11 @@ namespace treeform::detail::boolean {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-/// A face's side from one corner to the next, by the edge it is.
-struct kept_edge {
-    std::uint32_t low;
-    std::uint32_t high;
-    std::uint32_t face;
-    std::uint32_t from;  ///< the end where the face's side begins
-};
+constexpr std::size_t face_grain = std::size_t{1} << 10;
+constexpr std::size_t point_grain = std::size_t{1} << 8;
 
 /// An edge of which something is to be kept: a region ends at it.
-struct crease {
-    std::array<std::uint32_t, 2> ends;
-    std::size_t begin;  ///< of its uses
-    std::size_t end;
-};
+using crease = weld::used_edge;
 
 class merger {
   public:
@@ -37,41 +36,15 @@ class merger {
         : surface_(surface),
           planes_(planes),
           point_count_(surface.given.size() + surface.constructed.size()),
-          regions_(surface.faces.size()) {}
+          edges_(point_count_, surface.faces, weld::repeated_corners::left_out) {}
 
     merged_faces run() {
-        collect_uses();
         find_regions();
         find_spare_points();
         return rebuild();
     }
 
   private:
-    void collect_uses() {
-        uses_.reserve(3 * surface_.faces.size());
-        for (std::uint32_t f = 0; f < surface_.faces.size(); ++f)
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t a = surface_.faces[f][i];
-                const std::uint32_t b = surface_.faces[f][(i + 1) % 3];
-                uses_.push_back({std::min(a, b), std::max(a, b), f, a});
-            }
-        std::sort(uses_.begin(), uses_.end(), [](const kept_edge& u, const kept_edge& v) {
-            if (u.low != v.low) return u.low < v.low;
-            return u.high != v.high ? u.high < v.high : u.face < v.face;
-        });
-    }
-
-    template <class Visit>
-    void for_each_edge(const Visit& visit) const {
-        for (std::size_t begin = 0, end = 0; begin < uses_.size(); begin = end) {
-            const kept_edge& first = uses_[begin];
-            while (end < uses_.size() && uses_[end].low == first.low &&
-                   uses_[end].high == first.high)
-                ++end;
-            visit(begin, end);
-        }
-    }
-
     [[nodiscard]] std::uint32_t group(std::uint32_t f) const {
         return planes_.group_of.empty() ? 0 : planes_.group_of[planes_.plane_of[f]];
     }
@@ -89,28 +62,38 @@ class merger {
         });
     }
 
+    /// The end of an edge where the side of its face `f` begins.
+    [[nodiscard]] std::uint32_t from(const crease& c, std::uint32_t f) const {
+        const auto& [p, q, r] = surface_.faces[f];
+        const std::uint32_t next = p == c.low ? q : q == c.low ? r : p;
+        return next == c.high ? c.low : c.high;
+    }
+
     /// Two faces that meet here and nowhere bend, so that nothing is lost without the edge.
-    [[nodiscard]] bool is_flat(std::size_t begin, std::size_t end) const {
-        if (end - begin != 2) return false;
-        const kept_edge &u = uses_[begin], &v = uses_[begin + 1];
-        if (u.from == v.from || stays(u.face) || stays(v.face)) return false;
-        return group(u.face) == group(v.face) && coplanar(u.face, v.face);
+    [[nodiscard]] bool is_flat(const crease& c) const {
+        if (c.uses.size() != 2) return false;
+        const std::uint32_t f = c.face(0), g = c.face(1);
+        if (from(c, f) == from(c, g) || stays(f) || stays(g)) return false;
+        return group(f) == group(g) && coplanar(f, g);
     }
 
     void find_regions() {
-        for_each_edge([&](std::size_t begin, std::size_t end) {
-            if (is_flat(begin, end))
-                regions_.join(uses_[begin].face, uses_[begin + 1].face);
+        base::union_find regions(surface_.faces.size());
+        std::vector<std::vector<crease>> found(edges_.chunks());
+        edges_.for_each([&](const crease& c, std::size_t chunk) {
+            if (is_flat(c))
+                regions.join(c.face(0), c.face(1));
             else
-                creases_.push_back({{uses_[begin].low, uses_[begin].high}, begin, end});
+                found[chunk].push_back(c);
         });
+        creases_ = base::flattened(std::move(found));
+        region_ = regions.take_roots();
     }
 
     /// The regions at a crease, ascending.
-    [[nodiscard]] std::vector<std::uint32_t> regions_at(const crease& c) {
+    [[nodiscard]] std::vector<std::uint32_t> regions_at(const crease& c) const {
         std::vector<std::uint32_t> regions;
-        for (std::size_t u = c.begin; u < c.end; ++u)
-            regions.push_back(regions_.root(uses_[u].face));
+        for (std::size_t u = 0; u < c.uses.size(); ++u) regions.push_back(region_[c.face(u)]);
         std::sort(regions.begin(), regions.end());
         return regions;
     }
@@ -122,8 +105,8 @@ class merger {
 
     /// Whether the creases from p, to q and to r, are one line, with the same regions at both:
     /// where two of them are not coplanar, both lie where their planes meet.
-    [[nodiscard]] bool continues(std::uint32_t p, const crease& c, const crease& d) {
-        if (c.end - c.begin != d.end - d.begin) return false;
+    [[nodiscard]] bool continues(std::uint32_t p, const crease& c, const crease& d) const {
+        if (c.uses.size() != d.uses.size()) return false;
         const std::vector<std::uint32_t> regions = regions_at(c);
         if (regions != regions_at(d)) return false;
         for (const std::uint32_t region : regions)
@@ -138,92 +121,112 @@ class merger {
     }
 
     [[nodiscard]] static std::uint32_t other_end(const crease& c, std::uint32_t p) {
-        return c.ends[0] == p ? c.ends[1] : c.ends[0];
+        return c.low == p ? c.high : c.low;
     }
 
     /// Points in the middle of one region, or of one straight line between the same regions.
     void find_spare_points() {
-        std::vector<std::array<std::uint32_t, 2>> first_two(point_count_, {none, none});
-        std::vector<std::uint8_t> creases_at(point_count_, 0);
-        for (std::uint32_t c = 0; c < creases_.size(); ++c)
-            for (const std::uint32_t p : creases_[c].ends)
-                if (creases_at[p] < 3 && ++creases_at[p] < 3) first_two[p][creases_at[p] - 1U] = c;
-        std::vector<std::uint32_t> region_at(point_count_, none);
+        const auto creases_at = base::fill_stars<std::uint64_t>(
+            point_count_, creases_.size(), [&](std::size_t c, const auto& visit) {
+                visit(creases_[c].low);
+                visit(creases_[c].high);
+            });
+        std::vector<std::uint32_t> region_at(point_count_, none);  // one of them
         spare_.assign(point_count_, 1);
-        for (std::uint32_t f = 0; f < surface_.faces.size(); ++f)
-            for (const std::uint32_t p : surface_.faces[f]) {
-                const std::uint32_t region = regions_.root(f);
-                if (region_at[p] == none) region_at[p] = region;
-                if (stays(f) || (creases_at[p] == 0 && region_at[p] != region)) spare_[p] = 0;
-            }
-        for (std::uint32_t p = 0; p < point_count_; ++p) {
-            if (region_at[p] == none || creases_at[p] == 1 || creases_at[p] > 2) spare_[p] = 0;
-            if (creases_at[p] == 2)
-                spare_[p] = continues(p, creases_[first_two[p][0]], creases_[first_two[p][1]]);
-        }
+        for_chunks(surface_.faces.size(), face_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t f = begin; f < end; ++f)
+                           for (const std::uint32_t p : surface_.faces[f]) {
+                               const std::uint32_t region = region_[f];
+                               std::uint32_t other = none;
+                               std::atomic_ref(region_at[p])
+                                   .compare_exchange_strong(other, region,
+                                                            std::memory_order_relaxed);
+                               const bool differs = other != none && other != region;
+                               if (stays(static_cast<std::uint32_t>(f)) ||
+                                   (differs && creases_at[p].empty()))
+                                   std::atomic_ref(spare_[p]).store(0, std::memory_order_relaxed);
+                           }
+                   });
         next_.assign(point_count_, {none, none});
-        for (std::uint32_t p = 0; p < point_count_; ++p)
-            if (spare_[p] != 0 && creases_at[p] == 2)
-                next_[p] = {other_end(creases_[first_two[p][0]], p),
-                            other_end(creases_[first_two[p][1]], p)};
+        for_chunks(point_count_, point_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto p = static_cast<std::uint32_t>(i);
+                const auto at = creases_at[p];
+                if (region_at[p] == none || at.size() == 1 || at.size() > 2) spare_[p] = 0;
+                if (at.size() != 2) continue;
+                const crease &c = creases_[at[0]], &d = creases_[at[1]];
+                spare_[p] = continues(p, c, d);
+                if (spare_[p] != 0) next_[p] = {other_end(c, p), other_end(d, p)};
+            }
+        });
     }
 
-    /// Where the straight line that begins at `from` toward `to` ends.
-    [[nodiscard]] std::uint32_t end_of_line(std::uint32_t from, std::uint32_t to) const {
+    /// Where the straight line that begins at `before` toward `to` ends.
+    [[nodiscard]] std::uint32_t end_of_line(std::uint32_t before, std::uint32_t to) const {
         while (spare_[to] != 0) {
-            const std::uint32_t beyond = next_[to][0] == from ? next_[to][1] : next_[to][0];
-            from = to;
+            const std::uint32_t beyond = next_[to][0] == before ? next_[to][1] : next_[to][0];
+            before = to;
             to = beyond;
         }
         return to;
     }
 
-    /// Faces by region, and which regions lose a point.
-    merged_faces rebuild() {
-        const auto face_count = static_cast<std::uint32_t>(surface_.faces.size());
-        std::vector<std::uint8_t> changes(face_count, 0);  // by root
-        for (std::uint32_t f = 0; f < face_count; ++f)
-            for (const std::uint32_t p : surface_.faces[f])
-                if (spare_[p] != 0) changes[regions_.root(f)] = 1;
-        std::vector<std::uint32_t> number(face_count, none);
-        std::vector<flat_region> changed;
-        for (std::uint32_t f = 0; f < face_count; ++f) {
-            const std::uint32_t root = regions_.root(f);
-            if (changes[root] == 0) continue;
-            if (number[root] == none) {
-                number[root] = static_cast<std::uint32_t>(changed.size());
-                changed.emplace_back().first_face = root;
-            }
-            for (const std::uint32_t p : surface_.faces[f])
-                if (spare_[p] == 0) changed[number[root]].points.push_back(p);
-        }
-        add_rims(number, changed);
-
-        constexpr std::size_t grain = 16;
+    /// Triangles for the regions that lose a point.
+    merged_faces rebuild() const {
+        const std::size_t face_count = surface_.faces.size();
+        std::vector<std::uint8_t> changes(face_count, 0);  // by region
+        for_chunks(face_count, face_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t f = begin; f < end; ++f)
+                for (const std::uint32_t p : surface_.faces[f])
+                    if (spare_[p] != 0)
+                        std::atomic_ref(changes[region_[f]]).store(1, std::memory_order_relaxed);
+        });
+        std::vector<std::uint32_t> number(face_count, none), changed;  // by region, and back
+        base::compact(
+            face_count, [&](std::size_t f) { return region_[f] == f && changes[f] != 0; },
+            [&](std::size_t count) { changed.resize(count); },
+            [&](std::size_t f, std::size_t place) {
+                number[f] = static_cast<std::uint32_t>(place);
+                changed[place] = static_cast<std::uint32_t>(f);
+            });
+        const auto visit_number = [&](std::size_t f, const auto& visit) {
+            if (const std::uint32_t n = number[region_[f]]; n != none) visit(n);
+        };
+        const auto faces_of =
+            base::fill_stars<std::uint64_t>(changed.size(), face_count, visit_number);
+        const auto creases_of = base::fill_stars<std::uint64_t>(
+            changed.size(), creases_.size(), [&](std::size_t c, const auto& visit) {
+                for (std::size_t u = 0; u < creases_[c].uses.size(); ++u)
+                    visit_number(creases_[c].face(u), visit);
+            });
+        constexpr std::size_t grain = 4;
         std::vector<std::vector<face>> made(changed.size());
         for_chunks(changed.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t r = begin; r < end; ++r) {
-                flat_region& region = changed[r];
-                region.plane = surface_.faces[region.first_face];
+                flat_region region{.first_face = changed[r], .plane = surface_.faces[changed[r]]};
+                for (const std::uint32_t f : faces_of[r])
+                    for (const std::uint32_t p : surface_.faces[f])
+                        if (spare_[p] == 0) region.points.push_back(p);
+                const auto at = creases_of[r];
+                for (std::size_t i = 0; i < at.size(); ++i)
+                    if (i == 0 || at[i] != at[i - 1]) add_rim(creases_[at[i]], region);
                 made[r] = triangles_of(surface_, region);
             }
         });
-        return joined(changes, number, made);
+        return joined(number, made);
     }
 
-    /// Each region's rim, with the lines that are straight in one piece.
-    void add_rims(const std::vector<std::uint32_t>& number, std::vector<flat_region>& changed) {
-        for (const crease& c : creases_) {
-            std::vector<std::uint32_t> at;
-            for (std::size_t u = c.begin; u < c.end; ++u) {
-                const std::uint32_t root = regions_.root(uses_[u].face);
-                if (number[root] == none) continue;
-                const std::uint32_t from = uses_[u].from;
-                if (spare_[from] != 0) continue;  // a line is entered where it begins
-                if (at.empty()) at = regions_at(c);
-                changed[number[root]].rim.push_back(
-                    {from, end_of_line(from, other_end(c, from)), line_name(root, at)});
-            }
+    /// The sides of a crease that a region has, with the lines that are straight in one piece.
+    void add_rim(const crease& c, flat_region& region) const {
+        std::vector<std::uint32_t> at;
+        for (std::size_t u = 0; u < c.uses.size(); ++u) {
+            if (region_[c.face(u)] != region.first_face) continue;
+            const std::uint32_t begin = from(c, c.face(u));
+            if (spare_[begin] != 0) continue;  // a line is entered where it begins
+            if (at.empty()) at = regions_at(c);
+            region.rim.push_back(
+                {begin, end_of_line(begin, other_end(c, begin)), line_name(region.first_face, at)});
         }
     }
 
@@ -235,34 +238,39 @@ class merger {
         return none;
     }
 
-    merged_faces joined(const std::vector<std::uint8_t>& changes,
-                        const std::vector<std::uint32_t>& number,
-                        const std::vector<std::vector<face>>& made) {
+    [[nodiscard]] merged_faces joined(const std::vector<std::uint32_t>& number,
+                                      const std::vector<std::vector<face>>& made) const {
+        const std::size_t face_count = surface_.faces.size();
+        const std::vector<std::size_t> first = base::running_sums(face_count, [&](std::size_t f) {
+            if (number[region_[f]] == none) return std::size_t{1};
+            return region_[f] == f ? made[number[f]].size() : 0;
+        });
         merged_faces result;
-        for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
-            const std::uint32_t root = regions_.root(f);
-            result.merged_into.push_back(changes[root] == 0 ? f : root);
-            if (changes[root] == 0) {
-                result.faces.push_back(surface_.faces[f]);
-                result.face_of.push_back(f);
-                result.is_new.push_back(0);
-            } else if (root == f) {
-                for (const face& triangle : made[number[root]]) {
-                    result.faces.push_back(triangle);
-                    result.face_of.push_back(f);
-                    result.is_new.push_back(1);
+        base::parallel_invoke(
+            [&] { base::resize_all(face_count, result.merged_into); },
+            [&] { base::resize_all(first.back(), result.faces, result.face_of, result.is_new); });
+        for_chunks(face_count, face_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto f = static_cast<std::uint32_t>(i);
+                const bool stays_as_it_is = number[region_[f]] == none;
+                result.merged_into[f] = stays_as_it_is ? f : region_[f];
+                for (std::size_t k = first[f]; k < first[f + 1]; ++k) {
+                    result.faces[k] =
+                        stays_as_it_is ? surface_.faces[f] : made[number[f]][k - first[f]];
+                    result.face_of[k] = f;
+                    result.is_new[k] = stays_as_it_is ? 0 : 1;
                 }
             }
-        }
+        });
         return result;
     }
 
     const exact_surface& surface_;
     const face_planes& planes_;
     std::size_t point_count_;
-    std::vector<kept_edge> uses_;    ///< edge by edge
-    std::vector<crease> creases_{};  ///< ascending
-    base::union_find regions_;       ///< of faces
+    weld::edge_uses edges_;
+    std::vector<crease> creases_{};   ///< ascending
+    buffer<std::uint32_t> region_{};  ///< of each face: its lowest
     std::vector<std::uint8_t> spare_{};
     std::vector<std::array<std::uint32_t, 2>> next_{};  ///< of spare points of lines, both ways
 };

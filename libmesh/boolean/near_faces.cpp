@@ -1,6 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
 #include <libmesh/base/face_boxes.hpp>
+#include <libmesh/base/parallel_sort.hpp>
 #include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
@@ -11,6 +12,7 @@
 #include <treeform/tree/search_pair.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <utility>
@@ -20,35 +22,41 @@ namespace {
 
 using ids = std::vector<std::uint32_t>;
 
-void mark(std::uint8_t& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
+constexpr std::size_t near_grain = std::size_t{1} << 10;  // faces a chunk
+constexpr std::size_t pair_grain = std::size_t{1} << 8;
 
-void sort_out(ids& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
+void mark(std::uint8_t& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
 
 /// Marks the faces whose boxes overlap that of a face that meets another one, or of a rough point.
 void mark_near(const bundles& operands, const std::vector<face_pair>& across, near_faces& result) {
     std::vector<aabb<double, 3>> reach;
     for (std::size_t k = 0; k < 2; ++k) {
         const mesh_view mesh = operands[k].view();
-        ids met;
-        for (const face_pair& pair : across) met.push_back(k == 0 ? pair.a : pair.b);
-        for (const face_pair& pair : operands[k].pairs) met.insert(met.end(), {pair.a, pair.b});
-        sort_out(met);
-        for (const std::uint32_t f : met)
-            reach.push_back(base::face_boxes(mesh.points)(mesh.faces[f]));
+        std::vector<std::uint8_t> meets(mesh.faces.size(), 0);
+        for_chunks(across.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t i = begin; i < end; ++i)
+                           mark(meets[k == 0 ? across[i].a : across[i].b]);
+                   });
+        for (const face_pair& pair : operands[k].pairs) meets[pair.a] = meets[pair.b] = 1;
+        const std::size_t first = reach.size();
+        base::compact(
+            meets.size(), [&](std::size_t f) { return meets[f] != 0; },
+            [&](std::size_t count) { reach.resize(first + count); },
+            [&](std::size_t f, std::size_t place) {
+                reach[first + place] = base::face_boxes(mesh.points)(mesh.faces[f]);
+            });
         for (const std::uint32_t p : operands[k].known->rough)
             reach.emplace_back().include(mesh.points[p]);
     }
     const tree<3> around = build(reach, [](const aabb<double, 3>& box) { return box; });
-    for (std::size_t k = 0; k < 2; ++k) {
+    for_chunks(2, 1, [&](std::size_t k, std::size_t, std::size_t) {
         const tree<3>& tree = build_face_tree(*operands[k].mesh);
         result.is_near[k].resize(tree.size(), 0);
         (void)search_broad<int>(tree, around, [&](int&, const candidate_block& block) {
             for (const std::uint32_t place : block.first) mark(result.is_near[k][place]);
         });
-    }
+    });
 }
 
 /// Appends the points of `faces`, ascending, and the faces in their numbers.
@@ -58,7 +66,7 @@ void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
     for_chunks(number.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::fill(number.data() + begin, number.data() + end, 0U);
     });
-    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(faces.size(), near_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             for (const std::uint32_t corner : mesh.faces[faces[i]])
                 std::atomic_ref(number[corner]).store(1, std::memory_order_relaxed);
@@ -78,7 +86,7 @@ void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
     const std::size_t first = result.local.faces.size();
     result.local.faces.resize(first + faces.size());
     result.face_of.resize(first + faces.size());
-    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(faces.size(), near_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto& [a, b, c] = mesh.faces[faces[i]];
             result.local.faces[first + i] = {number[a], number[b], number[c]};
@@ -99,8 +107,12 @@ void join_equal(near_faces& near) {
     }
     local.points.resize(count);
     near.point_of.resize(count);
-    for (face& f : local.faces)
-        for (std::uint32_t& corner : f) corner = equal->new_of_old[corner];
+    for_chunks(local.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f)
+                       for (std::uint32_t& corner : local.faces[f])
+                           corner = equal->new_of_old[corner];
+               });
 }
 
 /// The pairs by local faces, ascending, without those that meet in shared corners only.
@@ -111,10 +123,12 @@ void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, near_f
                                           near.face_of.begin());
     };
     predicate_counters counters;
+    for_chunks(across.size(), pair_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            across[i] = {local(across[i].a), local(faces_of_a + across[i].b), across[i].kind};
+    });
     std::size_t left = 0;
     for (face_pair pair : across) {
-        pair.a = local(pair.a);
-        pair.b = local(faces_of_a + pair.b);
         const face &f = near.local.faces[pair.a], &g = near.local.faces[pair.b];
         if (std::find_first_of(f.begin(), f.end(), g.begin(), g.end()) != f.end()) {
             const auto kind = intersect::classify_pair(near.local.points, f, g, counters);
@@ -128,7 +142,7 @@ void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, near_f
         for (const auto& [a, b, kind] : operands[k].pairs)
             across.push_back(
                 {local((k == 0 ? 0 : faces_of_a) + a), local((k == 0 ? 0 : faces_of_a) + b), kind});
-    if (across.size() > left) std::sort(across.begin(), across.end());
+    if (across.size() > left) base::parallel_sort(across);
     near.pairs = std::move(across);
 }
 
@@ -146,18 +160,20 @@ near_faces find_near_faces(const bundles& operands, bool once) {
     near_faces result;
     std::vector<face_pair> across = pairs_across(operands, once);
     mark_near(operands, across, result);
+    std::array<ids, 2> near;
+    for_chunks(2, 1, [&](std::size_t k, std::size_t, std::size_t) {
+        const auto face_at = build_face_tree(*operands[k].mesh).ids();
+        base::compact(
+            face_at.size(), [&](std::size_t i) { return result.is_near[k][i] != 0; },
+            [&](std::size_t count) { near[k].resize(count); },
+            [&](std::size_t i, std::size_t place) { near[k][place] = face_at[i]; });
+        base::parallel_sort(near[k]);
+    });
     std::size_t first_face = 0, first_point = 0;
     for (std::size_t k = 0; k < 2; ++k) {
         const mesh_view mesh = operands[k].view();
-        const auto face_at = build_face_tree(*operands[k].mesh).ids();
-        ids near;
-        base::compact(
-            mesh.faces.size(), [&](std::size_t i) { return result.is_near[k][i] != 0; },
-            [&](std::size_t count) { near.resize(count); },
-            [&](std::size_t i, std::size_t place) { near[place] = face_at[i]; });
-        std::sort(near.begin(), near.end());
         if (k == 1) result.first_of_b = static_cast<std::uint32_t>(result.local.faces.size());
-        append(mesh, near, static_cast<std::uint32_t>(first_point),
+        append(mesh, near[k], static_cast<std::uint32_t>(first_point),
                static_cast<std::uint32_t>(first_face), result);
         first_face += mesh.faces.size();
         first_point += mesh.points.size();

@@ -21,7 +21,7 @@ namespace {
 using arrange::surface_patches;
 using ids = std::vector<std::uint32_t>;
 
-constexpr std::size_t labels_a_chunk = 64;
+constexpr std::size_t labels_a_chunk = 64, ways_a_chunk = 2;
 
 /// How often operands wind around places beside their faces.
 class line_windings {
@@ -117,7 +117,8 @@ face turned_if(bool turn, const face& f) { return turn ? face{f[0], f[2], f[1]} 
 }  // namespace
 
 near_labels::near_labels(const bundles& operands, const near_faces& near,
-                         const mesh_arrangement& cut, const active_part* part)
+                         const mesh_arrangement& cut, std::array<far_faces, 2> far,
+                         const active_part* part)
     : operands_(operands),
       cut_(cut),
       operand_of_face_(operands_of(operands, near)),
@@ -125,8 +126,7 @@ near_labels::near_labels(const bundles& operands, const near_faces& near,
       patches_(patches_of(cut, operand_of_face_, places_)),
       regions_(cut, operand_of_face_, patches_, regions_of(near.local, cut, patches_, places_)),
       is_hidden_(places_.hidden(patches_)),
-      far_{far_faces(*operands[0].mesh, near.is_near[0]),
-           far_faces(*operands[1].mesh, near.is_near[1])} {
+      far_(std::move(far)) {
     const line_windings windings(operands, part);
     const buffer<std::uint32_t> group = regions_.groups();
     ids asked;  // the first patch of each group
@@ -136,7 +136,7 @@ near_labels::near_labels(const bundles& operands, const near_faces& near,
             std::exchange(is_asked[group[regions_.patches().front(p)]], std::uint8_t{1}) == 0)
             asked.push_back(p);
     seeds_.resize(asked.size());
-    for_chunks(asked.size(), labels_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(asked.size(), ways_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t p = asked[i];
             auto [in_front, of] = windings.at(near.local, cut, patches_.first_face(p));
@@ -148,7 +148,7 @@ near_labels::near_labels(const bundles& operands, const near_faces& near,
         const auto faces = far_[k].faces();
         sides_[k].resize(faces.size());
         for_chunks(
-            faces.size(), labels_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+            faces.size(), ways_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
                 for (std::size_t i = begin; i < end; ++i) {
                     auto [in_front, of] = windings.at(k, faces[i]);
                     sides_[k][i] = {in_front, operands[k].operand_of(faces[i]), std::move(of)};

@@ -34,12 +34,13 @@ struct chosen_surface {
 class near_labels {
   public:
     /// \param cut the arrangement of `near.local`
+    /// \param far of the meshes of both bundles
     /// \pre   all operands are closed; what is referred to outlives this
-    /// \cost  O(F' log F') for the F' faces of the arrangement, that of `far_faces`, and O(log F) a line
+    /// \cost  O(F' log F') for the F' faces of the arrangement, and O(log F) a line
     /// \same  on any number of threads
     /// \param part  that the operands are, or null where they are whole
     near_labels(const bundles& operands, const near_faces& near, const mesh_arrangement& cut,
-                const active_part* part = nullptr);
+                std::array<far_faces, 2> far, const active_part* part = nullptr);
 
     /// \cost  a change of the expression for each patch, and O(F)
     [[nodiscard]] chosen_surface choose(const boolean_expression& expression, fill_rule rule) const;

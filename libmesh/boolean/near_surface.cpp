@@ -1,4 +1,7 @@
+#include <libmesh/base/compact.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/merged_cuts.hpp>
 #include <libmesh/boolean/near_surface.hpp>
@@ -19,6 +22,10 @@ namespace {
 
 using ids = std::vector<std::uint32_t>;
 
+constexpr std::size_t write_grain = std::size_t{1} << 10;
+/// Room for one more point in so many, for those that `split_nonmanifold` adds.
+constexpr std::size_t slack = 64;
+
 /// Puts together the faces that were cut and those that were not, of both bundles counted through.
 class assembly {
   public:
@@ -32,15 +39,49 @@ class assembly {
 
     /// `source` are faces of operands, ascending, one for each face of `rounded`, whose points are
     /// those of `near_` and others. Returns the vertices of these in the result.
-    ids write(const rounded_surface& rounded, const ids& source, boolean_result& result) {
-        number_points(rounded, result);
-        ids corner(rounded.point_of.size());
-        const auto first_made = static_cast<std::uint32_t>(given_);
-        for (std::size_t p = 0, made = 0; p < corner.size(); ++p)
-            corner[p] = is_made(rounded.point_of[p])
-                            ? first_made + static_cast<std::uint32_t>(made++)
-                            : number_[near_.point_of[rounded.point_of[p]]];
-        write_faces(rounded, corner, source, result);
+    ids write(const rounded_surface& rounded, const ids& source, bool names_cuts,
+              boolean_result& result) {
+        ids corner;
+        std::size_t made = 0;
+        base::resize_all(rounded.point_of.size(), corner);
+        base::compact(
+            corner.size(), [&](std::size_t p) { return is_made(rounded.point_of[p]); },
+            [&](std::size_t count) { made = count; },
+            [&](std::size_t p, std::size_t place) {
+                corner[p] = static_cast<std::uint32_t>(place);
+            });
+        mark_points(rounded);
+        const std::vector<std::size_t> first = first_faces(source);
+        const auto make_room = [&](std::size_t given) {
+            given_ = given;
+            const std::size_t points = given + made;
+            for (auto* sources : {&result.vertex_source, &result.face_of_cut_vertex})
+                sources->reserve(points + points / slack);
+            result.mesh.points.reserve(points + points / slack);
+            base::parallel_invoke(
+                [&] { base::resize_all(points, result.mesh.points, result.vertex_source); },
+                [&] { base::resize_all(names_cuts ? points : 0, result.face_of_cut_vertex); },
+                [&] { base::resize_all(first.back(), result.mesh.faces, result.face_source); });
+        };
+        base::compact(
+            points_[2], [&](std::size_t p) { return number_[p] != 0; }, make_room,
+            [&](std::size_t p, std::size_t next) {
+                const std::size_t k = p < points_[1] ? 0 : 1;
+                const auto index = static_cast<std::uint32_t>(p - points_[k]);
+                number_[p] = static_cast<std::uint32_t>(next);
+                result.mesh.points[next] = meshes_[k].points[index];
+                result.vertex_source[next] = operands_[k].point_source(index);
+            });
+        for_chunks(
+            corner.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t p = begin; p < end; ++p) {
+                    const std::uint32_t local = rounded.point_of[p];
+                    corner[p] = is_made(local) ? static_cast<std::uint32_t>(given_) + corner[p]
+                                               : number_[near_.point_of[local]];
+                    result.mesh.points[corner[p]] = rounded.surface.points[p];
+                }
+            });
+        write_faces(rounded, corner, source, first, result);
         return corner;
     }
 
@@ -63,70 +104,48 @@ class assembly {
             if (fates_[f] == fate::kept || fates_[f] == fate::turned) visit(f);
     }
 
-    /// Numbers the points in use, those of operands first.
-    void number_points(const rounded_surface& rounded, boolean_result& result) {
+    /// Marks the points of operands that are in use.
+    void mark_points(const rounded_surface& rounded) {
         const auto use = [&](std::size_t p) {
             std::atomic_ref(number_[p]).store(1, std::memory_order_relaxed);
         };
         for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             std::fill(number_.data() + begin, number_.data() + end, 0U);
         });
-        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for_chunks(faces_[2], write_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for_far_faces(begin, end, [&](std::size_t f) {
                 for (const std::uint32_t p : corners(f)) use(points_[operand_of(f)] + p);
             });
         });
-        std::size_t made = 0;
-        for (const std::uint32_t p : rounded.point_of)
-            if (is_made(p))
-                ++made;
-            else
-                number_[near_.point_of[p]] = 1;
-
-        std::vector<std::size_t> first(chunk_count(points_[2], light_grain) + 1, 0);
-        for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-            for (std::size_t p = begin; p < end; ++p) first[c + 1] += number_[p];
-        });
-        for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
-        given_ = first.back();
-        std::vector<point3>& points = result.mesh.points;
-        points.resize(given_ + made);
-        result.vertex_source.resize(given_ + made);
-        for_chunks(points_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-            std::size_t next = first[c];
-            for (std::size_t p = begin; p < end; ++p) {
-                if (number_[p] == 0) continue;
-                const std::size_t k = p < points_[1] ? 0 : 1;
-                const auto index = static_cast<std::uint32_t>(p - points_[k]);
-                number_[p] = static_cast<std::uint32_t>(next);
-                points[next] = meshes_[k].points[index];
-                result.vertex_source[next++] = operands_[k].point_source(index);
-            }
-        });
-        std::size_t next = given_;
-        for (std::size_t p = 0; p < rounded.point_of.size(); ++p)
-            points[is_made(rounded.point_of[p]) ? next++
-                                                : number_[near_.point_of[rounded.point_of[p]]]] =
-                rounded.surface.points[p];
+        for_chunks(rounded.point_of.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t i = begin; i < end; ++i)
+                           if (const std::uint32_t p = rounded.point_of[i]; !is_made(p))
+                               use(near_.point_of[p]);
+                   });
     }
 
-    void write_faces(const rounded_surface& rounded, const ids& corner, const ids& source,
-                     boolean_result& result) const {
-        const auto pieces_before = [&](std::size_t face) {
-            return static_cast<std::size_t>(std::lower_bound(source.begin(), source.end(), face) -
-                                            source.begin());
-        };
-        std::vector<std::size_t> first(chunk_count(faces_[2], light_grain) + 1, 0);
-        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
-            std::size_t count = pieces_before(end) - pieces_before(begin);
+    [[nodiscard]] static std::size_t pieces_before(const ids& source, std::size_t face) {
+        return static_cast<std::size_t>(std::lower_bound(source.begin(), source.end(), face) -
+                                        source.begin());
+    }
+
+    /// Where the faces of each chunk begin in the result.
+    [[nodiscard]] std::vector<std::size_t> first_faces(const ids& source) const {
+        std::vector<std::size_t> first(chunk_count(faces_[2], write_grain) + 1, 0);
+        for_chunks(faces_[2], write_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+            std::size_t count = pieces_before(source, end) - pieces_before(source, begin);
             for_far_faces(begin, end, [&](std::size_t) { ++count; });
             first[c + 1] = count;
         });
         for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+        return first;
+    }
+
+    void write_faces(const rounded_surface& rounded, const ids& corner, const ids& source,
+                     const std::vector<std::size_t>& first, boolean_result& result) const {
         std::vector<face>& faces = result.mesh.faces;
-        faces.resize(first.back());
-        result.face_source.resize(first.back());
-        for_chunks(faces_[2], light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for_chunks(faces_[2], write_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
             std::size_t next = first[c];
             const auto put = [&](std::size_t f, const face& corners) {
                 const std::size_t k = operand_of(f);
@@ -134,7 +153,7 @@ class assembly {
                 result.face_source[next++] =
                     operands_[k].face_source(static_cast<std::uint32_t>(f - faces_[k]));
             };
-            std::size_t piece = pieces_before(begin);
+            std::size_t piece = pieces_before(source, begin);
             const auto put_pieces_before = [&](std::size_t f) {
                 for (; piece < source.size() && source[piece] < f; ++piece) {
                     const auto& [p, q, r] = rounded.surface.faces[piece];
@@ -277,16 +296,18 @@ void keep_counts(const bundles& operands, const arrange_faces_result& arranged,
 void name_cut_vertices(const bundles& operands, const near_faces& near,
                        const rounded_surface& rounded, const ids& vertices,
                        const ids& face_of_point, boolean_result& result) {
-    result.face_of_cut_vertex.resize(result.mesh.points.size());
     const std::size_t given = near.point_of.size();
     const auto faces_of_a = static_cast<std::uint32_t>(operands[0].view().faces.size());
-    for (std::size_t p = 0; p < vertices.size(); ++p) {
-        const std::uint32_t point = rounded.point_of[p];
-        if (point < given || point == rounded_surface::none) continue;
-        const std::uint32_t f = near.face_of[face_of_point[point - given]];
-        result.face_of_cut_vertex[vertices[p]] =
-            f < faces_of_a ? operands[0].face_source(f) : operands[1].face_source(f - faces_of_a);
-    }
+    for_chunks(vertices.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t p = begin; p < end; ++p) {
+            const std::uint32_t point = rounded.point_of[p];
+            if (point < given || point == rounded_surface::none) continue;
+            const std::uint32_t f = near.face_of[face_of_point[point - given]];
+            result.face_of_cut_vertex[vertices[p]] = f < faces_of_a
+                                                         ? operands[0].face_source(f)
+                                                         : operands[1].face_source(f - faces_of_a);
+        }
+    });
 }
 
 }  // namespace
@@ -318,7 +339,7 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
     if (!is_all) {
         // What was left out meets no box of what was cut, and so no piece of it either, rounded or
         // not: rounding to nearest takes no coordinate out of a box of doubles.
-        rounded = round_surface(exact, {.mends = false});
+        rounded = round_once(exact, {.mends = false});
         if (!rounded.certificate || rounded.vanished_components > 0) take_in();
     }
     if (is_all) {
@@ -341,8 +362,8 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
                        face_of_piece[i] = near.face_of[source[rounded.face_of[i]]];
                });
     sort_by_source(face_of_piece, rounded.surface.faces);
-    const ids vertices =
-        assembly(operands, near, chosen.fates).write(rounded, face_of_piece, result);
+    const ids vertices = assembly(operands, near, chosen.fates)
+                             .write(rounded, face_of_piece, merges_faces(options), result);
     // Faces that were not cut are as they were in their operand, all of those at a vertex or none.
     made.is_manifold = !is_all && topology::is_manifold_at(vertices, result.mesh);
     result.statistics.exact_faces = result.mesh.faces.size() + (exact_faces - face_of_piece.size());

@@ -73,7 +73,8 @@ class few_faces {
 /// be there.
 class separator {
   public:
-    separator(treeform::mesh&& solid, const std::vector<std::uint8_t>& is_rough)
+    /// Marks rough points as it goes.
+    separator(treeform::mesh&& solid, std::vector<std::uint8_t>& is_rough)
         : solid_(std::move(solid)),
           is_rough_(is_rough),
           edges_(solid_.points.size(), solid_.faces, detail::weld::repeated_corners::left_out) {}
@@ -90,6 +91,8 @@ class separator {
     }
 
   private:
+    static constexpr std::uint8_t taken = 2;  ///< a rough point, by its first fan
+
     [[nodiscard]] bool runs_up(std::uint32_t f, std::uint32_t low, std::uint32_t high) const {
         const face& c = solid_.faces[f];
         return (c[0] == low && c[1] == high) || (c[1] == low && c[2] == high) ||
@@ -226,14 +229,13 @@ class separator {
                                                  std::uint64_t shared_edges) {
         manifold_surface result;
         result.shared_edges = shared_edges;
-        std::vector<std::uint8_t> is_taken(solid_.points.size(), 0);
         std::vector<std::uint32_t> point_of_corner(fans.size());
         for (std::uint32_t c = 0; c < fans.size(); ++c) {
             std::uint32_t& point = solid_.faces[c / 3][c % 3];
             if (const std::uint32_t root = fans.root(c); root != c) {
                 point = point_of_corner[root];
-            } else if (is_rough_[point] == 0 || is_taken[point] == 0) {
-                is_taken[point] = 1;
+            } else if (is_rough_[point] != taken) {
+                if (is_rough_[point] != 0) is_rough_[point] = taken;
             } else {
                 result.vertex_of_added.push_back(point);
                 const point3 at = solid_.points[point];
@@ -247,7 +249,7 @@ class separator {
     }
 
     treeform::mesh solid_;
-    const std::vector<std::uint8_t>& is_rough_;  ///< [V] before points are added
+    std::vector<std::uint8_t>& is_rough_;  ///< [V] before points are added
     detail::weld::edge_uses edges_;
     std::vector<touching_edge> touching_{};
 };

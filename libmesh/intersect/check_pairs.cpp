@@ -1,7 +1,9 @@
+#include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/view_axis.hpp>
 #include <libmesh/intersect/check_pairs.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -26,7 +28,13 @@ std::string fault_of(mesh_view mesh, std::uint32_t f, bool need_area) {
 
 void check_pairs(const char* function, mesh_view mesh, std::span<const face_pair> pairs,
                  bool need_area) {
-    for (std::size_t i = 0; i < pairs.size(); ++i)
+    constexpr std::size_t grain = std::size_t{1} << 7;
+    const auto is_bad = [&](std::size_t i) {
+        return !fault_of(mesh, pairs[i].a, need_area).empty() ||
+               !fault_of(mesh, pairs[i].b, need_area).empty();
+    };
+    const std::size_t bad = base::first_bad(pairs.size(), is_bad, grain);
+    for (std::size_t i = bad; i < std::min(bad + 1, pairs.size()); ++i)
         for (const std::uint32_t f : {pairs[i].a, pairs[i].b})
             if (const std::string fault = fault_of(mesh, f, need_area); !fault.empty())
                 throw std::invalid_argument("treeform::" + std::string(function) + ": pair " +

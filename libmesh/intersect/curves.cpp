@@ -1,9 +1,12 @@
+#include <libmesh/base/flattened.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/contact_point.hpp>
 #include <libmesh/intersect/check_pairs.hpp>
 #include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
+
+#include <utility>
 
 namespace treeform {
 namespace {
@@ -26,16 +29,14 @@ void append_common_set(mesh_view mesh, const face_pair& pair, std::uint32_t inde
 }  // namespace
 
 std::vector<curve_segment> intersection_curves(mesh_view mesh, std::span<const face_pair> pairs) {
-    constexpr std::size_t grain = 1 << 12;
+    constexpr std::size_t grain = 1 << 7;
     detail::intersect::check_pairs("intersection_curves", mesh, pairs, false);
     std::vector<std::vector<curve_segment>> parts(chunk_count(pairs.size(), grain));
     for_chunks(pairs.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         for (std::size_t i = begin; i < end; ++i)
             append_common_set(mesh, pairs[i], static_cast<std::uint32_t>(i), parts[chunk]);
     });
-    std::vector<curve_segment> segments;
-    for (const auto& part : parts) segments.insert(segments.end(), part.begin(), part.end());
-    return segments;
+    return detail::base::flattened(std::move(parts));
 }
 
 }  // namespace treeform

@@ -1,4 +1,8 @@
+#include <libmesh/base/compact.hpp>
+#include <libmesh/base/flattened.hpp>
+#include <libmesh/base/parallel_sort.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/exact/box_around.hpp>
 #include <libmesh/geometry/features.hpp>
 #include <libmesh/intersect/meetings.hpp>
@@ -48,7 +52,7 @@ implicit_point point_of(mesh_view mesh, const point_name& name) {
 
 mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
     mesh_meetings result;
-    result.meetings.resize(pairs.size());
+    base::resize_all(pairs.size(), result.meetings);
     std::vector<std::vector<open_end>> open_of(chunk_count(pairs.size(), pair_grain));
     for_chunks(pairs.size(), pair_grain,
                [&](std::size_t begin, std::size_t end, std::size_t chunk) {
@@ -71,21 +75,24 @@ mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
                    }
                });
 
-    std::vector<open_end> open;
-    for (const auto& part : open_of) open.insert(open.end(), part.begin(), part.end());
-    std::sort(open.begin(), open.end(),
-              [](const open_end& x, const open_end& y) { return x.name < y.name; });
-    for (const open_end& o : open) {
-        if (result.names.empty() || result.names.back() != o.name) result.names.push_back(o.name);
-        result.meetings[o.meeting].ends[o.end].point =
-            static_cast<std::uint32_t>(mesh.points.size() + result.names.size() - 1);
-    }
-    result.points.resize(result.names.size());
-    for_chunks(result.names.size(), pair_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i)
-                       result.points[i] = point_of(mesh, result.names[i]);
-               });
+    std::vector<open_end> open = base::flattened(std::move(open_of));
+    base::parallel_sort(open, [](const open_end& x, const open_end& y) { return x.name < y.name; });
+    std::vector<std::size_t> first;  // of each name
+    base::compact(
+        open.size(), [&](std::size_t i) { return i == 0 || open[i].name != open[i - 1].name; },
+        [&](std::size_t count) { first.resize(count + 1, open.size()); },
+        [&](std::size_t i, std::size_t place) { first[place] = i; });
+    const std::size_t names = first.size() - 1;
+    base::resize_all(names, result.names, result.points);
+    for_chunks(names, pair_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t n = begin; n < end; ++n) {
+            result.names[n] = open[first[n]].name;
+            result.points[n] = point_of(mesh, result.names[n]);
+            for (std::size_t i = first[n]; i < first[n + 1]; ++i)
+                result.meetings[open[i].meeting].ends[open[i].end].point =
+                    static_cast<std::uint32_t>(mesh.points.size() + n);
+        }
+    });
     return result;
 }
 

@@ -1,3 +1,4 @@
+#include <libmesh/base/first_bad.hpp>
 #include <libmesh/intersect/same_points.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -28,7 +29,9 @@ bool is_wide(const implicit_point& p) {
 class enclosures {
   public:
     explicit enclosures(std::span<const implicit_point> points) : points_(points) {
-        if (std::none_of(points.begin(), points.end(), is_wide)) return;
+        const std::size_t first =
+            base::first_bad(points.size(), [&](std::size_t i) { return is_wide(points[i]); });
+        if (first == points.size()) return;
         rounded_.resize(points.size());
         for_chunks(points.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i)

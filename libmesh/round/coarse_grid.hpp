@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -40,13 +41,18 @@ class coarse_grid {
         return c;
     }
 
+    /// Several threads may do so at the same time.
     void add(cell a, cell b, cell c) {
         const range all(a, b, c);
-        if (all.rows() > most_rows) is_full_ = true;
-        if (is_full_) return;
+        const std::atomic_ref is_full(is_full_);
+        if (all.rows() > most_rows) is_full.store(true, std::memory_order_relaxed);
+        if (is_full.load(std::memory_order_relaxed)) return;
         for (std::size_t z = all.first[2]; z <= all.last[2]; ++z)
-            for (std::size_t y = all.first[1]; y <= all.last[1]; ++y)
-                rows_[z * side + y] |= all.row();
+            for (std::size_t y = all.first[1]; y <= all.last[1]; ++y) {
+                const std::atomic_ref row(rows_[z * side + y]);
+                if ((all.row() & ~row.load(std::memory_order_relaxed)) != 0)  // seldom
+                    row.fetch_or(all.row(), std::memory_order_relaxed);
+            }
     }
 
     /// To be called when all have been added.

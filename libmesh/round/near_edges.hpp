@@ -2,19 +2,19 @@
 /// \file
 /// The edges of some faces of a surface.
 
+#include <libmesh/base/fill_stars.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace treeform::detail::round {
 
 /// The edges of chosen faces, each with its uses: the chosen faces it is an edge of.
 ///
-/// \cost O(N log N) for N faces
+/// \cost O(V + N) for N faces of V points
 class near_edges {
   public:
     struct use {
@@ -31,18 +31,22 @@ class near_edges {
     /// Calls `visit(uses)` once for each edge, from several threads; uses ascend by place.
     template <class Visit>
     void for_each(const Visit& visit) const {
-        for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t, std::size_t) {
-            const std::span<const use> uses = parts_[part];
-            for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-                while (end < uses.size() && uses[end].edge == uses[begin].edge) ++end;
-                visit(uses.subspan(begin, end - begin));
+        for_chunks(at_.end.size(), grain, [&](std::size_t first, std::size_t last, std::size_t) {
+            for (std::size_t p = first; p < last; ++p) {
+                const std::span<const use> uses = at_[p];
+                for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+                    while (end < uses.size() && uses[end].edge == uses[begin].edge) ++end;
+                    visit(uses.subspan(begin, end - begin));
+                }
             }
         });
     }
 
   private:
+    static constexpr std::size_t grain = std::size_t{1} << 8;  ///< points
+
     std::span<const std::uint32_t> faces_;
-    std::vector<std::vector<use>> parts_;  ///< sorted; all uses of an edge in one
+    base::faces_by_point<std::uint64_t, use> at_;  ///< at lower ends, sorted
 };
 
 }  // namespace treeform::detail::round

@@ -4,6 +4,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/round/displacement.hpp>
@@ -66,10 +67,8 @@ class rounding {
   public:
     rounding(exact_surface exact, const round_options& options)
         : options_(options), exact_(std::move(exact)), faces_given_(exact_.faces.size()) {
-        point_of_.resize(exact_.given.size() + exact_.constructed.size());
-        std::iota(point_of_.begin(), point_of_.end(), 0U);
-        result_.face_of.resize(exact_.faces.size());
-        std::iota(result_.face_of.begin(), result_.face_of.end(), 0U);
+        point_of_ = detail::base::numbers_below(exact_.given.size() + exact_.constructed.size());
+        result_.face_of = detail::base::numbers_below(exact_.faces.size());
     }
 
     rounded_surface run() {
@@ -87,6 +86,9 @@ class rounding {
         if (!before_.faces.empty()) measure();
         return std::move(result_);
     }
+
+    /// As it was given, where nothing has been cut.
+    [[nodiscard]] exact_surface take_exact() { return std::move(exact_); }
 
   private:
     [[nodiscard]] bool to_float32() const { return options_.precision == precision::float32; }
@@ -189,7 +191,8 @@ class rounding {
     bool settle() {
         const std::vector<std::uint32_t> points = detail::base::used_points(
             exact_.given.size() + exact_.constructed.size(), exact_.faces);
-        std::vector<point3> at(points.size());
+        std::vector<point3> at;
+        detail::base::resize_all(points.size(), at);
         std::vector<double> moves(chunk_count(points.size(), point_grain) + 1, 0.0);
         std::atomic<bool> finite{true};
         for_chunks(points.size(), point_grain,
@@ -224,8 +227,9 @@ class rounding {
     /// then go: what is left of them runs back and forth. Whether there were any.
     bool join_equal(const std::vector<std::uint32_t>& points, std::vector<point3> at) {
         std::vector<std::uint32_t> new_of_old, point_of;
-        detail::base::parallel_invoke([&] { new_of_old.resize(point_of_.size()); },
-                                      [&] { point_of.resize(points.size()); });
+        detail::base::parallel_invoke(
+            [&] { detail::base::resize_all(point_of_.size(), new_of_old); },
+            [&] { detail::base::resize_all(points.size(), point_of); });
         const auto equal = detail::weld::few_equal_points(at);
         for_chunks(points.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -267,8 +271,8 @@ class rounding {
             },
             [&](std::size_t count) {
                 detail::base::parallel_invoke(
-                    [&] { now.faces.resize(count); }, [&] { face_of.resize(count); },
-                    [&] { sound_.resize(exact_.sound.empty() ? 0 : count); });
+                    [&] { detail::base::resize_all(count, now.faces, face_of); },
+                    [&] { detail::base::resize_all(exact_.sound.empty() ? 0 : count, sound_); });
             },
             [&](std::size_t f, std::size_t place) {
                 now.faces[place] = renumbered(f);
@@ -403,6 +407,13 @@ class rounding {
 
 rounded_surface round_surface(exact_surface exact, const round_options& options) {
     return rounding(std::move(exact), options).run();
+}
+
+rounded_surface round_once(exact_surface& exact, const round_options& options) {
+    rounding all(std::move(exact), options);
+    rounded_surface result = all.run();
+    exact = all.take_exact();
+    return result;
 }
 
 }  // namespace treeform

@@ -98,4 +98,8 @@ struct rounded_surface {
 [[nodiscard]] TREEFORM_API rounded_surface round_surface(exact_surface exact,
                                                          const round_options& options = {});
 
+/// The same of a surface that is as before afterwards; nothing is mended.
+/// \pre `options.mends` is false
+[[nodiscard]] rounded_surface round_once(exact_surface& exact, const round_options& options);
+
 }  // namespace treeform

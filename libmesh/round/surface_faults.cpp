@@ -1,5 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
+#include <libmesh/base/flattened.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/round/coarse_grid.hpp>
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/surface_faults.hpp>
@@ -49,8 +51,10 @@ ids all_of(std::size_t count) {
 
 std::vector<face> faces_of(mesh_view surface, const ids& which) {
     std::vector<face> faces;
-    faces.reserve(which.size());
-    for (const std::uint32_t f : which) faces.push_back(surface.faces[f]);
+    base::resize_all(which.size(), faces);
+    for_chunks(which.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) faces[i] = surface.faces[which[i]];
+    });
     return faces;
 }
 
@@ -65,14 +69,23 @@ aabb<double, 3> box_of(points_view points, const face& f) {
 ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::uint8_t> sound) {
     const std::vector<face> asked = faces_of(surface, doubted);
     const tree<3> tree = build_face_tree({surface.points, asked});
+    std::vector<aabb<double, 3>> boxes(chunk_count(asked.size(), light_grain));
+    for_chunks(asked.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i)
+            boxes[c].include(box_of(surface.points, asked[i]));
+    });
     aabb<double, 3> reach;
-    for (const face& f : asked) reach.include(box_of(surface.points, f));
+    for (const auto& box : boxes) reach.include(box);
     coarse_grid grid(reach);  // tells of nearly all faces
-    std::vector<coarse_grid::cell> cell(surface.points.size());
+    std::vector<coarse_grid::cell> cell;
+    base::resize_all(surface.points.size(), cell);
     for_chunks(cell.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t p = begin; p < end; ++p) cell[p] = grid.cell_of(surface.points[p]);
     });
-    for (const auto& [a, b, c] : asked) grid.add(cell[a], cell[b], cell[c]);
+    for_chunks(asked.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            grid.add(cell[asked[i][0]], cell[asked[i][1]], cell[asked[i][2]]);
+    });
     grid.finish();
     const auto is_near = [&](std::size_t f) {
         const auto& [a, b, c] = surface.faces[f];
@@ -87,9 +100,7 @@ ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::u
                    for (std::size_t f = begin; f < end; ++f)
                        if (is_near(f)) found[c].push_back(static_cast<std::uint32_t>(f));
                });
-    ids all;
-    for (const ids& part : found) all.insert(all.end(), part.begin(), part.end());
-    return all;
+    return base::flattened(std::move(found));
 }
 
 /// Whether an edge of a face that is not sound is open. At edges of sound faces alone nothing has

@@ -1,5 +1,8 @@
 #include <libmesh/base/compact.hpp>
 #include <libmesh/base/fill_stars.hpp>
+#include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/flattened.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/topology/is_manifold.hpp>
 #include <treeform/tree/detail/buffer.hpp>
@@ -73,6 +76,7 @@ bool is_one_fan(std::span<const face> faces, std::span<const std::uint32_t> arou
     return links.back()[1] == links.front()[0];
 }
 
+constexpr std::size_t star_grain = std::size_t{1} << 10;
 constexpr std::size_t many = 64;  ///< faces at a point: they are not looked at
 constexpr std::size_t ahead = 8;  ///< stars whose memory is under way
 
@@ -81,7 +85,7 @@ template <class StarOf, class PointOf>
 bool are_all_one_fan(std::span<const face> faces, std::size_t count, const StarOf& star_of,
                      const PointOf& point_of) {
     std::atomic<bool> manifold{true};
-    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(count, star_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::vector<std::array<std::uint32_t, 2>> links;
         for (std::size_t i = begin; i < end && manifold.load(std::memory_order_relaxed); ++i) {
             if (i + ahead < end)
@@ -97,8 +101,8 @@ bool are_all_one_fan(std::span<const face> faces, std::size_t count, const StarO
 
 std::vector<std::uint32_t> points_without_fan(mesh_view mesh) {
     const base::stars stars(mesh.points.size(), mesh.faces);
-    std::vector<std::vector<std::uint32_t>> found(chunk_count(stars.size(), light_grain));
-    for_chunks(stars.size(), light_grain,
+    std::vector<std::vector<std::uint32_t>> found(chunk_count(stars.size(), star_grain));
+    for_chunks(stars.size(), star_grain,
                [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                    std::vector<std::array<std::uint32_t, 2>> links;
                    for (std::size_t v = begin; v < end; ++v) {
@@ -110,9 +114,7 @@ std::vector<std::uint32_t> points_without_fan(mesh_view mesh) {
                            found[chunk].push_back(p);
                    }
                });
-    std::vector<std::uint32_t> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-    return all;
+    return base::flattened(std::move(found));
 }
 
 bool is_manifold(mesh_view mesh) {
@@ -126,21 +128,28 @@ bool is_manifold_at(std::span<const std::uint32_t> points, mesh_view mesh) {
     for_chunks(number.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::fill(number.data() + begin, number.data() + end, none);
     });
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            std::atomic_ref(number[points[i]]).store(0, std::memory_order_relaxed);
+    });
     std::vector<std::uint32_t> asked;
-    for (const std::uint32_t p : points) {
-        if (number[p] != none) continue;
-        number[p] = static_cast<std::uint32_t>(asked.size());
-        asked.push_back(p);
-    }
+    base::compact(
+        number.size(), [&](std::size_t p) { return number[p] != none; },
+        [&](std::size_t count) { asked.resize(count); },
+        [&](std::size_t p, std::size_t place) {
+            number[p] = static_cast<std::uint32_t>(place);
+            asked[place] = static_cast<std::uint32_t>(p);
+        });
     const auto is_there = [&](std::size_t f) {
         const auto& [a, b, c] = mesh.faces[f];
         return number[a] != none || number[b] != none || number[c] != none;
     };
     std::vector<face> there;
     base::compact(
-        mesh.faces.size(), is_there, [&](std::size_t count) { there.resize(count); },
+        mesh.faces.size(), is_there, [&](std::size_t count) { base::resize_all(count, there); },
         [&](std::size_t f, std::size_t place) { there[place] = mesh.faces[f]; });
-    if (!std::all_of(there.begin(), there.end(), base::has_three_corners)) return false;
+    const auto is_bad = [&](std::size_t f) { return !base::has_three_corners(there[f]); };
+    if (base::first_bad(there.size(), is_bad) != there.size()) return false;
     const auto stars = base::fill_stars<std::size_t>(asked.size(), there.size(),
                                                      [&](std::size_t f, const auto& visit) {
                                                          for (const std::uint32_t corner : there[f])

@@ -1,3 +1,4 @@
+#include <libmesh/base/fill_stars.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/weld/edge_uses.hpp>
 
@@ -22,21 +23,15 @@ void for_each_edge_of(const face& f, repeated_corners repeated, const Body& body
 
 edge_uses::edge_uses(std::size_t point_count, std::span<const face> faces,
                      repeated_corners repeated)
-    : begin_(base::nameable_points(point_count) + 1) {
-    std::fill_n(begin_.data(), begin_.size(), std::size_t{0});
-    for (const face& f : faces)
-        for_each_edge_of(f, repeated, [&](std::uint32_t low, std::uint32_t) { ++begin_[low]; });
-    // Ends first; filling from the last face on turns them into beginnings.
-    std::size_t total = 0;
-    for (std::size_t v = 0; v < begin_.size(); ++v) begin_[v] = total += begin_[v];
-    uses_.resize(total);
-    for (std::size_t i = faces.size(); i-- > 0;)
-        for_each_edge_of(faces[i], repeated, [&](std::uint32_t low, std::uint32_t high) {
-            uses_[--begin_[low]] = std::uint64_t{high} << 32 | i;
-        });
+    : at_(base::fill_lists<std::size_t, std::uint64_t>(
+          base::nameable_points(point_count), faces.size(), [&](std::size_t i, const auto& visit) {
+              for_each_edge_of(faces[i], repeated, [&](std::uint32_t low, std::uint32_t high) {
+                  visit(low, std::uint64_t{high} << 32 | i);
+              });
+          })) {
     for_chunks(size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t v = begin; v < end; ++v)
-            std::sort(uses_.data() + begin_[v], uses_.data() + begin_[v + 1]);
+            std::sort(at_.faces.data() + at_.end[v] - at_[v].size(), at_.faces.data() + at_.end[v]);
     });
 }
 

@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/weld/equal_firsts.hpp>
 #include <libmesh/weld/number_groups.hpp>
 #include <libmesh/weld/point_hash.hpp>
@@ -163,7 +164,8 @@ void find_firsts(points_view points, std::span<const std::uint32_t> label,
 
 std::vector<std::uint32_t> detail::weld::equal_firsts(points_view points,
                                                       std::span<const std::uint32_t> label) {
-    std::vector<std::uint32_t> hash_then_first(points.size());
+    std::vector<std::uint32_t> hash_then_first;
+    detail::base::resize_all(points.size(), hash_then_first);
     for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             hash_then_first[i] = hash_of(points[i], label.empty() ? 0 : label[i]);
@@ -185,13 +187,13 @@ mesh join_equal_points(mesh_view mesh) {
     detail::base::check_faces("join_equal_points", mesh.points.size(), mesh.faces);
     const equal_points joined = find_equal_points(mesh.points);
     treeform::mesh result;
-    result.points.resize(joined.first_of_new.size());
+    detail::base::resize_all(joined.first_of_new.size(), result.points);
     for_chunks(result.points.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i)
                        result.points[i] = mesh.points[joined.first_of_new[i]];
                });
-    result.faces.resize(mesh.faces.size());
+    detail::base::resize_all(mesh.faces.size(), result.faces);
     for_chunks(result.faces.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i)

@@ -1,3 +1,6 @@
+#include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/flattened.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/weld/equal_firsts.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
 #include <libmesh/weld/number_groups.hpp>
@@ -10,8 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::weld {
@@ -65,9 +68,7 @@ std::vector<std::uint32_t> points_in_doubt(points_view points) {
             if (marks.is_shared(hash_of(points[i])))
                 found[c].push_back(static_cast<std::uint32_t>(i));
     });
-    std::vector<std::uint32_t> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-    return all;
+    return base::flattened(std::move(found));
 }
 
 }  // namespace
@@ -76,16 +77,15 @@ std::optional<equal_points> few_equal_points(points_view points) {
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
         throw std::invalid_argument("treeform::find_equal_points: more than 2^32 - 1 points");
     const std::vector<std::uint32_t> doubted = points_in_doubt(points);
-    std::vector<point3> at;
-    at.reserve(doubted.size());
-    for (const std::uint32_t p : doubted) at.push_back(points[p]);
+    std::vector<point3> at(doubted.size());
+    for_chunks(at.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) at[i] = points[doubted[i]];
+    });
     const std::vector<std::uint32_t> first = equal_firsts(at, {});
-    bool differ = true;
-    for (std::size_t i = 0; i < first.size(); ++i) differ = differ && first[i] == i;
-    if (differ) return std::nullopt;
+    const auto is_equal = [&](std::size_t i) { return first[i] != i; };
+    if (base::first_bad(first.size(), is_equal) == first.size()) return std::nullopt;
     equal_points result;
-    result.new_of_old.resize(points.size());
-    std::iota(result.new_of_old.begin(), result.new_of_old.end(), 0U);
+    result.new_of_old = base::numbers_below(points.size());
     for (std::size_t i = 0; i < first.size(); ++i)
         result.new_of_old[doubted[i]] = doubted[first[i]];
     result.first_of_new = number_groups(result.new_of_old);

@@ -1,3 +1,4 @@
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/weld/number_groups.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -7,7 +8,7 @@
 namespace treeform::detail::weld {
 
 std::vector<std::uint32_t> number_groups(std::vector<std::uint32_t>& group_of_point) {
-    constexpr std::size_t grain = std::size_t{1} << 15;
+    constexpr std::size_t grain = light_grain;
     std::vector<std::uint32_t>& first = group_of_point;
     std::vector<std::uint32_t> next(chunk_count(first.size(), grain), 0);
     for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
@@ -19,7 +20,8 @@ std::vector<std::uint32_t> number_groups(std::vector<std::uint32_t>& group_of_po
         n = total;
         total += count;
     }
-    std::vector<std::uint32_t> first_of_group(total);
+    std::vector<std::uint32_t> first_of_group;
+    base::resize_all(total, first_of_group);
     buffer<std::uint32_t> number_of(first.size());
     for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         std::uint32_t n = next[c];

@@ -1,5 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/weld/carried_rows.hpp>
 #include <libmesh/weld/conditions.hpp>
@@ -73,8 +75,7 @@ void carry_faces(std::span<const face> faces, bool keep_degenerate, weld_result&
         result.statistics.collapsed += n.collapsed;
         result.statistics.degenerate += n.degenerate;
     }
-    result.mesh.faces.resize(total);
-    result.face_of_new.resize(total);
+    detail::base::resize_all(total, result.mesh.faces, result.face_of_new);
     for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         std::size_t at = counts[c].kept;
         for (std::size_t i = begin; i < end; ++i) {
@@ -90,7 +91,7 @@ void carry_faces(std::span<const face> faces, bool keep_degenerate, weld_result&
 void carry_points(points_view points, const attributes& properties, const weld_options& options,
                   weld_result& result) {
     std::vector<point3>& places = result.mesh.points;
-    places.resize(result.point_of_group.size());
+    detail::base::resize_all(result.point_of_group.size(), places);
     for_chunks(places.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t g = begin; g < end; ++g) places[g] = points[result.point_of_group[g]];
     });
@@ -137,10 +138,15 @@ weld_result weld(mesh_view mesh, const attributes& properties, const weld_option
     if (mesh.faces.empty()) return result;
     if (statistics.max_displacement > 0.0)
         statistics.flipped = detail::weld::count_flipped(mesh, result.mesh, result.face_of_new);
-    statistics.nonmanifold_before =
-        detail::weld::count_nonmanifold_edges(mesh.points.size(), mesh.faces);
-    statistics.nonmanifold_after =
-        detail::weld::count_nonmanifold_edges(result.mesh.points.size(), result.mesh.faces);
+    detail::base::parallel_invoke(
+        [&] {
+            statistics.nonmanifold_before =
+                detail::weld::count_nonmanifold_edges(mesh.points.size(), mesh.faces);
+        },
+        [&] {
+            statistics.nonmanifold_after =
+                detail::weld::count_nonmanifold_edges(result.mesh.points.size(), result.mesh.faces);
+        });
     return result;
 }
 

@@ -16,7 +16,7 @@ namespace {
 // Work is cut by these sizes, never by the thread count. A part above `shared_split` records is cut
 // by all threads together; below `subtree` records one thread takes the part to its leaves.
 constexpr std::size_t shared_split = std::size_t{1} << 16;
-constexpr std::size_t subtree = std::size_t{1} << 14;
+constexpr std::size_t subtree = std::size_t{1} << 12;
 
 /// The memory of the nodes, which hold nothing yet, as a second array of records: each leaf block
 /// has room for more than the 8 records it gets.
@@ -122,7 +122,7 @@ void fill_leaves(tree<D>& tree, const split_record* order, const half_extents* e
     constexpr std::size_t ahead = 24;  // extents come from anywhere in memory: ask for them early
     wide_node<D>* const leaves = tree.level_data(tree.levels() - 1);
     std::uint32_t* const ids = tree.ids_data();
-    for_chunks(tree.nodes_in_level(tree.levels() - 1), 1024,
+    for_chunks(tree.nodes_in_level(tree.levels() - 1), 256,
                [&](std::size_t first, std::size_t last, std::size_t) {
                    for (std::size_t block = first; block < last; ++block) {
                        wide_node<D>& leaf = leaves[block];
@@ -149,7 +149,7 @@ template <std::size_t D>
 void fill_inner(tree<D>& tree) {
     for (unsigned level = tree.levels() - 1; level > 0; --level) {
         clear(tree.level_data(level - 1)[tree.nodes_in_level(level - 1) - 1]);
-        for_chunks(tree.nodes_in_level(level), 2048,
+        for_chunks(tree.nodes_in_level(level), 512,
                    [&](std::size_t first, std::size_t last, std::size_t) {
                        for (std::size_t n = first; n < last; ++n) lift(tree, level, n);
                    });

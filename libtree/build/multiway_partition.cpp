@@ -13,7 +13,7 @@
 namespace treeform::detail {
 namespace {
 
-constexpr std::size_t chunk_size = std::size_t{1} << 14;
+constexpr std::size_t chunk_size = std::size_t{1} << 12;
 
 constexpr std::size_t first_bucket = partition_gates::first_bucket;
 constexpr std::size_t numbers = partition_gates::numbers;

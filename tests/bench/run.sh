@@ -58,13 +58,14 @@ if [[ -n $families ]]; then
     cmake --build build/bench --target stress_files
     exec build/bench/tests/bench/stress_files ${size+"${size[@]}"} "$families" "${options[@]}"
 fi
-spans=
+spans= others=
 ids=()
 for option in "${options[@]}"; do
     if [[ $option == P1 ]]; then spans=1; else ids+=("$option"); fi
+    [[ $option == P1 || $option == -* ]] || others=1
 done
 [[ -z $spans ]] || cmake --build build/bench --target treeform_span
-[[ -n $spans && ${#ids[@]} == 0 ]] || cmake --build build/bench --target treeform_bench
+[[ -n $spans && -z $others ]] || cmake --build build/bench --target treeform_bench
 
 models=${TREEFORM_MODELS_DIR-}
 [[ -z $models || $models == /* ]] || models=$here/$models
@@ -77,6 +78,6 @@ given=(${models:+--models "$models"}
 if [[ -n $spans ]]; then
     mkdir -p "$out"
     build/bench/tests/bench/span "${given[@]}" --out "$out/span.csv"
-    ((${#ids[@]})) || exit 0
+    [[ -n $others ]] || exit 0
 fi
 exec build/bench/tests/bench/bench "${given[@]}" --out "$out" "${ids[@]}"

@@ -22,7 +22,7 @@ struct work_and_span {
     [[nodiscard]] double parallelism() const { return work / span; }
 };
 
-/// Of `run`, which may throw nothing. Work that is done once, whoever asks, counts where it was asked
+/// Of `run`, which may throw nothing. Work that is done once counts where it was asked
 /// for first, as does what waits for it then.
 ///
 /// \param sample_every seconds; 0 for no samples

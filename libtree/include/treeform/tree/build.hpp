@@ -145,7 +145,7 @@ void builder<D>::fill(tree<D>& tree, const Range& range, const MakeBox& make_aab
     memory_.extents.resize(size);
     std::atomic<std::size_t> bad{size};  // the first element whose box cannot be used
     using block = detail::box_block<D>;
-    for_chunks(size, std::size_t{1} << 13, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(size, std::size_t{1} << 11, [&](std::size_t begin, std::size_t end, std::size_t) {
         block boxes;
         for (std::size_t i = begin; i < end; i += block::size) {
             const std::size_t count = std::min(block::size, end - i);

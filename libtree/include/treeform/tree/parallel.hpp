@@ -28,7 +28,7 @@ TREEFORM_API void for_chunks(
     detail::function_ref<void(std::size_t begin, std::size_t end, std::size_t chunk)> body);
 
 /// Elements a chunk where an element costs some nanoseconds: what a chunk costs is then lost in it.
-inline constexpr std::size_t light_grain = std::size_t{1} << 14;
+inline constexpr std::size_t light_grain = std::size_t{1} << 12;
 
 /// Number of chunks that `for_chunks(count, grain, ...)` runs.
 [[nodiscard]] constexpr std::size_t chunk_count(std::size_t count, std::size_t grain) {
