@@ -27,11 +27,15 @@ std::array<aabb<double, 3>, 3> active_places::corners_of(const face& f) const {
 
 void active_places::find() {
     is_within_.resize(cut_.faces.size(), 0);
-    for_chunks(cut_.faces.size(), light_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t f = begin; f < end; ++f)
-                       is_within_[f] = space_->is_within_active(corners_of(cut_.faces[f])) ? 1 : 0;
-               });
+    for_chunks(
+        cut_.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t f = begin; f < end; ++f) {
+                const auto corners = corners_of(cut_.faces[f]);
+                const bool may_be = std::ranges::all_of(
+                    corners, [&](const auto& corner) { return space_->reaches_active(corner); });
+                is_within_[f] = may_be && space_->is_within_active(corners) ? 1 : 0;
+            }
+        });
 }
 
 arrange::edge_use active_places::use_of(const std::array<std::uint32_t, 2>& points,
