@@ -61,12 +61,9 @@ class detacher {
     detached run() {
         for (int way = 0; way < likely_ways && wide_ <= limit_ && !vertices_left().empty(); ++way)
             move(vertices_left(), way, wide_);
-        const int most = most_doublings();
-        for (int tried = 0; tried < most * likely_ways && !vertices_left().empty(); ++tried)
-            move(vertices_left(), tried % likely_ways, steps(tried / likely_ways));
-        // Neighbors may be in each other's way: each alone, while they are few.
-        if (const auto left = vertices_left(); left.size() <= most_alone)
-            for (const std::uint32_t v : left) move_alone(v, most);
+        const int most = most_doublings(), few = std::min(most, least_doublings);
+        move_by(0, few);
+        move_by(few, most);
         detached result;
         result.touching = vertices_left().size();
         for (const auto& [v, twin] : twins_) {
@@ -111,8 +108,18 @@ class detacher {
         return most;
     }
 
-    void move_alone(std::uint32_t v, int most) {
-        for (int doublings = 0; doublings < most; ++doublings)
+    /// As far as so many doublings.
+    void move_by(int from, int to) {
+        for (int tried = from * likely_ways; tried < to * likely_ways && !vertices_left().empty();
+             ++tried)
+            move(vertices_left(), tried % likely_ways, steps(tried / likely_ways));
+        // Neighbors may be in each other's way: each alone, while they are few.
+        if (const auto left = vertices_left(); left.size() <= most_alone)
+            for (const std::uint32_t v : left) move_alone(v, from, to);
+    }
+
+    void move_alone(std::uint32_t v, int from, int to) {
+        for (int doublings = from; doublings < to; ++doublings)
             for (int way = 0; way < (doublings < least_doublings ? all_ways : likely_ways); ++way)
                 if (is_left(v)) move({v}, way, steps(doublings));
     }
