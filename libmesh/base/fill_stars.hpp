@@ -29,13 +29,15 @@ struct faces_by_point {
 
 /// Lists the values of i < `count`, ascending, at the points that `for_values(i, visit)` hands with
 /// them to `visit(point, value)`: first those of each bucket of points, then of each point of it.
+/// Hands each list to `finish`, which may sort it.
 ///
 /// \pre  `Index` holds the number of entries
 /// \cost O(points + entries) time; an entry's memory, and 4 bytes, on the way
 /// \same on any number of threads
-template <class Index, class Value, class ForValues>
+template <class Index, class Value, class ForValues, class Finish>
 [[nodiscard]] faces_by_point<Index, Value> fill_lists(std::size_t points, std::size_t count,
-                                                      const ForValues& for_values) {
+                                                      const ForValues& for_values,
+                                                      const Finish& finish) {
     constexpr std::size_t least_slice = std::size_t{1} << 11, most_slices = 64;
     constexpr int least_bits = 10, most_bucket_bits = 9;
     const int shift =
@@ -80,6 +82,12 @@ template <class Index, class Value, class ForValues>
         for (std::size_t p = begin; p < end; ++p) total += std::exchange(place[p], total);
         for (const entry& e : mine)
             result.faces[static_cast<std::size_t>(place[e.point]++)] = e.value;
+        std::size_t from = first[b];
+        for (std::size_t p = begin; p < end; ++p) {
+            const auto to = static_cast<std::size_t>(place[p]);
+            finish(std::span<Value>(result.faces.data() + from, result.faces.data() + to));
+            from = to;
+        }
     });
     return result;
 }
@@ -88,9 +96,12 @@ template <class Index, class Value, class ForValues>
 template <class Index, class ForCorners>
 [[nodiscard]] faces_by_point<Index> fill_stars(std::size_t points, std::size_t faces,
                                                const ForCorners& for_corners) {
-    return fill_lists<Index, std::uint32_t>(points, faces, [&](std::size_t i, const auto& visit) {
-        for_corners(i, [&](std::uint32_t p) { visit(p, static_cast<std::uint32_t>(i)); });
-    });
+    return fill_lists<Index, std::uint32_t>(
+        points, faces,
+        [&](std::size_t i, const auto& visit) {
+            for_corners(i, [&](std::uint32_t p) { visit(p, static_cast<std::uint32_t>(i)); });
+        },
+        [](std::span<std::uint32_t>) {});
 }
 
 }  // namespace treeform::detail::base

@@ -8,7 +8,8 @@ namespace treeform::detail::round {
 near_edges::near_edges(mesh_view surface, std::span<const std::uint32_t> faces)
     : faces_(faces),
       at_(base::fill_lists<std::uint64_t, use>(
-          surface.points.size(), faces.size(), [&](std::size_t place, const auto& visit) {
+          surface.points.size(), faces.size(),
+          [&](std::size_t place, const auto& visit) {
               const face& f = surface.faces[faces[place]];
               for (std::size_t i = 0; i < 3; ++i) {
                   const std::uint32_t a = f[i], b = f[i == 2 ? 0 : i + 1];
@@ -16,15 +17,11 @@ near_edges::near_edges(mesh_view surface, std::span<const std::uint32_t> faces)
                   const std::uint64_t edge = std::uint64_t{low} << 32 | std::max(a, b);
                   visit(low, {edge, static_cast<std::uint32_t>(place), a < b ? 1 : -1});
               }
-          })) {
-    for_chunks(at_.end.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t p = begin; p < end; ++p) {
-            use* const last = at_.faces.data() + at_.end[p];
-            std::sort(last - at_[p].size(), last, [](const use& x, const use& y) {
-                return x.edge != y.edge ? x.edge < y.edge : x.place < y.place;
-            });
-        }
-    });
-}
+          },
+          [](std::span<use> uses) {
+              std::sort(uses.begin(), uses.end(), [](const use& x, const use& y) {
+                  return x.edge != y.edge ? x.edge < y.edge : x.place < y.place;
+              });
+          })) {}
 
 }  // namespace treeform::detail::round

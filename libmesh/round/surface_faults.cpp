@@ -1,6 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
 #include <libmesh/base/flattened.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/resize_all.hpp>
 #include <libmesh/round/coarse_grid.hpp>
 #include <libmesh/round/near_edges.hpp>
@@ -16,6 +17,7 @@
 #include <atomic>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace treeform::detail::round {
@@ -135,18 +137,25 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
         doubted.size() > count / 2 ? all_of(count) : with_neighbors(surface, doubted, check.sound);
     const std::vector<face> faces = faces_of(surface, near);
     const mesh_view part{surface.points, faces};
-    const self_intersection_result found = self_intersections(
-        part, {.vertices = vertex_identity::by_index, .progress = check.progress});
+    self_intersection_result found;
+    std::optional<near_edges> edges;
+    base::parallel_invoke(
+        [&] {
+            found = self_intersections(
+                part, {.vertices = vertex_identity::by_index, .progress = check.progress});
+        },
+        [&] { result.degenerate = find_defects(part).degenerate_faces; },
+        [&] {
+            if (check.solid) edges.emplace(surface, near);
+        });
     result.cancelled = found.cancelled;
     if (result.cancelled) return result;
     for (const face_pair& pair : found.pairs)
         result.pairs.push_back({near[pair.a], near[pair.b], pair.kind});
-    for (const std::uint32_t f : find_defects(part).degenerate_faces)
-        result.degenerate.push_back(near[f]);
+    for (std::uint32_t& f : result.degenerate) f = near[f];
     if (!check.solid) return result;
-    const near_edges edges(surface, near);
-    result.open = is_open(edges, check.sound);
-    if (check.moved > 0.0 && may_be_turned(surface, check.sound, edges, check.moved))
+    result.open = is_open(*edges, check.sound);
+    if (check.moved > 0.0 && may_be_turned(surface, check.sound, *edges, check.moved))
         find_turned(surface, result);
     return result;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -23,27 +24,49 @@ void for_each_edge_of(const face& f, repeated_corners repeated, const Body& body
 
 edge_uses::edge_uses(std::size_t point_count, std::span<const face> faces,
                      repeated_corners repeated)
-    : at_(base::fill_lists<std::size_t, std::uint64_t>(
-          base::nameable_points(point_count), faces.size(), [&](std::size_t i, const auto& visit) {
+    : at_(base::fill_lists<std::size_t, edge_use>(
+          base::nameable_points(point_count), faces.size(),
+          [&](std::size_t i, const auto& visit) {
               for_each_edge_of(faces[i], repeated, [&](std::uint32_t low, std::uint32_t high) {
-                  visit(low, std::uint64_t{high} << 32 | i);
+                  visit(low, {high, static_cast<std::uint32_t>(i)});
               });
-          })) {
-    for_chunks(size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t v = begin; v < end; ++v)
-            std::sort(at_.faces.data() + at_.end[v] - at_[v].size(), at_.faces.data() + at_.end[v]);
-    });
-}
+          },
+          [](std::span<edge_use> uses) {
+              const auto key = [](const edge_use& u) {
+                  return std::uint64_t{u.high} << 32 | u.face;
+              };
+              std::sort(uses.begin(), uses.end(),
+                        [&](const edge_use& u, const edge_use& v) { return key(u) < key(v); });
+          })) {}
 
 std::uint64_t count_nonmanifold_edges(std::size_t point_count, std::span<const face> faces) {
-    const edge_uses edges(point_count, faces, repeated_corners::left_out);
-    std::vector<std::uint64_t> found(edges.chunks(), 0);
-    edges.for_each([&](const used_edge& edge, std::size_t chunk) {
-        if (edge.uses.size() > 2) ++found[chunk];
+    // Faces at their two lower corners, where their edges begin.
+    const auto at = base::fill_stars<std::size_t>(
+        base::nameable_points(point_count), faces.size(), [&](std::size_t i, const auto& visit) {
+            if (!base::has_three_corners(faces[i])) return;
+            const auto& [a, b, c] = faces[i];
+            const std::uint32_t low = std::min(std::min(a, b), c);
+            const std::uint32_t high = std::max(std::max(a, b), c);
+            visit(low);
+            visit(a ^ b ^ c ^ low ^ high);
+        });
+    constexpr std::size_t star_grain = std::size_t{1} << 10, few = 2;
+    std::vector<std::uint64_t> found(chunk_count(at.end.size(), star_grain), 0);
+    for_chunks(at.end.size(), star_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::vector<std::uint32_t> ends;  // of edges, the higher ones
+        for (std::size_t v = begin; v < end; ++v) {
+            if (at[v].size() <= few) continue;
+            ends.clear();
+            for (const std::uint32_t f : at[v])
+                for (const std::uint32_t corner : faces[f])
+                    if (corner > v) ends.push_back(corner);
+            std::sort(ends.begin(), ends.end());
+            for (std::size_t i = few; i < ends.size(); ++i)
+                found[c] +=
+                    ends[i] == ends[i - few] && (i == few || ends[i - few - 1] != ends[i]) ? 1 : 0;
+        }
     });
-    std::uint64_t total = 0;
-    for (const std::uint64_t n : found) total += n;
-    return total;
+    return std::accumulate(found.begin(), found.end(), std::uint64_t{0});
 }
 
 buffer<std::uint8_t> border_points(std::size_t point_count, std::span<const face> faces) {

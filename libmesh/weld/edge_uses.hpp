@@ -13,15 +13,19 @@
 
 namespace treeform::detail::weld {
 
+/// Of an edge: its higher end, and a face.
+struct edge_use {
+    std::uint32_t high;
+    std::uint32_t face;
+};
+
 /// An edge and what uses it, by ascending number of the face.
 struct used_edge {
     std::uint32_t low;
     std::uint32_t high;
-    std::span<const std::uint64_t> uses;
+    std::span<const edge_use> uses;
 
-    [[nodiscard]] std::uint32_t face(std::size_t use) const {
-        return static_cast<std::uint32_t>(uses[use]);
-    }
+    [[nodiscard]] std::uint32_t face(std::size_t use) const { return uses[use].face; }
 };
 
 /// What becomes of faces that repeat a corner.
@@ -31,7 +35,8 @@ enum class repeated_corners : std::uint8_t {
 };
 
 /// \pre  every corner is less than `point_count`
-/// \cost O(V + F log d) time for at most d edges at a point, 24 bytes a face and 8 a point; 48 a face on the way
+/// \cost O(V + F log d) time for at most d edges at a point, 24 bytes a face and 8 a point; 36 a
+///       face on the way
 /// \same on any number of threads
 class edge_uses {
   public:
@@ -54,17 +59,15 @@ class edge_uses {
 
     template <class Body>
     void for_each_at(std::uint32_t low, std::size_t chunk, const Body& body) const {
-        const std::span<const std::uint64_t> uses = at_[low];
+        const std::span<const edge_use> uses = at_[low];
         for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-            const std::uint64_t high = uses[begin] >> 32;
-            while (end < uses.size() && uses[end] >> 32 == high) ++end;
-            body(used_edge{low, static_cast<std::uint32_t>(high), uses.subspan(begin, end - begin)},
-                 chunk);
+            const std::uint32_t high = uses[begin].high;
+            while (end < uses.size() && uses[end].high == high) ++end;
+            body(used_edge{low, high, uses.subspan(begin, end - begin)}, chunk);
         }
     }
 
-    /// At the lower end of each edge: the higher one, then the face; ascending.
-    base::faces_by_point<std::size_t, std::uint64_t> at_;
+    base::faces_by_point<std::size_t, edge_use> at_;  ///< at lower ends, ascending
 };
 
 /// Edges of more than two faces, among the faces with three different corners.
