@@ -94,16 +94,11 @@ void finish_surface(boolean_result& result, mesh_arrangement& cut, round::solid_
         for (std::size_t f = begin; f < end; ++f)
             result.face_source[f] = joined.face_source(r.face_of[f]);
     });
-    for_chunks(r.point_of.size(), light_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t p = begin; p < end; ++p)
-                       if (r.point_of[p] < given)
-                           result.vertex_source[p] = joined.point_source(r.point_of[p]);
-               });
-    if (!merges_faces(options)) return;
     for_chunks(points, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
-            if (const std::uint32_t p = r.point_of[i]; p >= given && p != rounded_surface::none)
+            if (const std::uint32_t p = r.point_of[i]; p < given)
+                result.vertex_source[i] = joined.point_source(p);
+            else if (p != rounded_surface::none && merges_faces(options))
                 result.face_of_cut_vertex[i] = joined.face_source(face_of_point[p - given]);
     });
 }

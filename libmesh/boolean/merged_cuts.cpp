@@ -104,64 +104,10 @@ void tell(face_origins& origins, const std::vector<std::uint32_t>& source_of,
         origins.merged_into[listed[i]] = listed[merged.merged_into[i]];
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> groups_of(const boolean_options& options,
-                                     std::span<const std::uint32_t> number_of_face,
-                                     std::size_t count) {
-    const std::span<const std::uint32_t> given = options.face_groups;
-    if (given.empty() || !merges_faces(options)) return {};
-    if (given.size() != count)
-        throw std::invalid_argument("treeform::boolean: not as many face groups as faces");
-    if (number_of_face.empty()) return {given.begin(), given.end()};
-    std::vector<std::uint32_t> groups;
-    groups.reserve(number_of_face.size());
-    for (const std::uint32_t f : number_of_face) groups.push_back(given[f]);
-    return groups;
-}
-
-std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::uint32_t>& source_of,
-                                      std::span<const face> input,
-                                      std::span<const std::uint32_t> group_of,
-                                      const boolean_options& options, face_origins* origins) {
-    if (!merges_faces(options)) return {};
-    std::vector<std::uint32_t> listed;
-    if (options.simplify) {
-        listed.resize(surface.faces.size());
-        std::iota(listed.begin(), listed.end(), 0U);
-    } else {
-        listed = faces_at_cuts(surface);
-    }
-    // Sources ascend, so that the lowest is that of the first face.
-    std::vector<std::uint32_t> source_of_point(surface.constructed.size(), operand_element::none);
-    std::vector<std::uint32_t> plane_of(listed.size());
-    for_listed(listed, [&](std::size_t i, std::uint32_t f) {
-        plane_of[i] = source_of[f];
-        for (const std::uint32_t p : surface.faces[f]) {
-            if (p < surface.given.size()) continue;
-            const std::atomic_ref at(source_of_point[p - surface.given.size()]);
-            std::uint32_t now = at.load(std::memory_order_relaxed);
-            while (now > source_of[f] &&
-                   !at.compare_exchange_weak(now, source_of[f], std::memory_order_relaxed)) {
-            }
-        }
-    });
-    merged_faces merged;
-    {
-        const part_of_surface part(surface, listed);
-        const std::vector<std::uint8_t>& sound = part.surface().sound;
-        merged = merge_coplanar(
-            part.surface(), {.mesh = {surface.given, input},
-                             .plane_of = plane_of,
-                             .group_of = group_of,
-                             .stays = options.simplify ? std::span<const std::uint8_t>() : sound});
-        for_chunks(merged.faces.size(), light_grain,
-                   [&](std::size_t begin, std::size_t end, std::size_t) {
-                       for (std::size_t f = begin; f < end; ++f)
-                           merged.faces[f] = part.to_whole(merged.faces[f]);
-                   });
-    }
-    if (origins != nullptr) tell(*origins, source_of, listed, merged);
+/// Those `listed` among the faces of the surface become what they were merged into.
+void put_merged(exact_surface& surface, std::vector<std::uint32_t>& source_of,
+                const std::vector<std::uint32_t>& listed, const merged_faces& merged,
+                face_origins* origins) {
     std::vector<face> faces;
     std::vector<std::uint8_t> sound;
     std::vector<std::uint32_t> source;
@@ -195,6 +141,62 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
     surface.faces = std::move(faces);
     surface.sound = std::move(sound);
     source_of = std::move(source);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> groups_of(const boolean_options& options,
+                                     std::span<const std::uint32_t> number_of_face,
+                                     std::size_t count) {
+    const std::span<const std::uint32_t> given = options.face_groups;
+    if (given.empty() || !merges_faces(options)) return {};
+    if (given.size() != count)
+        throw std::invalid_argument("treeform::boolean: not as many face groups as faces");
+    if (number_of_face.empty()) return {given.begin(), given.end()};
+    std::vector<std::uint32_t> groups;
+    groups.reserve(number_of_face.size());
+    for (const std::uint32_t f : number_of_face) groups.push_back(given[f]);
+    return groups;
+}
+
+std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::uint32_t>& source_of,
+                                      std::span<const face> input,
+                                      std::span<const std::uint32_t> group_of,
+                                      const boolean_options& options, face_origins* origins) {
+    if (!merges_faces(options)) return {};
+    const std::vector<std::uint32_t> listed =
+        options.simplify ? base::numbers_below(surface.faces.size()) : faces_at_cuts(surface);
+    // Sources ascend, so that the lowest is that of the first face.
+    std::vector<std::uint32_t> source_of_point(surface.constructed.size(), operand_element::none);
+    std::vector<std::uint32_t> plane_of(listed.size());
+    for_listed(listed, [&](std::size_t i, std::uint32_t f) {
+        plane_of[i] = source_of[f];
+        for (const std::uint32_t p : surface.faces[f]) {
+            if (p < surface.given.size()) continue;
+            const std::atomic_ref at(source_of_point[p - surface.given.size()]);
+            std::uint32_t now = at.load(std::memory_order_relaxed);
+            while (now > source_of[f] &&
+                   !at.compare_exchange_weak(now, source_of[f], std::memory_order_relaxed)) {
+            }
+        }
+    });
+    merged_faces merged;
+    {
+        const part_of_surface part(surface, listed);
+        const std::vector<std::uint8_t>& sound = part.surface().sound;
+        merged = merge_coplanar(
+            part.surface(), {.mesh = {surface.given, input},
+                             .plane_of = plane_of,
+                             .group_of = group_of,
+                             .stays = options.simplify ? std::span<const std::uint8_t>() : sound});
+        for_chunks(merged.faces.size(), light_grain,
+                   [&](std::size_t begin, std::size_t end, std::size_t) {
+                       for (std::size_t f = begin; f < end; ++f)
+                           merged.faces[f] = part.to_whole(merged.faces[f]);
+                   });
+    }
+    if (origins != nullptr) tell(*origins, source_of, listed, merged);
+    put_merged(surface, source_of, listed, merged, origins);
     return source_of_point;
 }
 
