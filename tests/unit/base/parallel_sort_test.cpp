@@ -46,19 +46,19 @@ TEST_CASE("parallel_sort: as std::sort, of few different numbers and of many, on
 }
 
 TEST_CASE("parallel_sort: what is equal ends up the same on any number of threads") {
-    using pair = std::pair<std::uint32_t, std::uint32_t>;
+    using pair = std::array<std::uint32_t, 2>;
     std::vector<pair> given;
     for (const std::uint32_t n : random_numbers(50'000, 5))
-        given.emplace_back(n, static_cast<std::uint32_t>(given.size()));
+        given.push_back({n, static_cast<std::uint32_t>(given.size())});
     std::vector<pair> first;
     for (const unsigned threads : {1U, 2U, 8U}) {
         const treeform::thread_scope scope(threads);
         std::vector<pair> sorted = given;
-        base::parallel_sort(sorted, [](const pair& a, const pair& b) { return a.first < b.first; });
+        base::parallel_sort(sorted, [](const pair& a, const pair& b) { return a[0] < b[0]; });
         if (first.empty()) first = sorted;
         CHECK(sorted == first);
         CHECK(std::is_sorted(sorted.begin(), sorted.end(),
-                             [](const pair& a, const pair& b) { return a.first < b.first; }));
+                             [](const pair& a, const pair& b) { return a[0] < b[0]; }));
         std::sort(sorted.begin(), sorted.end());
         std::vector<pair> all = given;
         std::sort(all.begin(), all.end());
