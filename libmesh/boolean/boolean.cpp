@@ -9,6 +9,7 @@
 #include <libmesh/base/require_share.hpp>
 #include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/running_sums.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/check_solid.hpp>
@@ -326,10 +327,14 @@ std::optional<near_result> union_without_gaps(const char* function,
 }
 
 boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
-                        const boolean_expression& expression, const boolean_options& options,
+                        const boolean_expression& expression, boolean_options options,
                         left_faces is_left = nullptr) {
     std::vector<mesh_view> views;
     for (const mesh_operand& operand : operands) views.push_back(operand.view());
+    // Where few pairs are looked for and many found, the search begins once more.
+    const progress_callback given = std::move(options.progress);
+    detail::base::work_progress heard(given);
+    options.progress = heard.part(0.0, 1.0);
     return with_checks(function, views, options, [&] {
         check_expression("boolean", views, expression);
         try {
