@@ -363,9 +363,16 @@ void copy_points(mesh_view mesh, arrange_faces_result& result) {
 
 }  // namespace
 
-arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
-                                                     function_ref<bool(const face_pair&)> is_wanted,
-                                                     const arrange_faces_options& options) {
+arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
+                                                    std::span<const face_pair> pairs,
+                                                    std::vector<std::uint32_t> degenerate,
+                                                    const progress_callback& progress) {
+    arrange_faces_result result = arrange_known(mesh, pairs, std::move(degenerate), progress);
+    copy_points(mesh, result);
+    return result;
+}
+
+arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {
     detail::base::check_faces("arrange_faces", mesh.points.size(), mesh.faces);
     std::vector<std::uint32_t> degenerate = degenerate_faces(mesh);
     // Degenerate faces are shut out by hiding them: pairs are looked for among the others only.
@@ -392,30 +399,8 @@ arrange_faces_result detail::arrange::arrange_wanted(mesh_view mesh,
             pair.a = kept_number[pair.a];
             pair.b = kept_number[pair.b];
         }
-    std::erase_if(found.pairs, [&](const face_pair& pair) { return !is_wanted(pair); });
-    return arrange_known(mesh, found.pairs, std::move(degenerate),
-                         part_of(options.progress, 0.5, 1.0));
-}
-
-arrange_faces_result detail::arrange::arrange_pairs(mesh_view mesh,
-                                                    std::span<const face_pair> pairs,
-                                                    std::vector<std::uint32_t> degenerate,
-                                                    const progress_callback& progress) {
-    arrange_faces_result result = arrange_known(mesh, pairs, std::move(degenerate), progress);
-    copy_points(mesh, result);
-    return result;
-}
-
-arrange_faces_result detail::arrange::arrange_without_points(mesh_view mesh,
-                                                             const arrange_faces_options& options) {
-    return arrange_wanted(
-        mesh, [](const face_pair&) { return true; }, options);
-}
-
-arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& options) {
-    arrange_faces_result result = detail::arrange::arrange_without_points(mesh, options);
-    copy_points(mesh, result);
-    return result;
+    return detail::arrange::arrange_pairs(mesh, found.pairs, std::move(degenerate),
+                                          part_of(options.progress, 0.5, 1.0));
 }
 
 }  // namespace treeform

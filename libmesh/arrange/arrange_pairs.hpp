@@ -5,7 +5,6 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/tree/detail/function_ref.hpp>
 
 #include <cstdint>
 #include <span>
@@ -18,14 +17,5 @@ namespace treeform::detail::arrange {
 [[nodiscard]] arrange_faces_result arrange_pairs(mesh_view mesh, std::span<const face_pair> pairs,
                                                  std::vector<std::uint32_t> degenerate,
                                                  const progress_callback& progress);
-
-/// As `arrange_faces`, but without the `given_points`: for those who can move theirs there.
-[[nodiscard]] arrange_faces_result arrange_without_points(mesh_view mesh,
-                                                          const arrange_faces_options& options);
-
-/// The same of those pairs of faces alone that `is_wanted`; others stay uncut where they meet.
-[[nodiscard]] arrange_faces_result arrange_wanted(mesh_view mesh,
-                                                  function_ref<bool(const face_pair&)> is_wanted,
-                                                  const arrange_faces_options& options);
 
 }  // namespace treeform::detail::arrange

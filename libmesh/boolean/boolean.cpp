@@ -1,4 +1,3 @@
-#include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/certify.hpp>
@@ -13,9 +12,7 @@
 #include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/check_solid.hpp>
-#include <libmesh/boolean/clip_sheet.hpp>
 #include <libmesh/boolean/filled_gaps.hpp>
-#include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/labeled_cells.hpp>
 #include <libmesh/boolean/near_labels.hpp>
@@ -23,6 +20,7 @@
 #include <libmesh/boolean/open_input_edges.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/resolve_operand.hpp>
+#include <libmesh/boolean/sheet_labels.hpp>
 #include <libmesh/boolean/small_parts.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
 #include <libmesh/round/solid_faces.hpp>
@@ -44,8 +42,11 @@ namespace {
 using detail::base::part_of;
 using detail::boolean::active_part;
 using detail::boolean::bundled_operands;
-using detail::boolean::far_faces;
-using detail::boolean::finish_surface;
+using detail::boolean::bundles;
+using detail::boolean::cut_faces;
+using detail::boolean::cut_near;
+using detail::boolean::cut_what;
+using detail::boolean::fate;
 using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
 using detail::boolean::left_faces;
@@ -53,19 +54,6 @@ using detail::boolean::near_result;
 using detail::boolean::open_input_edges;
 using detail::boolean::operand_edges;
 using detail::boolean::resolved_operand;
-using detail::boolean::with_counts;
-
-/// Operands, joined, and their arrangement, which has taken their points; their faces stay.
-struct arranged_operands {
-    joined_operands joined;
-    arrange_faces_result arranged;
-};
-
-void arrange_joined(arranged_operands& operands, const progress_callback& progress) {
-    mesh& all = operands.joined.all;
-    operands.arranged = detail::arrange::arrange_without_points(all, {.progress = progress});
-    operands.arranged.cut.given_points = std::move(all.points);
-}
 
 /// \throws std::invalid_argument for a point that is not finite or beyond 2^1000
 joined_operands join_usable(std::span<const mesh_view> operands) {
@@ -78,24 +66,11 @@ joined_operands join_usable(std::span<const mesh_view> operands) {
     return joined;
 }
 
-arranged_operands arrange_operands(std::span<const mesh_view> operands,
-                                   const progress_callback& progress) {
-    arranged_operands result{join_usable(operands), {}};
-    arrange_joined(result, progress);
-    return result;
-}
-
-/// What `cut` is the arrangement of.
-mesh_view input_of(const mesh_arrangement& cut, const joined_operands& joined) {
-    return {cut.given_points, joined.all.faces};
-}
-
-open_input_edges open_edges_of(const joined_operands& joined, const operand_edges& edges,
-                               std::uint32_t sheet = operand_element::none) {
-    return detail::boolean::find_open_input_edges(joined.all.points, edges.unbalanced, sheet);
-}
-
-certificate open_input(const open_input_edges& found, const joined_operands& joined) {
+/// Where the surfaces of operands end; none where they do not.
+std::optional<certificate> open_input(const joined_operands& joined, const operand_edges& edges) {
+    const open_input_edges found =
+        detail::boolean::find_open_input_edges(joined.all.points, edges.unbalanced);
+    if (found.count == 0) return std::nullopt;
     certificate result{.status = status::open_input,
                        .open_count = found.count,
                        .boundary_edges = found.boundary_edges,
@@ -107,6 +82,17 @@ certificate open_input(const open_input_edges& found, const joined_operands& joi
     for (const auto& [face, ends] : found.stretches)
         result.open.push_back({joined.face_source(face), {at(ends[0]), at(ends[1])}});
     return result;
+}
+
+std::optional<certificate> open_input(const joined_operands& joined) {
+    return open_input(joined,
+                      detail::boolean::find_operand_edges(joined.all, joined.operand_of_face()));
+}
+
+boolean_result stopped_result() {
+    boolean_result made;
+    made.certificate.status = status::cancelled;
+    return made;
 }
 
 boolean_result open_result(certificate&& found) {
@@ -121,68 +107,6 @@ void check_expression(const char* function, std::span<const mesh_view> operands,
         throw std::invalid_argument("treeform::" + std::string(function) + ": the expression has " +
                                     std::to_string(expression.operand_count()) +
                                     " operands, given are " + std::to_string(operands.size()));
-}
-
-/// Faces with an area no piece of which is the lowest face's there.
-std::uint64_t count_covered(const arrange_faces_result& arranged, std::size_t faces) {
-    std::vector<std::uint8_t> is_lowest(faces, 0);
-    for_chunks(arranged.cut.faces.size(), light_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t f = begin; f < end; ++f)
-                       std::atomic_ref(is_lowest[arranged.cut.covers_of(f).front().face])
-                           .store(1, std::memory_order_relaxed);
-               });
-    for (const std::uint32_t f : arranged.degenerate) is_lowest[f] = 1;
-    const auto not_lowest = [&](std::size_t f) { return std::size_t{1} - is_lowest[f]; };
-    return detail::base::running_sums(faces, not_lowest).back();
-}
-
-boolean_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
-                          const boolean_options& options, std::optional<label_counts>& counts,
-                          left_faces is_left) {
-    auto [joined, arranged] = arrange_operands({&mesh, 1}, part_of(options.progress, 0.0, 0.5));
-    boolean_result made = with_counts(arranged);
-    if (arranged.cancelled) return made;
-    const auto [count, cells] =
-        detail::arrange::open_cells_of(input_of(arranged.cut, joined), arranged.cut);
-    const auto labels = detail::boolean::label_cells(arranged.cut, cells, count, is_guess, [&] {
-        return options.progress && !options.progress(0.6);
-    });
-    if (!labels) return made;
-    counts = {count - 1, labels->dropped_area, labels->turned_area};
-    detail::round::solid_faces chosen =
-        detail::round::faces_around(arranged.cut, cells, labels->inside);
-    finish_surface(made, arranged.cut, std::move(chosen), joined, true, options, is_left);
-    return made;
-}
-
-boolean_result clip_of(std::span<const mesh_view> operands, std::uint32_t sheet,
-                       const boolean_expression& expression, const boolean_options& options) {
-    check_expression("clip", operands, expression);
-    if (sheet >= operands.size())
-        throw std::invalid_argument("treeform::clip: the sheet is no operand");
-    if (!expression.needs(sheet))
-        throw std::invalid_argument("treeform::clip: the expression holds more than of the sheet");
-    joined_operands joined = join_usable(operands);
-    const operand_edges edges =
-        detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
-    if (const auto open = open_edges_of(joined, edges, sheet); open.count > 0)
-        return open_result(open_input(open, joined));
-    return detail::boolean::clip_sheet(joined, edges, sheet, expression, options);
-}
-
-boolean_result split_of(std::span<const mesh_view> operands, const boolean_options& options) {
-    auto [joined, arranged] = arrange_operands(operands, part_of(options.progress, 0.0, 0.7));
-    boolean_result result = with_counts(arranged);
-    if (arranged.cancelled) return result;
-    std::vector<std::uint32_t> all = detail::base::numbers_below(arranged.cut.faces.size());
-    result.statistics.covered = count_covered(arranged, joined.all.faces.size());
-    boolean_options as_cut = options;
-    as_cut.simplify = false;
-    as_cut.keep_cuts = true;
-    finish_surface(result, arranged.cut, {std::move(arranged.cut.faces), std::move(all)}, joined,
-                   false, as_cut);
-    return result;
 }
 
 /// The result as it is returned: a solid as a manifold, which takes a `split` where it may not be one.
@@ -209,6 +133,8 @@ boolean_result with_checks(const char* function, std::span<const mesh_view> oper
     detail::base::require_share(function, options.gap, "the gap");
     try {
         return run();
+    } catch (const detail::boolean::stopped&) {
+        return finished(stopped_result(), false, options);
     } catch (const std::invalid_argument&) {  // where an operand is to blame, its face is named
         detail::boolean::check_coordinates(function, operands);
         throw;
@@ -222,51 +148,145 @@ boolean_result evaluate(const char* function, std::span<const mesh_view> operand
     if (!solid && (options.min_volume > 0.0 || options.gap > 0.0))
         throw std::invalid_argument("treeform::" + std::string(function) +
                                     ": a least volume, or a gap to fill, is of solids only");
-    return with_checks(function, operands, options,
-                       [&] { return finished(make(operands, options), solid, options); });
+    return with_checks(function, operands, options, [&] {
+        near_result made = make(operands, options);
+        return finished(std::move(made.result), solid && !made.is_manifold, options);
+    });
+}
+
+/// Faces that lie entirely on lower ones.
+std::uint64_t count_covered(const cut_faces& cut) {
+    std::vector<std::uint8_t> is_lowest(cut.near.local.faces.size(), 0);
+    const mesh_arrangement& pieces = cut.arranged.cut;
+    for_chunks(pieces.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f)
+                       std::atomic_ref(is_lowest[pieces.covers_of(f).front().face])
+                           .store(1, std::memory_order_relaxed);
+               });
+    const auto not_lowest = [&](std::size_t f) { return std::size_t{1} - is_lowest[f]; };
+    return detail::base::running_sums(is_lowest.size(), not_lowest).back();
+}
+
+/// The chosen faces as a result, with those that nothing meets.
+near_result surface_of(const bundles& operands, cut_faces& cut,
+                       detail::boolean::chosen_surface chosen, const boolean_options& options,
+                       bool solid, left_faces is_left) {
+    cut.near.local.points = {};  // as large as the operands, perhaps
+    return detail::boolean::surface_of(operands, cut.near, cut.arranged, std::move(chosen), options,
+                                       solid, is_left);
 }
 
 /// What meets is cut, what is on both sides of its pieces told, and what bounds the result put
 /// together with the faces that nothing meets.
 near_result boolean_of(bundled_operands& operands, const boolean_expression& expression,
                        const boolean_options& options, left_faces is_left) {
-    near_result made;
     operands.find_pairs(part_of(options.progress, 0.0, 0.2));
-    if (!made.goes_on(options.progress, 0.2)) return made;
-    detail::boolean::near_faces near =
-        detail::boolean::find_near_faces(operands.all(), operands.once());
-    if (!made.goes_on(options.progress, 0.4)) return made;
-    arrange_faces_result arranged;
-    std::array<std::optional<far_faces>, 2> far;
-    const auto find_far = [&](std::size_t k) {
-        far[k].emplace(*operands.all()[k].mesh, near.is_near[k]);
-    };
-    detail::base::parallel_invoke(
-        [&] {
-            arranged = detail::arrange::arrange_pairs(near.local, near.pairs, {},
-                                                      part_of(options.progress, 0.4, 0.5));
-        },
-        [&] { find_far(0); }, [&] { find_far(1); });
-    if (arranged.cancelled || !made.goes_on(options.progress, 0.5)) {
-        made.result.certificate.status = status::cancelled;
-        return made;
-    }
+    cut_faces cut =
+        cut_near(operands, cut_what::near_beside_far, part_of(options.progress, 0.2, 0.5));
+    if (cut.arranged.cancelled) return {stopped_result()};
     detail::boolean::chosen_surface chosen;
     std::optional<operand_volumes> volumes;
     {
-        const detail::boolean::near_labels labels(operands.all(), near, arranged.cut,
-                                                  {std::move(*far[0]), std::move(*far[1])},
+        const detail::boolean::near_labels labels(operands.all(), cut.near, cut.arranged.cut,
+                                                  {std::move(*cut.far[0]), std::move(*cut.far[1])},
                                                   operands.part());
         if (options.volumes) volumes = labels.volumes(options.inside);
         chosen = labels.choose(expression, options.inside);
     }
+    near_result made;
     if (!made.goes_on(options.progress, 0.6)) return made;
-    near.local.points = {};  // as large as the operands, perhaps
-    made = detail::boolean::surface_of(operands.all(), near, arranged, std::move(chosen), options,
-                                       is_left);
+    made = surface_of(operands.all(), cut, std::move(chosen), options, true, is_left);
     made.result.volumes = volumes;
     if (operands.part() != nullptr)
         made.result.statistics.skipped_faces = operands.part()->left_out();
+    return made;
+}
+
+/// All faces, cut along each other.
+near_result split_of(std::span<const mesh_view> views, boolean_options options) {
+    bundled_operands operands(views);
+    operands.find_pairs(part_of(options.progress, 0.0, 0.2));
+    cut_faces cut = cut_near(operands, cut_what::near, part_of(options.progress, 0.2, 0.7));
+    if (cut.arranged.cancelled) return {stopped_result()};
+    const std::uint64_t covered = count_covered(cut);
+    std::vector<std::uint32_t> pieces = detail::base::numbers_below(cut.arranged.cut.faces.size());
+    detail::boolean::chosen_surface chosen{
+        {cut.arranged.cut.faces, std::move(pieces)},
+        detail::boolean::fates_of(operands.all(), cut.near, fate::kept)};
+    options.simplify = false;
+    options.keep_cuts = true;
+    near_result made = surface_of(operands.all(), cut, std::move(chosen), options, false, nullptr);
+    made.result.statistics.covered = covered;
+    return made;
+}
+
+/// A mesh that need not be closed, cut along itself, and what bounds the cells that are inside by the
+/// labels with the least disagreement.
+near_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
+                       const boolean_options& options, std::optional<label_counts>& counts,
+                       left_faces is_left) {
+    bundled_operands operands(std::span(&mesh, 1));
+    operands.find_pairs(part_of(options.progress, 0.0, 0.2));
+    cut_faces cut = cut_near(operands, cut_what::all, part_of(options.progress, 0.2, 0.5));
+    if (cut.arranged.cancelled) return {stopped_result()};
+    const mesh_arrangement& pieces = cut.arranged.cut;
+    const auto [count, cells] = detail::arrange::open_cells_of(cut.near.local, pieces);
+    std::vector<std::uint32_t> guesses;
+    for (const std::uint32_t f : cut.near.face_of)
+        guesses.push_back(is_guess[operands.all()[0].number_as_given(f)]);
+    const auto labels = detail::boolean::label_cells(
+        pieces, cells, count, guesses, [&] { return options.progress && !options.progress(0.6); });
+    if (!labels) return {stopped_result()};
+    counts = {count - 1, labels->dropped_area, labels->turned_area};
+    detail::boolean::chosen_surface chosen{
+        detail::round::faces_around(pieces, cells, labels->inside),
+        detail::boolean::fates_of(operands.all(), cut.near, fate::dropped)};
+    return surface_of(operands.all(), cut, std::move(chosen), options, true, is_left);
+}
+
+/// Values of all faces, those of the sheet before those of the others.
+std::vector<std::uint32_t> sheet_first(std::span<const std::uint32_t> values,
+                                       std::span<const mesh_view> views, std::uint32_t sheet) {
+    std::vector<std::uint32_t> result(values.begin(), values.end());
+    std::size_t begin = 0;
+    for (std::uint32_t k = 0; k < sheet; ++k) begin += views[k].faces.size();
+    const std::size_t end = begin + views[sheet].faces.size();
+    if (end <= values.size())
+        std::rotate(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(begin),
+                    result.begin() + static_cast<std::ptrdiff_t>(end));
+    return result;
+}
+
+/// Of an operand that need not be closed, what an expression keeps. The others are cut near it, and
+/// nowhere else.
+near_result clip_of(std::span<const mesh_view> views, std::uint32_t sheet,
+                    const boolean_expression& expression, const boolean_options& options) {
+    check_expression("clip", views, expression);
+    if (sheet >= views.size())
+        throw std::invalid_argument("treeform::clip: the sheet is no operand");
+    if (!expression.needs(sheet))
+        throw std::invalid_argument("treeform::clip: the expression holds more than of the sheet");
+    bundled_operands operands(views, sheet);
+    if (operands.all()[1].known->open.count > 0) {
+        std::vector<mesh_view> solids(views.begin(), views.end());
+        solids[sheet] = {};
+        return {open_result(open_input(join_usable(solids)).value())};
+    }
+    operands.find_pairs(part_of(options.progress, 0.0, 0.2));
+    cut_faces cut =
+        cut_near(operands, cut_what::near_beside_far, part_of(options.progress, 0.2, 0.5));
+    if (cut.arranged.cancelled) return {stopped_result()};
+    const detail::boolean::sheet_labels labels(operands.all(), cut.near, cut.arranged.cut,
+                                               *cut.far[0]);
+    detail::boolean::chosen_surface chosen = labels.choose(expression, options.inside);
+    const std::uint64_t skipped =
+        operands.all()[1].view().faces.size() - (cut.near.local.faces.size() - cut.near.first_of_b);
+    boolean_options rest = options;
+    const std::vector<std::uint32_t> groups = sheet_first(options.face_groups, views, sheet);
+    rest.face_groups = groups;
+    near_result made = surface_of(operands.all(), cut, std::move(chosen), rest, false, nullptr);
+    made.result.statistics.skipped_faces = skipped;
     return made;
 }
 
@@ -276,15 +296,16 @@ near_result boolean_of_joined(std::span<const mesh_view> views,
                               left_faces is_left) {
     joined_operands joined = join_usable(views);
     operand_edges edges = detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
-    if (const auto open = open_edges_of(joined, edges); open.count > 0)
-        return {open_result(open_input(open, joined)), false};
+    if (auto open = open_input(joined, edges)) return {open_result(std::move(*open)), false};
     near_result made;
     if (!made.goes_on(options.progress, 0.1)) return made;
     std::unique_ptr<const active_part> part;
     if (!options.volumes)  // which ask for more than the expression does
         part = active_part::find(joined, std::move(edges), expression, options.inside);
     bundled_operands bundled(std::move(joined), std::move(part));
-    return boolean_of(bundled, expression, options, is_left);
+    boolean_options rest = options;
+    rest.progress = part_of(options.progress, 0.1, 1.0);
+    return boolean_of(bundled, expression, rest, is_left);
 }
 
 near_result boolean_of(std::span<const mesh_operand> operands, std::span<const mesh_view> views,
@@ -298,7 +319,9 @@ near_result boolean_of(std::span<const mesh_operand> operands, std::span<const m
         looked = done;
         return !options.progress || options.progress(done);
     };
-    const bool may_hide = bundled.open().count > 0 || !bundled.have_few_pairs(report);
+    const auto is_open = [&](const detail::boolean::bundle& b) { return b.known->open.count > 0; };
+    const bool may_hide =
+        std::ranges::any_of(bundled.all(), is_open) || !bundled.have_few_pairs(report);
     boolean_options rest = options;
     rest.progress = part_of(options.progress, looked, 1.0);
     if (may_hide) return boolean_of_joined(views, expression, rest, is_left);
@@ -337,14 +360,10 @@ boolean_result evaluate(const char* function, std::span<const mesh_operand> oper
     options.progress = heard.part(0.0, 1.0);
     return with_checks(function, views, options, [&] {
         check_expression("boolean", views, expression);
-        try {
-            std::optional<near_result> made;
-            if (options.gap > 0.0) made = union_without_gaps(function, views, expression, options);
-            if (!made) made = boolean_of(operands, views, expression, options, is_left);
-            return finished(std::move(made->result), !made->is_manifold, options);
-        } catch (const detail::boolean::stopped&) {
-            return finished(with_counts({}), false, options);
-        }
+        std::optional<near_result> made;
+        if (options.gap > 0.0) made = union_without_gaps(function, views, expression, options);
+        if (!made) made = boolean_of(operands, views, expression, options, is_left);
+        return finished(std::move(made->result), !made->is_manifold, options);
     });
 }
 
@@ -447,11 +466,9 @@ certificate detail::boolean::check_solid(const char* called, mesh_view mesh,
                                          const progress_callback& progress) {
     check_operands(called, {&mesh, 1});
     check_coordinates(called, {&mesh, 1});
-    const joined_operands joined = join_operands({&mesh, 1});
-    const auto open =
-        open_edges_of(joined, find_operand_edges(joined.all, joined.operand_of_face()));
+    const auto open = open_input(join_operands({&mesh, 1}));
     if (progress && !progress(1.0)) return {.status = status::cancelled};
-    return open.count == 0 ? certificate{} : open_input(open, joined);
+    return open.value_or(certificate{});
 }
 
 }  // namespace treeform

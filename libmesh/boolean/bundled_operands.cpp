@@ -1,10 +1,15 @@
+#include <libmesh/arrange/arrange_pairs.hpp>
+#include <libmesh/base/parallel_invoke.hpp>
+#include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <treeform/tree/parallel.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace treeform::detail::boolean {
 
@@ -22,14 +27,31 @@ bundled_operands::bundled_operands(std::span<const mesh_operand> operands) {
     });
 }
 
+bundled_operands::bundled_operands(std::span<const mesh_view> operands) : once_(true) {
+    const bool join = operands.size() > 2;
+    if (join) take_joined(0, join_operands(operands), true);
+    for (std::size_t k = join ? 1 : 0; k < 2; ++k) {
+        own_[k] = prepared_mesh::borrow(!join && k < operands.size() ? operands[k] : mesh_view{});
+        take(k, cut_operand_of(own_[k]), own_[k]);
+    }
+}
+
+bundled_operands::bundled_operands(std::span<const mesh_view> operands, std::uint32_t sheet)
+    : once_(true) {
+    own_[0] = prepared_mesh::borrow(operands[sheet]);
+    take(0, cut_operand_of(own_[0]), own_[0]);
+    all_[0].operand = sheet;
+    std::vector<mesh_view> others(operands.begin(), operands.end());
+    others[sheet] = {};
+    take_joined(1, join_operands(others), false);
+    all_[1].has_pairs = false;
+}
+
 bundled_operands::bundled_operands(joined_operands&& joined,
                                    std::unique_ptr<const active_part> part)
-    : joined_(cut_operand_of(part ? part->faces() : std::move(joined), true)),
-      part_(std::move(part)),
-      once_(true) {
-    take(0, *joined_, own_[0]);
+    : part_(std::move(part)), once_(true) {
+    take_joined(0, part_ ? part_->faces() : std::move(joined), true);
     take(1, cut_operand_of(own_[1]), own_[1]);
-    all_[0].operand_of_face = joined_->joined.operand_of_face();
 }
 
 void bundled_operands::take(std::size_t k, const cut_operand& known, const prepared_mesh& given) {
@@ -38,13 +60,11 @@ void bundled_operands::take(std::size_t k, const cut_operand& known, const prepa
     all_[k].operand = static_cast<std::uint32_t>(k);
 }
 
-open_input_edges bundled_operands::open() const {
-    open_input_edges found = all_[0].known->open;
-    const open_input_edges& more = all_[1].known->open;
-    found.count += more.count;
-    found.boundary_edges += more.boundary_edges;
-    found.misoriented_edges += more.misoriented_edges;
-    return found;
+void bundled_operands::take_joined(std::size_t k, joined_operands&& joined, bool is_closed) {
+    joined_ = cut_operand_of(std::move(joined), is_closed);
+    take(k, *joined_, own_[k]);
+    all_[k].operand = 0;
+    all_[k].operand_of_face = joined_->joined.operand_of_face();
 }
 
 bool bundled_operands::have_few_pairs(const progress_callback& progress) const {
@@ -58,10 +78,40 @@ bool bundled_operands::have_few_pairs(const progress_callback& progress) const {
 }
 
 void bundled_operands::find_pairs(const progress_callback& progress) {
-    for (bundle& b : all_) b.pairs = own_pairs(*b.mesh, progress);
+    all_[0].pairs = own_pairs(*all_[0].mesh, base::part_of(progress, 0.0, 0.5));
+    if (all_[1].has_pairs)
+        all_[1].pairs = own_pairs(*all_[1].mesh, base::part_of(progress, 0.5, 1.0));
     if (!part_) return;
     pairs_within_ = part_->pairs_within(all_[0].view(), all_[0].pairs);
     all_[0].pairs = pairs_within_;
+}
+
+cut_faces cut_near(const bundled_operands& operands, cut_what what,
+                   const progress_callback& progress) {
+    const auto stops = [&](double done) { return progress && !progress(done); };
+    cut_faces result;
+    result.arranged.cancelled = true;
+    if (stops(0.0)) return result;
+    result.near = find_near_faces(operands.all(), operands.once(), what == cut_what::all);
+    if (stops(0.5)) return result;
+    const auto find_far = [&](std::size_t k) {
+        if (what == cut_what::near_beside_far)
+            result.far[k].emplace(*operands.all()[k].mesh, result.near.is_near[k]);
+    };
+    base::parallel_invoke(
+        [&] {
+            result.arranged = arrange::arrange_pairs(result.near.local, result.near.pairs, {},
+                                                     base::part_of(progress, 0.5, 1.0));
+        },
+        [&] { find_far(0); }, [&] { find_far(1); });
+    return result;
+}
+
+buffer<fate> fates_of(const bundles& operands, const near_faces& near, fate of_rest) {
+    buffer<fate> fates(operands[0].view().faces.size() + operands[1].view().faces.size());
+    std::fill_n(fates.data(), fates.size(), of_rest);
+    for (const std::uint32_t f : near.face_of) fates[f] = fate::cut;
+    return fates;
 }
 
 }  // namespace treeform::detail::boolean

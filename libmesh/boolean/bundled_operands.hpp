@@ -2,9 +2,12 @@
 /// \file
 /// Operands as they are cut: which meshes, what is known of each, and what of them matters.
 
+#include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/cut_operand.hpp>
+#include <libmesh/boolean/far_faces.hpp>
 #include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/near_labels.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 
@@ -21,6 +24,10 @@ class bundled_operands {
   public:
     /// At most two, as they are.
     explicit bundled_operands(std::span<const mesh_operand> operands);
+    /// Any number, which may be open.
+    explicit bundled_operands(std::span<const mesh_view> operands);
+    /// Number `sheet`, and all others as one mesh.
+    bundled_operands(std::span<const mesh_view> operands, std::uint32_t sheet);
     /// Several that are closed, as one mesh. \param part of them, or null where all matter
     bundled_operands(joined_operands&& joined, std::unique_ptr<const active_part> part);
     bundled_operands(const bundled_operands&) = delete;
@@ -32,15 +39,15 @@ class bundled_operands {
     /// Whether nothing that is prepared will be asked for again.
     [[nodiscard]] bool once() const { return once_; }
 
-    /// Where the surfaces of at most two end.
-    [[nodiscard]] open_input_edges open() const;
     /// Whether few of the faces of each bundle meet each other.
     [[nodiscard]] bool have_few_pairs(const progress_callback& progress) const;
-    /// Has each bundle know the pairs of its own faces that meet where it matters.
+    /// Has each bundle know the pairs of its own faces that meet where it matters; of those beside a
+    /// sheet, what is near tells later.
     void find_pairs(const progress_callback& progress);
 
   private:
     void take(std::size_t k, const cut_operand& known, const prepared_mesh& given);
+    void take_joined(std::size_t k, joined_operands&& joined, bool is_closed);
 
     std::array<prepared_mesh, 2> own_{};
     std::optional<cut_operand> joined_{};
@@ -49,5 +56,25 @@ class bundled_operands {
     bundles all_{};
     bool once_ = false;
 };
+
+/// Faces where they meet, cut along each other.
+struct cut_faces {
+    near_faces near{};
+    arrange_faces_result arranged{};
+    std::array<std::optional<far_faces>, 2> far{};  ///< where asked for
+};
+
+enum class cut_what : std::uint8_t {
+    near,             ///< and the others stay as they are
+    near_beside_far,  ///< these are told about in sets
+    all
+};
+
+/// \same on any number of threads
+[[nodiscard]] cut_faces cut_near(const bundled_operands& operands, cut_what what,
+                                 const progress_callback& progress);
+
+/// The same for all faces of both bundles that are not near.
+[[nodiscard]] buffer<fate> fates_of(const bundles& operands, const near_faces& near, fate of_rest);
 
 }  // namespace treeform::detail::boolean

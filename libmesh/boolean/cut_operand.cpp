@@ -100,6 +100,9 @@ struct known_pairs {
     bool are_all = true;
 };
 
+/// Those that were asked for first.
+constexpr base::slot<known_pairs> first_found{base::slot_name::few_own_pairs};
+
 known_pairs find_pairs(const prepared_mesh& mesh, const progress_callback& progress,
                        std::size_t most) {
     if (mesh.view().faces.empty()) return {};
@@ -120,7 +123,7 @@ cut_operand cut_operand_of(joined_operands&& joined, bool is_closed) {
     check_usable(all.points);
     result.rough = topology::points_without_fan(all);
     if (!is_closed) result.open = find_open(all, result.rough, result.joined.operand_of_face());
-    if (const ids degenerate = degenerate_of(all); !degenerate.empty() && result.open.count == 0) {
+    if (const ids degenerate = degenerate_of(all); !degenerate.empty()) {
         result.degenerate = degenerate.size();
         leave_out(degenerate, result.joined);
         result.rough = topology::points_without_fan(all);
@@ -152,21 +155,21 @@ const cut_operand& cut_operand_of(const prepared_mesh& mesh) {
 
 std::optional<std::span<const face_pair>> few_own_pairs(const prepared_mesh& mesh,
                                                         const progress_callback& progress) {
-    constexpr base::slot<known_pairs> slot{base::slot_name::few_own_pairs};
-    const known_pairs& known = base::prepared_slots::get(mesh, slot, [&] {
-        return find_pairs(mesh, progress, mesh.view().faces.size() / faces_of_a_pair);
-    });
-    if (!known.are_all) return std::nullopt;
+    const std::size_t most = mesh.view().faces.size() / faces_of_a_pair;
+    const known_pairs& known = base::prepared_slots::get(
+        mesh, first_found, [&] { return find_pairs(mesh, progress, most); });
+    if (!known.are_all || known.pairs.size() > most) return std::nullopt;
     return known.pairs;
 }
 
 std::span<const face_pair> own_pairs(const prepared_mesh& mesh, const progress_callback& progress) {
-    if (const auto few = few_own_pairs(mesh, progress)) return *few;
-    constexpr base::slot<known_pairs> slot{base::slot_name::own_pairs};
-    return base::prepared_slots::get(
-               mesh, slot,
-               [&] { return find_pairs(mesh, progress, std::numeric_limits<std::size_t>::max()); })
-        .pairs;
+    const auto find_all = [&] {
+        return find_pairs(mesh, progress, std::numeric_limits<std::size_t>::max());
+    };
+    const known_pairs& first = base::prepared_slots::get(mesh, first_found, find_all);
+    if (first.are_all) return first.pairs;
+    constexpr base::slot<known_pairs> all{base::slot_name::own_pairs};
+    return base::prepared_slots::get(mesh, all, find_all).pairs;
 }
 
 }  // namespace treeform::detail::boolean

@@ -46,7 +46,7 @@ struct cut_operand {
 
 /// What operands that were joined are cut as.
 ///
-/// \param is_closed whether what is left out closes them, so that nobody need look
+/// \param is_closed whether nobody need look where they end, as what is left out closes them, perhaps
 [[nodiscard]] cut_operand cut_operand_of(joined_operands&& joined, bool is_closed);
 
 /// The pairs of a mesh's own faces that meet beyond shared corners, ascending; none where there are

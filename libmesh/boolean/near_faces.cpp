@@ -146,6 +146,16 @@ void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, near_f
     near.pairs = std::move(across);
 }
 
+void find_own_pairs_of_second(near_faces& near) {
+    const std::span<const face> faces = near.local.faces;
+    const self_intersection_result found =
+        self_intersections({near.local.points, faces.subspan(near.first_of_b)},
+                           {.vertices = vertex_identity::by_index});
+    for (const auto& [a, b, kind] : found.pairs)
+        near.pairs.push_back({a + near.first_of_b, b + near.first_of_b, kind});
+    std::sort(near.pairs.begin(), near.pairs.end());
+}
+
 std::vector<face_pair> pairs_across(const bundles& operands, bool once) {
     const prepared_mesh &a = *operands[0].mesh, &b = *operands[1].mesh;
     if (a.view().faces.empty() || b.view().faces.empty()) return {};
@@ -156,10 +166,14 @@ std::vector<face_pair> pairs_across(const bundles& operands, bool once) {
 
 }  // namespace
 
-near_faces find_near_faces(const bundles& operands, bool once) {
+near_faces find_near_faces(const bundles& operands, bool once, bool all) {
     near_faces result;
     std::vector<face_pair> across = pairs_across(operands, once);
-    mark_near(operands, across, result);
+    if (all)
+        for (std::size_t k = 0; k < 2; ++k)
+            result.is_near[k].resize(operands[k].view().faces.size(), 1);
+    else
+        mark_near(operands, across, result);
     std::array<ids, 2> near;
     for_chunks(2, 1, [&](std::size_t k, std::size_t, std::size_t) {
         const auto face_at = build_face_tree(*operands[k].mesh).ids();
@@ -180,6 +194,7 @@ near_faces find_near_faces(const bundles& operands, bool once) {
     }
     join_equal(result);
     keep_pairs(std::move(across), operands, result);
+    if (!operands[1].has_pairs) find_own_pairs_of_second(result);
     return result;
 }
 

@@ -21,6 +21,7 @@ struct bundle {
     const cut_operand* known = nullptr;
     const prepared_mesh* mesh = nullptr;  ///< `known->mesh`
     std::span<const face_pair> pairs{};   ///< of its own faces that meet beyond shared corners
+    bool has_pairs = true;                ///< else those of what is near are to be found
     std::uint32_t operand = 0;            ///< that it is; of several, 0
     std::vector<std::uint32_t> operand_of_face{};  ///< [F] where there are several
 
@@ -73,10 +74,11 @@ struct near_faces {
 /// in common with the box of a face that is not near, and at each point of such a face, faces are one
 /// closed fan of which none is cut.
 ///
-/// What only later operations gain by is not prepared where there is just one, `once`.
+/// What only later operations gain by is not prepared where there is just one, `once`. `all` are near
+/// for those who ask for cells.
 ///
 /// \cost   that of the faces that meet, and O(V + F / 8) besides
 /// \same   on any number of threads
-[[nodiscard]] near_faces find_near_faces(const bundles& operands, bool once);
+[[nodiscard]] near_faces find_near_faces(const bundles& operands, bool once, bool all = false);
 
 }  // namespace treeform::detail::boolean

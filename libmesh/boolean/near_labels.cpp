@@ -1,12 +1,11 @@
 #include <libmesh/arrange/patch_regions.hpp>
+#include <libmesh/arrange/way_out.hpp>
+#include <libmesh/arrange/winding_beside.hpp>
 #include <libmesh/base/build_face_tree.hpp>
-#include <libmesh/base/double_double.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
-#include <libmesh/boolean/sum_of_cones.hpp>
-#include <libmesh/boolean/way_out.hpp>
-#include <libmesh/boolean/winding_beside.hpp>
+#include <libmesh/boolean/volumes_by_kind.hpp>
 #include <treeform/tree/detail/box_in_space.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -42,17 +41,17 @@ class line_windings {
     /// On one side of face f of bundle k.
     [[nodiscard]] beside_face at(std::size_t k, std::uint32_t f) const {
         const triangle3 whole = base::triangle_of(operands_[k].view(), f);
-        return follow(find_way_out({whole[0], whole[1], whole[2]}, whole, box_));
+        return follow(arrange::find_way_out({whole[0], whole[1], whole[2]}, whole, box_));
     }
     /// On one side of a face of an arrangement of `local`.
     [[nodiscard]] beside_face at(mesh_view local, const mesh_arrangement& cut,
                                  std::uint32_t f) const {
-        return follow(find_way_out(local, cut, f, box_));
+        return follow(arrange::find_way_out(local, cut, f, box_));
     }
 
   private:
-    [[nodiscard]] beside_face follow(const way_out& out) const {
-        const aabb<double, 3> way = way_along(out.line, out.ahead);
+    [[nodiscard]] beside_face follow(const arrange::way_out& out) const {
+        const aabb<double, 3> way = arrange::way_along(out.line, out.ahead);
         beside_face found{(out.line.faces() > 0) == out.ahead};
         if (part_ != nullptr) {
             found.of = part_->components().windings_beside(out.line, out.ahead);
@@ -60,7 +59,7 @@ class line_windings {
         }
         for (std::size_t k = 0; k < 2; ++k) {
             const mesh_view mesh = operands_[k].view();
-            visit_beside(
+            arrange::visit_beside(
                 *trees_[k], [&](std::uint32_t i) { return base::triangle_of(mesh, i); }, out.line,
                 way, out.ahead,
                 [&](std::uint32_t i, int change) {
@@ -112,8 +111,6 @@ arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
     return joined.number();
 }
 
-face turned_if(bool turn, const face& f) { return turn ? face{f[0], f[2], f[1]} : f; }
-
 }  // namespace
 
 near_labels::near_labels(const bundles& operands, const near_faces& near,
@@ -157,36 +154,18 @@ near_labels::near_labels(const bundles& operands, const near_faces& near,
     }
 }
 
-chosen_surface near_labels::choose(const boolean_expression& expression, fill_rule rule) const {
+near_labels::insides near_labels::insides_of(const boolean_expression& expression,
+                                             fill_rule rule) const {
     const partial_expression at_nowhere(expression, rule);
-    std::vector<std::uint8_t> inside(regions_.size(), 0);
+    insides result;
+    result.regions.resize(regions_.size(), 0);
     for_chunks(seeds_.size(), labels_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         partial_expression state = at_nowhere;
-        for (std::size_t i = begin; i < end; ++i) regions_.spread(seeds_[i], state, inside);
+        for (std::size_t i = begin; i < end; ++i) regions_.spread(seeds_[i], state, result.regions);
     });
-    chosen_surface result;
-    arrangement_cells cells;
-    cells.cell_of_side.resize(cut_.faces.size());
-    for_chunks(cut_.faces.size(), light_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t f = begin; f < end; ++f) {
-                       const std::uint32_t p = patches_.patch[f];
-                       const std::uint32_t front = regions_.patches().front(p);
-                       cells.cell_of_side[f] = {
-                           front, is_hidden_[p] != 0 ? front : regions_.patches().behind(p)};
-                   }
-               });
-    result.near = round::faces_around(cut_, cells, inside);
-
-    const std::array faces{operands_[0].view().faces.size(), operands_[1].view().faces.size()};
-    result.fates = buffer<fate>(faces[0] + faces[1]);
-    for_chunks(result.fates.size(), light_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   std::fill(result.fates.data() + begin, result.fates.data() + end, fate::cut);
-               });
     for (std::size_t k = 0; k < 2; ++k) {
-        std::vector<fate> of_set(sides_[k].size());
-        for_chunks(of_set.size(), labels_a_chunk,
+        result.sets[k].resize(sides_[k].size());
+        for_chunks(sides_[k].size(), labels_a_chunk,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        partial_expression state = at_nowhere;
                        for (std::size_t i = begin; i < end; ++i) {
@@ -203,46 +182,76 @@ chosen_surface near_labels::choose(const boolean_expression& expression, fill_ru
                            add(side.operand, -across);
                            for (const auto& [operand, winding] : side.windings)
                                add(operand, -winding);
-                           of_set[i] = here == there            ? fate::dropped
-                                       : there == side.in_front ? fate::kept
-                                                                : fate::turned;
+                           result.sets[k][i] = {side.in_front ? here : there,
+                                                side.in_front ? there : here};
                        }
                    });
+    }
+    return result;
+}
+
+chosen_surface near_labels::choose(const boolean_expression& expression, fill_rule rule) const {
+    const insides inside = insides_of(expression, rule);
+    chosen_surface result;
+    arrangement_cells cells;
+    cells.cell_of_side.resize(cut_.faces.size());
+    for_chunks(cut_.faces.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t f = begin; f < end; ++f) {
+                       const std::uint32_t p = patches_.patch[f];
+                       const std::uint32_t front = regions_.patches().front(p);
+                       cells.cell_of_side[f] = {
+                           front, is_hidden_[p] != 0 ? front : regions_.patches().behind(p)};
+                   }
+               });
+    result.near = round::faces_around(cut_, cells, inside.regions);
+
+    const std::array faces{operands_[0].view().faces.size(), operands_[1].view().faces.size()};
+    result.fates = buffer<fate>(faces[0] + faces[1]);
+    for_chunks(result.fates.size(), light_grain,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   std::fill(result.fates.data() + begin, result.fates.data() + end, fate::cut);
+               });
+    for (std::size_t k = 0; k < 2; ++k) {
+        std::vector<fate> of_set;
+        for (const auto& [front, behind] : inside.sets[k])
+            of_set.push_back(front == behind ? fate::dropped
+                             : behind != 0   ? fate::kept
+                                             : fate::turned);
         far_[k].write(std::span<const fate>(of_set), result.fates.data() + (k == 0 ? 0 : faces[0]));
     }
     return result;
 }
 
-double near_labels::volume_of(const boolean_expression& expression, fill_rule rule) const {
-    const chosen_surface chosen = choose(expression, rule);
-    const std::size_t given = cut_.given_points.size();
-    const auto at = [&](std::uint32_t p) {
-        return p < given ? cut_.given_points[p] : cut_.constructed[p - given].center();
-    };
-    base::double_double sum = sum_of_cones(chosen.near.faces.size(), [&](std::size_t f) {
-        const auto& [p, q, r] = chosen.near.faces[f];
-        return base::determinant(at(p), at(q), at(r));
-    });
-    std::size_t first = 0;
-    for (const bundle& operand : operands_) {
-        const mesh_view mesh = operand.view();
-        sum = sum + sum_of_cones(mesh.faces.size(), [&](std::size_t f) {
-                  const fate of = chosen.fates[first + f];
-                  if (of == fate::cut || of == fate::dropped) return base::double_double{};
-                  const auto [p, q, r] = turned_if(of == fate::turned, mesh.faces[f]);
-                  return base::determinant(mesh.points[p], mesh.points[q], mesh.points[r]);
-              });
-        first += mesh.faces.size();
-    }
-    return sum.high / 6.0;
-}
-
 operand_volumes near_labels::volumes(fill_rule rule) const {
-    const auto volume = [&](const char* text) { return volume_of({text, 2}, rule); };
+    const std::array in{insides_of({"a", 2}, rule), insides_of({"b", 2}, rule)};
+    volumes_by_kind volumes;
+    const auto kind = [&](const auto& is_in) {  // `is_in(k, s)` side s, of a face
+        const auto of = [&](std::size_t s) { return std::array{is_in(0, s), is_in(1, s)}; };
+        return volumes_by_kind::kind_of(of(0), of(1));
+    };
+    std::vector<point3> points = cut_.given_points;
+    for (const implicit_point& p : cut_.constructed) points.push_back(p.center());
+    std::vector<std::uint8_t> of_patch(patches_.count());
+    for (std::uint32_t p = 0; p < of_patch.size(); ++p) {
+        const std::array regions{regions_.patches().front(p), regions_.patches().behind(p)};
+        of_patch[p] = kind([&](std::size_t k, std::size_t s) { return in[k].regions[regions[s]]; });
+    }
+    volumes.add({points, cut_.faces}, [&](std::size_t f) { return of_patch[patches_.patch[f]]; });
+    for (std::size_t k = 0; k < 2; ++k) {
+        std::vector<std::uint8_t> of_set(sides_[k].size());
+        for (std::size_t i = 0; i < of_set.size(); ++i)
+            of_set[i] = kind([&](std::size_t o, std::size_t s) { return in[o].sets[k][i][s]; });
+        std::vector<std::uint8_t> of_face(operands_[k].view().faces.size(),
+                                          volumes_by_kind::of_nothing);  // where it is near
+        far_[k].write(std::span<const std::uint8_t>(of_set), of_face.data());
+        volumes.add(operands_[k].view(), [&](std::size_t f) { return of_face[f]; });
+    }
+    const std::array<double, 3> six = volumes.six();
     operand_volumes result;
-    result.first = volume("a");
-    result.second = volume("b");
-    result.both = volume("a*b");
+    result.first = six[0] / 6.0;
+    result.second = six[1] / 6.0;
+    result.both = six[2] / 6.0;
     // No smaller than either operand's, so little of it cancels.
     result.either = result.first - result.both + result.second;
     return result;

@@ -46,6 +46,8 @@ class near_labels {
     [[nodiscard]] chosen_surface choose(const boolean_expression& expression, fill_rule rule) const;
 
     /// The volumes of what two operands are, and of both together, from the points as approximated.
+    ///
+    /// \cost what crosses each patch, twice, and O(F)
     [[nodiscard]] operand_volumes volumes(fill_rule rule) const;
 
   private:
@@ -55,7 +57,13 @@ class near_labels {
         std::uint32_t operand = 0;  ///< whose face it is
         std::vector<operand_winding> windings{};
     };
-    [[nodiscard]] double volume_of(const boolean_expression& expression, fill_rule rule) const;
+    /// 1 where an expression holds, else 0.
+    struct insides {
+        std::vector<std::uint8_t> regions;
+        /// In front of the faces of each set, and behind them.
+        std::array<std::vector<std::array<std::uint8_t, 2>>, 2> sets;
+    };
+    [[nodiscard]] insides insides_of(const boolean_expression& expression, fill_rule rule) const;
 
     const bundles& operands_;
     const mesh_arrangement& cut_;

@@ -1,13 +1,18 @@
+#include <libmesh/arrange/winding_beside.hpp>
+#include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/compact.hpp>
+#include <libmesh/base/face_boxes.hpp>
+#include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/resize_all.hpp>
-#include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/merged_cuts.hpp>
 #include <libmesh/boolean/near_surface.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/topology/is_manifold.hpp>
 #include <treeform/tree/parallel.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +26,14 @@ namespace treeform::detail::boolean {
 namespace {
 
 using ids = std::vector<std::uint32_t>;
+using round::winding_of_rest;
+
+/// Times that more faces are taken in around what was mended; then all are.
+constexpr int most_steps = 3;
+/// Where others are fewer than this share of what is near, nothing is mended without them.
+constexpr std::size_t few_others = 8;
+
+bool stays(fate of) { return of == fate::kept || of == fate::turned; }
 
 constexpr std::size_t write_grain = std::size_t{1} << 10;
 /// Room for one more point in so many, for those that `split_nonmanifold` adds.
@@ -101,7 +114,7 @@ class assembly {
     template <class Visit>
     void for_far_faces(std::size_t begin, std::size_t end, const Visit& visit) const {
         for (std::size_t f = begin; f < end; ++f)
-            if (fates_[f] == fate::kept || fates_[f] == fate::turned) visit(f);
+            if (stays(fates_[f])) visit(f);
     }
 
     /// Marks the points of operands that are in use.
@@ -182,6 +195,18 @@ class assembly {
     std::size_t given_ = 0;
 };
 
+/// Brings faces into the order of their sources, which is theirs but where rounded faces were cut.
+void sort_by_source(ids& source, std::vector<face>& faces) {
+    const auto falls = [&](std::size_t i) { return source[i] > source[i + 1]; };
+    if (source.empty() || base::first_bad(source.size() - 1, falls) == source.size() - 1) return;
+    ids order = base::numbers_below(source.size());
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return source[i]; });
+    std::vector<face> sorted(faces.size());
+    for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = faces[order[i]];
+    faces = std::move(sorted);
+    std::ranges::sort(source);
+}
+
 /// Puts a value of each piece where that is among `count` faces; others have none.
 void spread(ids& of_piece, const ids& pieces, std::size_t count) {
     ids of_face(count, rounded_surface::none);
@@ -189,18 +214,19 @@ void spread(ids& of_piece, const ids& pieces, std::size_t count) {
     of_piece = std::move(of_face);
 }
 
-/// Takes in all faces that stay, so that near is all that the result has. They have no origin.
-void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
-                 exact_surface& exact, ids& source, ids& face_of_point, ids& origin_of_face) {
+/// Takes in faces that stay, if `wanted(f)`: then they are near, too. They have no origin.
+template <class Wanted>
+void take_in(const bundles& operands, near_faces& near, buffer<fate>& fates, exact_surface& exact,
+             ids& source, ids& face_of_point, ids& origin_of_face, const Wanted& wanted) {
     const std::array meshes{operands[0].view(), operands[1].view()};
     const std::size_t faces_of_a = meshes[0].faces.size(), points_of_a = meshes[0].points.size();
     ids number(points_of_a + meshes[1].points.size(), rounded_surface::none);
     for (std::uint32_t p = 0; p < near.point_of.size(); ++p) number[near.point_of[p]] = p;
     const std::size_t given = exact.given.size();
 
-    near_faces all;
-    all.point_of = std::move(near.point_of);
-    std::vector<face>& faces = all.local.faces;
+    near_faces more;
+    more.point_of = std::move(near.point_of);
+    std::vector<face>& faces = more.local.faces;
     std::vector<face> surface;
     std::vector<std::uint8_t> sound;
     ids surface_source, pieces, new_of_old(near.face_of.size());
@@ -212,7 +238,7 @@ void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
             if (local == rounded_surface::none) {
                 local = static_cast<std::uint32_t>(exact.given.size());
                 exact.given.push_back(meshes[k].points[p]);
-                all.point_of.push_back(static_cast<std::uint32_t>(first + p));
+                more.point_of.push_back(static_cast<std::uint32_t>(first + p));
             }
             p = local;
         }
@@ -221,7 +247,7 @@ void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
         sound.push_back(1);
         surface_source.push_back(static_cast<std::uint32_t>(faces.size()));
         faces.push_back(corners);
-        all.face_of.push_back(f);
+        more.face_of.push_back(f);
     };
     std::size_t old = 0, piece = 0;
     for (std::uint32_t f = 0; f < fates.size(); ++f) {
@@ -234,8 +260,8 @@ void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
                 surface_source.push_back(new_of_old[old]);
             }
             faces.push_back(near.local.faces[old++]);
-            all.face_of.push_back(f);
-        } else if (fates[f] == fate::kept || fates[f] == fate::turned) {
+            more.face_of.push_back(f);
+        } else if (stays(fates[f]) && wanted(f)) {
             take(f);
             fates[f] = fate::cut;
         }
@@ -249,8 +275,64 @@ void take_in_all(const bundles& operands, near_faces& near, buffer<fate>& fates,
     source = std::move(surface_source);
     for (std::uint32_t& f : face_of_point)
         if (f < new_of_old.size()) f = new_of_old[f];
-    near = std::move(all);
+    near = std::move(more);
 }
+
+/// The faces that stay as they are where they are.
+class faces_left {
+  public:
+    faces_left(const bundles& operands, const buffer<fate>& fates)
+        : operands_(operands), fates_(fates) {
+        for (std::size_t k = 0; k < 2; ++k) trees_[k] = &build_face_tree(*operands[k].mesh);
+    }
+
+    [[nodiscard]] std::int64_t winding_beside(const arrange::corner_line& line, bool ahead) const {
+        const aabb<double, 3> way = arrange::way_along(line, ahead);
+        std::int64_t winding = 0;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const mesh_view mesh = operands_[k].view();
+            arrange::visit_beside(
+                *trees_[k], [&](std::uint32_t f) { return base::triangle_of(mesh, f); }, line, way,
+                ahead,
+                [&](std::uint32_t f, int change) {
+                    const fate of = fates_[first(k) + f];
+                    if (stays(of)) winding += of == fate::kept ? change : -change;
+                });
+        }
+        return winding;
+    }
+
+    /// Those whose boxes overlap that of a face of `rounded` that is not one of `exact`; ascending.
+    [[nodiscard]] ids at_changes(const rounded_surface& rounded, const exact_surface& exact) const {
+        ids found;
+        if (rounded.slivers == 0) return found;
+        for (std::size_t i = 0; i < rounded.face_of.size(); ++i) {
+            const face& now = rounded.surface.faces[i];
+            const face& before = exact.faces[rounded.face_of[i]];
+            if (std::ranges::equal(now, before, {},
+                                   [&](std::uint32_t p) { return rounded.point_of[p]; }))
+                continue;
+            const auto box = base::face_boxes(rounded.surface.points)(now);
+            for (std::size_t k = 0; k < 2; ++k)
+                search(*trees_[k], box, [&](std::uint32_t f) {
+                    if (stays(fates_[first(k) + f]))
+                        found.push_back(static_cast<std::uint32_t>(first(k) + f));
+                });
+        }
+        std::ranges::sort(found);
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        return found;
+    }
+
+  private:
+    [[nodiscard]] std::size_t first(std::size_t k) const {
+        return k == 0 ? 0 : operands_[0].view().faces.size();
+    }
+
+    const bundles& operands_;
+    const buffer<fate>& fates_;
+    std::array<const tree<3>*, 2> trees_{};
+};
 
 /// Of each local face, its number among the faces of all operands as they were given.
 ids numbers_as_given(const bundles& operands, const near_faces& near) {
@@ -313,19 +395,25 @@ void name_cut_vertices(const bundles& operands, const near_faces& near,
 }  // namespace
 
 near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
-                       chosen_surface chosen, const boolean_options& options, left_faces is_left) {
+                       chosen_surface chosen, const boolean_options& options, bool solid,
+                       left_faces is_left) {
     near_result made;
     boolean_result& result = made.result;
     ids source = std::move(chosen.near.face_of);
     exact_surface exact = surface_of(arranged.cut, std::move(chosen.near.faces), source);
     ids face_of_point;
     face_origins origins;
-    bool is_all = false;
-    const auto take_in = [&] {
-        if (std::exchange(is_all, true)) return;
-        take_in_all(operands, near, chosen.fates, exact, source, face_of_point, origins.of_face);
+    const auto others =
+        std::count_if(chosen.fates.data(), chosen.fates.data() + chosen.fates.size(), stays);
+    bool is_all = others == 0;
+    const auto take_in = [&](const auto& wanted) {
+        boolean::take_in(operands, near, chosen.fates, exact, source, face_of_point,
+                         origins.of_face, wanted);
     };
-    if (options.simplify) take_in();
+    const auto take_in_all = [&] {
+        if (!std::exchange(is_all, true)) take_in([](std::uint32_t) { return true; });
+    };
+    if (options.simplify) take_in_all();
     const std::size_t count = operands[0].count_as_given() + operands[1].count_as_given();
     face_of_point = merge_cuts(exact, source, near.local.faces,
                                options.face_groups.empty()
@@ -333,22 +421,39 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
                                    : groups_of(options, numbers_as_given(operands, near), count),
                                options, is_left == nullptr ? nullptr : &origins);
     for (std::uint32_t& f : origins.source) f = near.face_of[f];
-    if (options.precision == precision::float32) take_in();
-    std::size_t exact_faces = source.size();
+    if (options.precision == precision::float32) take_in_all();
+    double done = 0.7;
+    const auto options_of = [&](double most, const winding_of_rest& rest) {
+        const double from =
+            std::exchange(done, (done + 0.95) / 2.0);  // nobody knows how many follow
+        return round_options{.precision = options.precision,
+                             .solid = solid,
+                             .max_displacement = most,
+                             .rest = rest,
+                             .progress = base::part_of(options.progress, from, done)};
+    };
     rounded_surface rounded;
-    if (!is_all) {
-        // What was left out meets no box of what was cut, and so no piece of it either, rounded or
-        // not: rounding to nearest takes no coordinate out of a box of doubles.
-        rounded = round_once(exact, {.mends = false});
-        if (!rounded.certificate || rounded.vanished_components > 0) take_in();
+    // What was left out meets no box of what was cut, and so no piece of it either, rounded or
+    // not: rounding to nearest takes no coordinate out of a box of doubles. Nor is it to meet the
+    // box of a face that was mended.
+    const faces_left left(operands, chosen.fates);
+    const bool are_few = static_cast<std::size_t>(others) < exact.faces.size() / few_others;
+    const double most = are_few ? 0.0 : options.max_displacement;
+    for (int i = 0; !is_all; ++i) {
+        rounded =
+            round_once(exact, options_of(most, [&](const arrange::corner_line& line, bool ahead) {
+                           return left.winding_beside(line, ahead);
+                       }));
+        if (rounded.certificate.status == status::cancelled) break;
+        const ids met = left.at_changes(rounded, exact);
+        if (rounded.certificate && met.empty()) break;
+        if (!rounded.certificate || i == most_steps)
+            take_in_all();
+        else
+            take_in([&](std::uint32_t f) { return std::ranges::binary_search(met, f); });
     }
-    if (is_all) {
-        exact_faces = source.size();
-        rounded = round_surface(std::move(exact),
-                                {.precision = options.precision,
-                                 .max_displacement = options.max_displacement,
-                                 .progress = base::part_of(options.progress, 0.7, 0.95)});
-    }
+    const std::size_t exact_faces = source.size();
+    if (is_all) rounded = round_surface(std::move(exact), options_of(options.max_displacement, {}));
     keep_counts(operands, arranged, rounded, result);
     if (result.certificate.status == status::cancelled || !made.goes_on(options.progress, 0.95))
         return made;
@@ -365,7 +470,7 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
     const ids vertices = assembly(operands, near, chosen.fates)
                              .write(rounded, face_of_piece, merges_faces(options), result);
     // Faces that were not cut are as they were in their operand, all of those at a vertex or none.
-    made.is_manifold = !is_all && topology::is_manifold_at(vertices, result.mesh);
+    made.is_manifold = solid && !is_all && topology::is_manifold_at(vertices, result.mesh);
     result.statistics.exact_faces = result.mesh.faces.size() + (exact_faces - face_of_piece.size());
     if (merges_faces(options))
         name_cut_vertices(operands, near, rounded, vertices, face_of_point, result);

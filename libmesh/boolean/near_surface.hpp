@@ -3,14 +3,18 @@
 /// The surface of a result, from faces that were cut and faces that need not be.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/boolean/finish_surface.hpp>
 #include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <treeform/mesh/boolean.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace treeform::detail::boolean {
+
+/// [F] of the single operand as given, or null: set to 1 for faces that were merged with lower ones,
+/// where something is left of what they became. Those that `face_source` names need not be set.
+using left_faces = std::vector<std::uint8_t>*;
 
 struct near_result {
     boolean_result result{};
@@ -30,11 +34,13 @@ struct near_result {
 /// All faces are looked at where all may move or be merged, and where what was rounded meets
 /// something: else what is near alone.
 ///
-/// \param near     all but the pairs of `local`; is used up, as the others are
+/// \param near     all but the pairs and points of `local`; is used up, as the others are
 /// \param arranged of `near.local`
+/// \param solid    whether the faces bound a solid
 /// \same  on any number of threads
 [[nodiscard]] near_result surface_of(const bundles& operands, near_faces& near,
                                      arrange_faces_result& arranged, chosen_surface chosen,
-                                     const boolean_options& options, left_faces is_left = nullptr);
+                                     const boolean_options& options, bool solid = true,
+                                     left_faces is_left = nullptr);
 
 }  // namespace treeform::detail::boolean

@@ -114,15 +114,11 @@ class line_sum {
 }  // namespace
 
 open_input_edges find_open_input_edges(points_view points,
-                                       std::span<const unbalanced_edge> unbalanced,
-                                       std::uint32_t sheet) {
+                                       std::span<const unbalanced_edge> unbalanced) {
     open_input_edges found;
-    std::vector<unbalanced_edge> edges;
-    std::ranges::copy_if(unbalanced, std::back_inserter(edges),
-                         [&](const unbalanced_edge& e) { return e.operand != sheet; });
-    if (edges.empty()) return found;
+    if (unbalanced.empty()) return found;
     bool is_plain = true;
-    const auto lines = edges_by_line(points, edges);
+    const auto lines = edges_by_line(points, unbalanced);
     struct stretch {
         stretch_ends ends;
         std::size_t line;
@@ -140,7 +136,7 @@ open_input_edges find_open_input_edges(points_view points,
     for (auto s = all.begin(); s != some; ++s)
         found.stretches.push_back({line_sum(points, lines[s->line]).face_at(s->ends), s->ends});
     if (is_plain)
-        for (const unbalanced_edge& e : edges)
+        for (const unbalanced_edge& e : unbalanced)
             ++(e.net % 2 == 0 ? found.misoriented_edges : found.boundary_edges);
     return found;
 }

@@ -31,13 +31,10 @@ struct open_input_edges {
 /// Exact: faces cut along each other fit together where along every line, the unbalanced edges of
 /// each operand cancel out. An edge of one face may do so with two of the faces beyond it.
 ///
-/// The operand `sheet` may be open, and is left out.
-///
 /// \pre  no two of `points` are equal; they are finite
 /// \cost O(E log E) time for E edges of which few overlap
 /// \same on any number of threads
 [[nodiscard]] open_input_edges find_open_input_edges(points_view points,
-                                                     std::span<const unbalanced_edge> unbalanced,
-                                                     std::uint32_t sheet = operand_element::none);
+                                                     std::span<const unbalanced_edge> unbalanced);
 
 }  // namespace treeform::detail::boolean

@@ -1,10 +1,10 @@
 #include <libmesh/arrange/cells_of.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/arrange/perturbed_ray.hpp>
+#include <libmesh/arrange/winding_beside.hpp>
 #include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/surface_components.hpp>
-#include <libmesh/boolean/winding_beside.hpp>
 #include <libmesh/intersect/pairs_by_tree.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/build.hpp>
@@ -159,7 +159,7 @@ component_windings windings_of_cells(points_view points, std::vector<face> faces
 
 surface_components::surface_components(mesh_view joined,
                                        std::span<const std::uint32_t> operand_of_face,
-                                       const operand_edges& edges, bool with_ranges)
+                                       const operand_edges& edges)
     : mesh_(joined) {
     collect(operand_of_face, edges);
     // The range of an operand's only component says nothing that its winding numbers, where they
@@ -170,8 +170,7 @@ surface_components::surface_components(mesh_view joined,
     for_chunks(components_.size(), components_a_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i)
-                       prepare(components_[i],
-                               with_ranges && components_of[components_[i].operand] > 1);
+                       prepare(components_[i], components_of[components_[i].operand] > 1);
                });
     boxes_ = build(components_, [](const component& c) { return c.box; });
     for (const component& c : components_) box_.include(c.box);
@@ -283,12 +282,12 @@ int surface_components::sign_of_volume(std::size_t c) const {
 
 std::vector<operand_winding> surface_components::windings_beside(const arrange::corner_line& line,
                                                                  bool ahead) const {
-    const box3 way = way_along(line, ahead);
+    const box3 way = arrange::way_along(line, ahead);
     std::vector<operand_winding> found;
     search(boxes_, way, [&](std::uint32_t c) {
         const component& of = components_[c];
         const std::uint32_t* const own = faces_.data() + of.begin;
-        const std::int64_t winding = winding_beside(
+        const std::int64_t winding = arrange::winding_beside(
             of.index, [&](std::uint32_t i) { return corners(own[i]); }, line, way, ahead);
         if (winding != 0) found.push_back({of.operand, winding});
     });

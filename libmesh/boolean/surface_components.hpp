@@ -48,7 +48,7 @@ class surface_components {
     ///        where there are some, an arrangement
     /// \same  on any number of threads
     surface_components(mesh_view joined, std::span<const std::uint32_t> operand_of_face,
-                       const operand_edges& edges, bool with_ranges = true);
+                       const operand_edges& edges);
 
     [[nodiscard]] std::size_t size() const { return components_.size(); }
     [[nodiscard]] mesh_view mesh() const { return mesh_; }

@@ -145,6 +145,10 @@ class sliver_removal {
         return collinear(at(f[0]), at(f[1]), at(f[2]));
     }
 
+    [[nodiscard]] bool is_fixed(std::uint32_t f) const {
+        return f < limits_.fixed.size() && limits_.fixed[f] != 0;
+    }
+
     [[nodiscard]] bool is_bad(std::uint32_t f) const {
         return meets_.contains(f) || is_thin(faces_[f]);
     }
@@ -306,10 +310,10 @@ class sliver_removal {
 
     /// The same of pieces in their place, if that is less than `most`; else `most` or more.
     std::size_t find_bad(std::vector<face_piece>& pieces, const ids& replaced, std::size_t most) {
-        std::size_t count = 0;
+        std::size_t count = static_cast<std::size_t>(std::ranges::count_if(
+            pieces, [&](const face_piece& piece) { return is_thin(piece.corners); }));
         for (std::size_t i = 0; i < pieces.size() && count < most; ++i) {
             const face& f = pieces[i].corners;
-            count += is_thin(f) ? 1 : 0;
             for (std::size_t j = 0; j < i; ++j) count += meet(f, pieces[j].corners) ? 1 : 0;
             search(tree_, box_of(f), [&](std::uint32_t g) {
                 if (count >= most || std::ranges::binary_search(replaced, g)) return;
@@ -328,8 +332,14 @@ class sliver_removal {
 
     /// Makes the change if less is bad after it, or as much at most.
     bool try_change(const sliver_change& change, bool or_as_much) {
-        const ids faces = faces_at(change);
+        ids faces = faces_at(change);
         std::vector<face_piece> pieces = pieces_of(change, faces);
+        std::erase_if(pieces, [&](const face_piece& piece) {
+            if (piece.corners != faces_[piece.of]) return false;
+            faces.erase(std::ranges::lower_bound(faces, piece.of));  // nothing changes there
+            return true;
+        });
+        if (std::ranges::any_of(faces, [&](std::uint32_t f) { return is_fixed(f); })) return false;
         const std::size_t before = count_bad(faces);
         const std::size_t most = before + (or_as_much ? 1 : 0);
         if (find_bad(pieces, faces, most) >= most) return false;

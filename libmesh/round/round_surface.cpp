@@ -9,6 +9,7 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/round/displacement.hpp>
 #include <libmesh/round/drop_unused_points.hpp>
+#include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/remove_slivers.hpp>
 #include <libmesh/round/round_surface.hpp>
 #include <libmesh/round/solid_faces.hpp>
@@ -77,7 +78,7 @@ class rounding {
             first_move_ = result_.certificate.max_displacement = moved_most_;
             const bool sound = check();
             if (vanished_ || !sound) remember_parts();
-            if (!sound && !is_cancelled() && options_.mends) mend();
+            if (!sound && !is_cancelled()) mend();
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
         if (vanished_) detail::round::drop_unused_points(result_.surface, point_of_);
@@ -99,7 +100,6 @@ class rounding {
     /// Rounds of taking out slivers, and of cutting what meets all the same. Each two reach four
     /// times as far as those before, so that they end.
     void mend() {
-        remember_places();
         double largest = 0.0;
         for (const point3& p : result_.surface.points)
             largest = std::max(largest, detail::base::largest_of(p));
@@ -109,6 +109,14 @@ class rounding {
         const double limit = std::min(options_.max_displacement, longest_reach * largest);
         looks_ = fewest_looks + looks_a_face * faces_given_;
         double reach = first_reach * step;
+        if (!(reach <= limit)) return;
+        remember_places();
+        if (options_.rest) {
+            fix_rim();
+            looks_ /= 8;  // else all is begun once more, with the rest
+            take_out_slivers(reach, sliver_height * step);
+            return;
+        }
         for (int round = 1; reach <= limit; ++round) {
             if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
             if (round % rounds_of_reach == 0) reach *= 4.0;
@@ -121,14 +129,29 @@ class rounding {
         }
     }
 
+    /// Sound faces at edges where the rest of the surface is, or where it ends, are to stay.
+    void fix_rim() {
+        const std::vector<std::uint32_t> all =
+            detail::base::numbers_below(result_.surface.faces.size());
+        fixed_.assign(all.size(), 0);
+        detail::round::near_edges(result_.surface, all).for_each([&](auto uses) {
+            if (uses.size() == 1 && sound_[uses[0].place] != 0)
+                std::atomic_ref(fixed_[uses[0].place]).store(1, std::memory_order_relaxed);
+        });
+    }
+
     /// Whether the surface is sound without them.
     bool take_out_slivers(double reach, double height) {
         std::vector<face_pair> bad = pairs_;
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
             if (sound_.empty() || sound_[f] == 0) bad.push_back({f, f});
-        detail::round::slivers_removed left = detail::round::remove_slivers(
-            result_.surface, bad,
-            {.reach = reach, .thin = height, .solid = options_.solid, .looks = looks_});
+        detail::round::slivers_removed left =
+            detail::round::remove_slivers(result_.surface, bad,
+                                          {.reach = reach,
+                                           .thin = height,
+                                           .solid = options_.solid,
+                                           .fixed = fixed_,
+                                           .looks = looks_});
         looks_ -= std::min(looks_, left.looks);
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
@@ -327,9 +350,12 @@ class rounding {
         const mesh& now = result_.surface;
         result_.certificate.meeting.clear();
         result_.certificate.meeting_count = 0;
-        detail::round::surface_faults faults = detail::round::find_faults(
-            now,
-            {.sound = sound_, .solid = options_.solid, .moved = moved_, .progress = next_phase()});
+        detail::round::surface_faults faults =
+            detail::round::find_faults(now, {.sound = sound_,
+                                             .solid = options_.solid,
+                                             .moved = moved_,
+                                             .rest = options_.rest,
+                                             .progress = next_phase()});
         result_.certificate.status = status::cancelled;
         if (faults.cancelled) return false;
         pairs_ = std::move(faults.pairs);
@@ -389,8 +415,9 @@ class rounding {
     /// By face of the surface given, from 0 on in the order of their lowest faces; or empty.
     std::vector<std::uint32_t> part_of_;
     std::vector<point3> place_of_part_;
-    std::vector<std::uint8_t> sound_;  ///< by face, or empty
-    std::vector<face_pair> pairs_{};   ///< of faces that meet
+    std::vector<std::uint8_t> sound_;    ///< by face, or empty
+    std::vector<face_pair> pairs_{};     ///< of faces that meet
+    std::vector<std::uint8_t> fixed_{};  ///< by face, or empty
     std::size_t faces_given_;
     mesh before_{};  ///< as `exact_` was given, in doubles, once something is mended
     double first_move_ = 0.0;

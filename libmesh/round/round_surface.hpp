@@ -4,6 +4,7 @@
 /// broke on the way.
 
 #include <libmesh/exact/implicit_point.hpp>
+#include <libmesh/round/turned_faces.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -33,9 +34,12 @@ struct round_options {
     /// The faces bound a solid, which is behind them, and are to do so when rounded. Otherwise they
     /// are a complex of which every piece stays.
     bool solid = true;
-    bool mends =
-        true;  ///< what rounding has broken, until nothing meets or no move may be as far as:
+    /// What rounding has broken is mended until nothing meets or no move may be as far as:
     double max_displacement = std::numeric_limits<double>::infinity();
+    /// Where the surface has more faces: how often these wind around what. They are sound, stay where
+    /// they are, and none of them meets a box of a face that is not sound. Faces at an edge with them
+    /// are not touched, and what would have to be cut is not mended.
+    detail::round::winding_of_rest rest{};
     progress_callback progress{};
 };
 
@@ -85,7 +89,7 @@ struct rounded_surface {
 /// `out_of_range`: a coordinate was too large to be rounded.
 ///
 /// Where a part of a solid is thinner than rounding moves its points, it may be turned inside out
-/// and meet nothing: then the cells of the whole surface are found, and what is turned is mended.
+/// and meet nothing: a line tells, and what is turned is mended.
 ///
 /// \pre    faces have three different corners and, as exact ones, meet in common corners and edges
 ///         only; of a solid, they run along every edge as often one way as the other and have the
@@ -98,8 +102,8 @@ struct rounded_surface {
 [[nodiscard]] TREEFORM_API rounded_surface round_surface(exact_surface exact,
                                                          const round_options& options = {});
 
-/// The same of a surface that is as before afterwards; nothing is mended.
-/// \pre `options.mends` is false
+/// The same of a surface that has more faces, and is as before afterwards.
+/// \pre `options.rest` is not empty
 [[nodiscard]] rounded_surface round_once(exact_surface& exact, const round_options& options);
 
 }  // namespace treeform

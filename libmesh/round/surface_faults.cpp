@@ -6,7 +6,6 @@
 #include <libmesh/round/coarse_grid.hpp>
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/surface_faults.hpp>
-#include <libmesh/round/turned_faces.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tree/aabb.hpp>
@@ -25,11 +24,17 @@ namespace {
 
 using ids = std::vector<std::uint32_t>;
 
-void find_turned(mesh_view surface, surface_faults& result) {
-    if (!result.pairs.empty() || !result.degenerate.empty() || result.open) return;
-    turned_faces turned = find_turned_faces(surface);
-    result.turned = std::move(turned.faces);
-    result.open = turned.open;
+ids all_of(std::size_t count) {
+    ids all(count);
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+}
+
+void find_turned(mesh_view surface, const near_edges& near, const surface_check& check,
+                 surface_faults& result) {
+    if (!(check.moved > 0.0) || !result.pairs.empty() || !result.degenerate.empty() || result.open)
+        return;
+    result.turned = find_turned_faces(surface, near, check.rest);
 }
 
 surface_faults all_faults(mesh_view surface, const surface_check& check) {
@@ -41,14 +46,10 @@ surface_faults all_faults(mesh_view surface, const surface_check& check) {
     result.pairs = std::move(found.pairs);
     result.degenerate = find_defects(surface).degenerate_faces;
     result.open = check.solid && find_open_edge(surface).has_value();
-    if (check.solid && check.moved > 0.0) find_turned(surface, result);
+    if (!check.solid) return result;
+    const ids all = all_of(surface.faces.size());
+    find_turned(surface, {surface, all}, check, result);
     return result;
-}
-
-ids all_of(std::size_t count) {
-    ids all(count);
-    std::iota(all.begin(), all.end(), 0U);
-    return all;
 }
 
 std::vector<face> faces_of(mesh_view surface, const ids& which) {
@@ -155,8 +156,7 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
     for (std::uint32_t& f : result.degenerate) f = near[f];
     if (!check.solid) return result;
     result.open = is_open(*edges, check.sound);
-    if (check.moved > 0.0 && may_be_turned(surface, check.sound, *edges, check.moved))
-        find_turned(surface, result);
+    find_turned(surface, *edges, check, result);
     return result;
 }
 

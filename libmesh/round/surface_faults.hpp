@@ -2,6 +2,7 @@
 /// \file
 /// What is wrong with a surface of which most faces are known to be sound.
 
+#include <libmesh/round/turned_faces.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -32,16 +33,17 @@ struct surface_check {
     /// How far, at most, rounding has moved points of faces that are not sound, in each coordinate,
     /// from where all faces had the inside behind them; infinite where points have become one.
     double moved = std::numeric_limits<double>::infinity();
+    winding_of_rest rest{};  ///< where more faces bound the solid, at edges of sound ones
     progress_callback progress{};
 };
 
 /// Exact. All faces that are not sound are held against all faces, and the edges they are at are
-/// looked at; nothing of what `sound` says is looked at again. Parts that may have been turned are
-/// (`may_be_turned`), with all of the surface.
+/// looked at; nothing of what `sound` says is looked at again. Parts of which all may have been
+/// turned are (`find_turned_faces`).
 ///
 /// \pre  coordinates are finite, corners points
 /// \cost as `self_intersections` of the faces that are not sound and those whose boxes meet
-///       theirs, and a box query for each face; as `find_cells` where a part may be turned
+///       theirs, and a box query for each face; as `find_turned_faces`
 /// \same on any number of threads
 [[nodiscard]] surface_faults find_faults(mesh_view surface, const surface_check& check);
 

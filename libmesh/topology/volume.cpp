@@ -1,5 +1,6 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/double_double.hpp>
+#include <libmesh/topology/volume.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -96,14 +97,14 @@ HWY_INLINE doubled six_volumes(const std::array<std::array<vec, 3>, 3>& corners)
     return plus(times(a[0], minor(1, 2)), plus(times(a[1], minor(2, 0)), times(a[2], minor(0, 1))));
 }
 
-/// Adds six times the volumes between the origin and faces.
-void add_volumes(mesh_view mesh, std::size_t begin, std::size_t end, lane_sums& sums) {
+/// The sums of six times the volumes between the origin and faces.
+void add_volumes(mesh_view mesh, lane_sums& sums) {
     constexpr lanes_tag d;
     const std::size_t width = hn::Lanes(d);
     alignas(64) std::array<double, volume_lanes> high{}, low{};
     alignas(64) double at[3][3][volume_lanes];
-    for (std::size_t first = begin; first < end; first += volume_lanes) {
-        const std::size_t count = std::min(volume_lanes, end - first);
+    for (std::size_t first = 0; first < mesh.faces.size(); first += volume_lanes) {
+        const std::size_t count = std::min(volume_lanes, mesh.faces.size() - first);
         if (count < volume_lanes) std::fill_n(&at[0][0][0], 9 * volume_lanes, 0.0);
         for (std::size_t lane = 0; lane < count; ++lane)
             for (std::size_t i = 0; i < 3; ++i) {
@@ -135,20 +136,28 @@ namespace {
 HWY_EXPORT(add_volumes);
 
 }  // namespace
+
+base::double_double six_volumes(mesh_view surface) {
+    lane_sums sums{};
+    HWY_DYNAMIC_DISPATCH(add_volumes)(surface, sums);
+    base::double_double all;
+    for (const base::double_double& lane : sums) all = all + lane;
+    return all;
+}
+
 }  // namespace detail::topology
 
 double signed_volume(mesh_view mesh) {
     using detail::base::double_double;
     using namespace detail::topology;
     detail::base::check_faces("signed_volume", mesh.points.size(), mesh.faces);
-    std::vector<lane_sums> parts(chunk_count(mesh.faces.size(), light_grain));
+    std::vector<double_double> parts(chunk_count(mesh.faces.size(), light_grain));
     for_chunks(mesh.faces.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t c) {
-                   HWY_DYNAMIC_DISPATCH(add_volumes)(mesh, begin, end, parts[c]);
+                   parts[c] = six_volumes({mesh.points, mesh.faces.subspan(begin, end - begin)});
                });
     double_double all;
-    for (const lane_sums& part : parts)
-        for (const double_double& lane : part) all = all + lane;
+    for (const double_double& part : parts) all = all + part;
     return all.high / 6.0;
 }
 

@@ -114,6 +114,39 @@ TEST_CASE("clip: of sheets and boxes at random, pieces are where they should be"
     }
 }
 
+TEST_CASE("clip: where solids overlap, pieces of the sheet are where they should be") {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        const auto anywhere = [&](double most) {
+            return tf::point3{source.in(-most, most), source.in(-most, most),
+                              source.in(-most, most)};
+        };
+        tf::mesh rough = sheet(12, -6, -6, 0);
+        for (tf::point3& p : rough.points) p = {p.x / 4, p.y / 4, source.in(-0.1, 0.1)};
+        const tf::mesh b = moved(test::ball(3, 1.0), anywhere(0.2));
+        const std::vector<tf::mesh> meshes{rough, b, moved(test::ball(3, 0.8), anywhere(0.5)),
+                                           moved(box(1, 1, 1), anywhere(0.3))};
+        const tf::tree<3> tree = tf::build_face_tree(b);
+        const tf::detail::intersect::point_locator where(b, tree);
+        const auto check = [&](const std::string& text, tf::location wanted) {
+            const tf::boolean_result part = clipped(meshes, text);
+            CHECK(!part.mesh.faces.empty());
+            for (const auto& [i, j, k] : part.mesh.faces) {
+                const auto &p = part.mesh.points[i], &q = part.mesh.points[j],
+                           &r = part.mesh.points[k];
+                const tf::point3 middle{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3,
+                                        (p.z + q.z + r.z) / 3};
+                CHECK(where.locate(middle).where == wanted);
+            }
+            return area_of(part.mesh);
+        };
+        const double outside = check("a-b-(c*d-c)", tf::location::outside),
+                     inside = check("a*b-(c*d-c)", tf::location::inside);
+        CHECK(outside + inside == doctest::Approx(area_of(rough)));
+    }
+}
+
 TEST_CASE("clip: a sheet may overlap itself, and be closed") {
     const tf::mesh twice = together(sheet(4, 0, 0, 1), sheet(4, 2, 0, 1));
     CHECK(area_of(clipped({twice, moved(box(2, 4, 2), {3, 0, 0})}, "a-b").mesh) == 16.0);

