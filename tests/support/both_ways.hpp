@@ -3,7 +3,6 @@
 /// The exact surface of a set operation, found in two ways: by cutting all faces, and by leaving out
 /// what is hidden, however little that is.
 
-#include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
@@ -73,10 +72,13 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
                                              detail::partial_expression(expression, rule), limits));
     bundled.find_pairs({});
     const detail::bundles& all = bundled.all();
-    const auto near = detail::find_near_faces(all, bundled.once());
-    const auto arranged = tf::detail::arrange::arrange_pairs(near.local, near.pairs, {}, {});
+    detail::cut_faces cut = detail::cut_near(bundled, detail::cut_what::near_beside_far, {});
+    const detail::near_faces& near = cut.near;
+    const tf::arrange_faces_result& arranged = cut.arranged;
     const auto chosen =
-        detail::near_labels(all, near, arranged.cut, bundled.part()).choose(expression, rule);
+        detail::near_labels(all, near, arranged.cut,
+                            {std::move(*cut.far[0]), std::move(*cut.far[1])}, bundled.part())
+            .choose(expression, rule);
 
     surface_of_some result;
     result.left_out = bundled.part()->left_out();
