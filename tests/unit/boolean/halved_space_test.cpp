@@ -23,8 +23,7 @@ box3 around(const tf::point3& p, double off = 0.0) {
 }
 
 /// Halves a box down to leaves, some of which are settled.
-void halve(test::random& source, halved_space& space, std::size_t at, const box3& box,
-           int levels) {
+void halve(test::random& source, halved_space& space, std::size_t at, const box3& box, int levels) {
     if (levels == 0 || source.below(6) == 0) {
         space.nodes[at].axis = source.below(2) == 0 ? node::settled : node::active;
         return;
