@@ -198,4 +198,16 @@ near_faces find_near_faces(const bundles& operands, bool once, bool all) {
     return result;
 }
 
+ids numbers_as_given(const bundles& operands, const near_faces& near) {
+    ids numbers(near.face_of.size());
+    const std::size_t faces_of_a = operands[0].view().faces.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::size_t k = near.face_of[i] < faces_of_a ? 0 : 1;
+        const auto f = static_cast<std::uint32_t>(near.face_of[i] - (k == 0 ? 0 : faces_of_a));
+        numbers[i] = operands[k].number_as_given(f);
+        if (k == 1) numbers[i] += static_cast<std::uint32_t>(operands[0].count_as_given());
+    }
+    return numbers;
+}
+
 }  // namespace treeform::detail::boolean

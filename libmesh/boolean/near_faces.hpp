@@ -81,4 +81,8 @@ struct near_faces {
 /// \same   on any number of threads
 [[nodiscard]] near_faces find_near_faces(const bundles& operands, bool once, bool all = false);
 
+/// [local faces] their numbers among the faces of all operands as they were given.
+[[nodiscard]] std::vector<std::uint32_t> numbers_as_given(const bundles& operands,
+                                                          const near_faces& near);
+
 }  // namespace treeform::detail::boolean

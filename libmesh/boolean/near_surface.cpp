@@ -334,19 +334,6 @@ class faces_left {
     std::array<const tree<3>*, 2> trees_{};
 };
 
-/// Of each local face, its number among the faces of all operands as they were given.
-ids numbers_as_given(const bundles& operands, const near_faces& near) {
-    ids numbers(near.face_of.size());
-    const std::size_t faces_of_a = operands[0].view().faces.size();
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const std::size_t k = near.face_of[i] < faces_of_a ? 0 : 1;
-        const auto f = static_cast<std::uint32_t>(near.face_of[i] - (k == 0 ? 0 : faces_of_a));
-        numbers[i] = operands[k].number_as_given(f);
-        if (k == 1) numbers[i] += static_cast<std::uint32_t>(operands[0].count_as_given());
-    }
-    return numbers;
-}
-
 /// The chosen faces, and the local face that each is of, in `source`, where those of `cut` were.
 exact_surface surface_of(mesh_arrangement& cut, std::vector<face>&& faces, ids& source) {
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed), std::move(faces)};
@@ -392,6 +379,74 @@ void name_cut_vertices(const bundles& operands, const near_faces& near,
     });
 }
 
+/// The chosen faces of what is near, and what is to be known of them when they are rounded.
+struct near_rounding {
+    const bundles& operands;
+    near_faces& near;
+    buffer<fate>& fates;
+    const boolean_options& options;
+    bool solid;
+    exact_surface exact{};
+    ids source{};            ///< [exact.faces] local faces
+    ids face_of_point{};     ///< [exact.constructed] local faces
+    face_origins origins{};  ///< of merged faces
+    std::size_t others = 0;  ///< faces that stay and are not near
+    bool is_all = false;     ///< all that stay are near
+
+    template <class Wanted>
+    void take_in_some(const Wanted& wanted) {
+        take_in(operands, near, fates, exact, source, face_of_point, origins.of_face, wanted);
+    }
+    void take_in_all() {
+        if (!std::exchange(is_all, true)) take_in_some([](std::uint32_t) { return true; });
+    }
+
+    /// Merges what was cut. \param keeps_origins whether `origins` are asked for
+    void merge(bool keeps_origins) {
+        const std::size_t count = operands[0].count_as_given() + operands[1].count_as_given();
+        face_of_point =
+            merge_cuts(exact, source, near.local.faces,
+                       options.face_groups.empty()
+                           ? ids()
+                           : groups_of(options, numbers_as_given(operands, near), count),
+                       options, keeps_origins ? &origins : nullptr);
+        for (std::uint32_t& f : origins.source) f = near.face_of[f];
+    }
+
+    /// What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
+    /// rounding to nearest takes no coordinate out of a box of doubles. Nor is it to meet the box of
+    /// a face that was mended.
+    rounded_surface round() {
+        double done = 0.7;
+        const auto options_of = [&](double most, const winding_of_rest& rest) {
+            const double from =
+                std::exchange(done, (done + 0.95) / 2.0);  // nobody knows how many follow
+            return round_options{.precision = options.precision,
+                                 .solid = solid,
+                                 .max_displacement = most,
+                                 .rest = rest,
+                                 .progress = base::part_of(options.progress, from, done)};
+        };
+        const faces_left left(operands, fates);
+        const bool are_few = others < exact.faces.size() / few_others;
+        const double most = are_few ? 0.0 : options.max_displacement;
+        for (int i = 0; !is_all; ++i) {
+            rounded_surface rounded = round_once(
+                exact, options_of(most, [&](const arrange::corner_line& line, bool ahead) {
+                    return left.winding_beside(line, ahead);
+                }));
+            if (rounded.certificate.status == status::cancelled) return rounded;
+            const ids met = left.at_changes(rounded, exact);
+            if (rounded.certificate && met.empty()) return rounded;
+            if (!rounded.certificate || i == most_steps)
+                take_in_all();
+            else
+                take_in_some([&](std::uint32_t f) { return std::ranges::binary_search(met, f); });
+        }
+        return round_surface(std::move(exact), options_of(options.max_displacement, {}));
+    }
+};
+
 }  // namespace
 
 near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
@@ -399,65 +454,21 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
                        left_faces is_left) {
     near_result made;
     boolean_result& result = made.result;
-    ids source = std::move(chosen.near.face_of);
-    exact_surface exact = surface_of(arranged.cut, std::move(chosen.near.faces), source);
-    ids face_of_point;
-    face_origins origins;
-    const auto others =
-        std::count_if(chosen.fates.data(), chosen.fates.data() + chosen.fates.size(), stays);
-    bool is_all = others == 0;
-    const auto take_in = [&](const auto& wanted) {
-        boolean::take_in(operands, near, chosen.fates, exact, source, face_of_point,
-                         origins.of_face, wanted);
-    };
-    const auto take_in_all = [&] {
-        if (!std::exchange(is_all, true)) take_in([](std::uint32_t) { return true; });
-    };
-    if (options.simplify) take_in_all();
-    const std::size_t count = operands[0].count_as_given() + operands[1].count_as_given();
-    face_of_point = merge_cuts(exact, source, near.local.faces,
-                               options.face_groups.empty()
-                                   ? ids()
-                                   : groups_of(options, numbers_as_given(operands, near), count),
-                               options, is_left == nullptr ? nullptr : &origins);
-    for (std::uint32_t& f : origins.source) f = near.face_of[f];
-    if (options.precision == precision::float32) take_in_all();
-    double done = 0.7;
-    const auto options_of = [&](double most, const winding_of_rest& rest) {
-        const double from =
-            std::exchange(done, (done + 0.95) / 2.0);  // nobody knows how many follow
-        return round_options{.precision = options.precision,
-                             .solid = solid,
-                             .max_displacement = most,
-                             .rest = rest,
-                             .progress = base::part_of(options.progress, from, done)};
-    };
-    rounded_surface rounded;
-    // What was left out meets no box of what was cut, and so no piece of it either, rounded or
-    // not: rounding to nearest takes no coordinate out of a box of doubles. Nor is it to meet the
-    // box of a face that was mended.
-    const faces_left left(operands, chosen.fates);
-    const bool are_few = static_cast<std::size_t>(others) < exact.faces.size() / few_others;
-    const double most = are_few ? 0.0 : options.max_displacement;
-    for (int i = 0; !is_all; ++i) {
-        rounded =
-            round_once(exact, options_of(most, [&](const arrange::corner_line& line, bool ahead) {
-                           return left.winding_beside(line, ahead);
-                       }));
-        if (rounded.certificate.status == status::cancelled) break;
-        const ids met = left.at_changes(rounded, exact);
-        if (rounded.certificate && met.empty()) break;
-        if (!rounded.certificate || i == most_steps)
-            take_in_all();
-        else
-            take_in([&](std::uint32_t f) { return std::ranges::binary_search(met, f); });
-    }
-    const std::size_t exact_faces = source.size();
-    if (is_all) rounded = round_surface(std::move(exact), options_of(options.max_displacement, {}));
+    near_rounding work{operands, near, chosen.fates, options, solid};
+    work.source = std::move(chosen.near.face_of);
+    work.exact = surface_of(arranged.cut, std::move(chosen.near.faces), work.source);
+    work.others = static_cast<std::size_t>(
+        std::count_if(chosen.fates.data(), chosen.fates.data() + chosen.fates.size(), stays));
+    work.is_all = work.others == 0;
+    if (options.simplify) work.take_in_all();
+    work.merge(is_left != nullptr);
+    if (options.precision == precision::float32) work.take_in_all();
+    rounded_surface rounded = work.round();
+    const ids& source = work.source;
     keep_counts(operands, arranged, rounded, result);
     if (result.certificate.status == status::cancelled || !made.goes_on(options.progress, 0.95))
         return made;
-    origins.for_sources_in(rounded.face_of, [&](std::uint32_t f) {
+    work.origins.for_sources_in(rounded.face_of, [&](std::uint32_t f) {
         (*is_left)[operands[0].face_source(f).index] = 1;
     });
     ids face_of_piece(rounded.face_of.size());
@@ -470,10 +481,11 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
     const ids vertices = assembly(operands, near, chosen.fates)
                              .write(rounded, face_of_piece, merges_faces(options), result);
     // Faces that were not cut are as they were in their operand, all of those at a vertex or none.
-    made.is_manifold = solid && !is_all && topology::is_manifold_at(vertices, result.mesh);
-    result.statistics.exact_faces = result.mesh.faces.size() + (exact_faces - face_of_piece.size());
+    made.is_manifold = solid && !work.is_all && topology::is_manifold_at(vertices, result.mesh);
+    result.statistics.exact_faces =
+        result.mesh.faces.size() + (source.size() - face_of_piece.size());
     if (merges_faces(options))
-        name_cut_vertices(operands, near, rounded, vertices, face_of_point, result);
+        name_cut_vertices(operands, near, rounded, vertices, work.face_of_point, result);
     static_cast<void>(made.goes_on(options.progress, 1.0));
     return made;
 }
