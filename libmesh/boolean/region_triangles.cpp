@@ -52,6 +52,11 @@ class triangulator {
 
     /// An axis along which the plane's projection has an area, the largest as far as doubles tell.
     void project() {
+        if (region_.axis >= 0) {
+            axis_ = region_.axis;
+            orientation_ = region_.orientation;
+            return;
+        }
         const std::array<implicit_point, 3> corners{
             point(region_.plane[0]), point(region_.plane[1]), point(region_.plane[2])};
         const point3 &a = corners[0].center(), &b = corners[1].center(), &c = corners[2].center();

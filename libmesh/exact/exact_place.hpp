@@ -97,6 +97,12 @@ constexpr Place place_of_line_plane(const vector3<Number>* p) {
 }
 
 template <class Place, class Number>
+constexpr Place place_of_line_normal(const vector3<Number>* p) {
+    const auto t = line_normal_polynomial::value(std::array{p[1] - p[0], p[2] - p[0], p[3]});
+    return place_along<Place>(p[0], p[1] - p[0], t.x, t.y);
+}
+
+template <class Place, class Number>
 constexpr Place place_of_planes(const vector3<Number>* p) {
     using polynomial = planes_polynomial;
     const auto way = polynomial::value(
@@ -112,6 +118,7 @@ constexpr Place place_of(implicit_point::origin kind, const vector3<Number>* p) 
     using origin = implicit_point::origin;
     if (kind == origin::lines) return place_of_lines<Place>(p);
     if (kind == origin::line_plane) return place_of_line_plane<Place>(p);
+    if (kind == origin::line_normal) return place_of_line_normal<Place>(p);
     if constexpr (std::is_same_v<Place, typename places_of<Number>::large>)
         if (kind == origin::planes) return place_of_planes<Place>(p);
     return widened_place<Place>(p->x, p->y, p->z, one_of<Number>::value());

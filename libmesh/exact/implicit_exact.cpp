@@ -41,7 +41,7 @@ class call {
     explicit call(predicate_counters* counters) : counters_(counters) {}
 
     item add(const implicit_point& p) {
-        constexpr std::array<std::size_t, 4> defining = {1, 4, 5, 9};
+        constexpr std::array<std::size_t, 5> defining = {1, 4, 5, 9, 4};
         const item result{p.radius() == 0.0 ? origin::given : p.kind(), size_};
         if (result.kind == origin::given) {
             points_[size_++] = vector_of(p.center());

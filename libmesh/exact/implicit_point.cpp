@@ -124,6 +124,16 @@ ball line_plane_ball(const point3& a, const point3& b, const plane_points& p) {
     return on_line(a, b, ratio<polynomial>(t.x, t.y));
 }
 
+ball line_normal_ball(const point3& a, const point3& b, const point3& at, const point3& normal) {
+    using polynomial = detail::exact::line_normal_polynomial;
+    const auto differences = polynomial::differences(
+        std::array{vector_of(a), vector_of(b), vector_of(at), vector_of(point3{}), vector_of(normal)});
+    if (!(detail::exact::largest_magnitude(differences) <= detail::exact::largest_difference<3>))
+        return nowhere;
+    const auto t = polynomial::value(terms_of(differences));
+    return on_line(a, b, ratio<polynomial>(t.x, t.y));
+}
+
 ball planes_ball(const plane_points& p, const plane_points& q, const plane_points& r) {
     using polynomial = detail::exact::planes_polynomial;
     const auto d = polynomial::differences(
@@ -225,6 +235,11 @@ implicit_point implicit_point::where_lines_cross(const point3& a, const point3& 
 implicit_point implicit_point::where_line_meets(const point3& a, const point3& b,
                                                 const plane_points& plane) {
     return {origin::line_plane, {a, b, plane.a, plane.b, plane.c}, line_plane_ball(a, b, plane)};
+}
+
+implicit_point implicit_point::where_line_meets(const point3& a, const point3& b, const point3& at,
+                                                const point3& normal) {
+    return {origin::line_normal, {a, b, at, normal}, line_normal_ball(a, b, at, normal)};
 }
 
 implicit_point implicit_point::where_planes_meet(const plane_points& p, const plane_points& q,

@@ -35,7 +35,8 @@ class TREEFORM_API implicit_point {
         given,       ///< a point of the input, as it is
         lines,       ///< two lines of one plane
         line_plane,  ///< a line and a plane
-        planes       ///< three planes
+        planes,      ///< three planes
+        line_normal  ///< a line and a plane given by a point and a normal
     };
 
     /// The point itself. Implicit: wherever a constructed point can be, a given one can.
@@ -54,6 +55,11 @@ class TREEFORM_API implicit_point {
     [[nodiscard]] static implicit_point where_line_meets(const point3& a, const point3& b,
                                                          const plane_points& plane);
 
+    /// The point that the line through a, b has in common with the plane through `at` across
+    /// `normal`.
+    [[nodiscard]] static implicit_point where_line_meets(const point3& a, const point3& b,
+                                                         const point3& at, const point3& normal);
+
     /// The point that three planes have in common.
     [[nodiscard]] static implicit_point where_planes_meet(const plane_points& p,
                                                           const plane_points& q,
@@ -66,6 +72,7 @@ class TREEFORM_API implicit_point {
     [[nodiscard]] const point3& center() const { return center_; }
     [[nodiscard]] double radius() const { return radius_; }
     /// What defines it, in the order given: none, 4, 5 or 9 points.
+    /// Of `line_normal`: a, b, at, normal.
     [[nodiscard]] const std::array<point3, 9>& definition() const { return definition_; }
 
   private:

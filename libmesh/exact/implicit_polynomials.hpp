@@ -48,6 +48,25 @@ struct line_plane_polynomial {
     }
 };
 
+/// x / y is the parameter t with a + t (b - a) in the plane through `at` across n. The normal is what
+/// leads from the origin to it.
+struct line_normal_polynomial {
+    static constexpr std::size_t points = 5;  // a, b, at, the origin, n
+    static constexpr int degree = 2;
+    static constexpr int roundings = 5;
+    template <class Number>
+    using vector = vector3<Number>;
+
+    template <class Number>
+    static constexpr auto differences(const std::array<vector<Number>, points>& p) {
+        return std::array{p[1] - p[0], p[2] - p[0], p[4] - p[3]};
+    }
+    template <class Number>
+    static constexpr auto value(const std::array<vector<Number>, 3>& d) {
+        return vector2<decltype(dot(d[2], d[0]))>{dot(d[2], d[1]), dot(d[2], d[0])};
+    }
+};
+
 /// A vector over a common denominator.
 template <class Over, class Under>
 struct place {

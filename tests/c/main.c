@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
     test_base();
     test_meshes();
     test_properties();
+    test_cuts();
     test_files();
     test_attributes();
     test_intersections();

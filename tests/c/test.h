@@ -29,6 +29,7 @@ extern const uint32_t cube_faces[36];
 void test_base(void);
 void test_meshes(void);
 void test_properties(void);
+void test_cuts(void);
 void test_files(void);
 void test_attributes(void);
 void test_intersections(void);

@@ -21,10 +21,11 @@ tf::plane_points plane(tf::fuzz::bytes& in) {
 }
 
 std::optional<known_point> any_point(tf::fuzz::bytes& in) {
-    const std::size_t kind = in.below(4);
+    const std::size_t kind = in.below(5);
     if (kind == 0) return tf::test::given(in.point());
     const tf::plane_points p = plane(in);
     if (kind == 1) return tf::test::lines(p.a, p.b, p.c, in.point());
+    if (kind == 4) return tf::test::line_normal(p.a, p.b, p.c, in.point());
     const tf::plane_points q = plane(in);
     if (kind == 2) return tf::test::line_plane(q.a, q.b, p);
     return tf::test::planes(p, q, plane(in));

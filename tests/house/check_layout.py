@@ -24,7 +24,7 @@ MORE_TOOL_LINES = {"tf-weld": 1700, "tf-selfintersect": 1150, "tf-boolean": 1125
 FLOORS = [
     ["stream", "carry", "wrap"],
     ["assembly"],
-    ["repair"],
+    ["repair", "cut"],
     ["boolean"],
     ["round"],
     ["arrange", "place"],

@@ -57,6 +57,7 @@ exact_point exact_place(const tf::implicit_point& p) {
             return the_point(CGAL::intersection(
                 exact_kernel::Line_3(exact_place(d[0]), exact_place(d[1])), plane(d, 2)));
         case origin::planes:
+        case origin::line_normal:  // of no arrangement
             break;
     }
     return the_point(CGAL::intersection(plane(d, 0), plane(d, 3), plane(d, 6)));

@@ -36,6 +36,7 @@ using tf::test::random_source;
 using tf::test::given;
 using tf::test::inner;
 using tf::test::known_point;
+using tf::test::line_normal;
 using tf::test::line_plane;
 using tf::test::lines;
 using tf::test::minus;
@@ -221,6 +222,7 @@ std::vector<known_point> points_of(groups& from, const std::vector<plane_points>
     add(planes(t[1], t[3], t[0]));
     add(from.random().one_in(2) ? planes(t[4], t[0], t[1]) : line_plane(t[0].a, t[0].b, t[1]));
     add(line_plane(t[2].a, t[2].b, t[3]));
+    add(line_normal(t[2].a, t[2].b, t[3].a, t[3].b));
     add(planes({t[2].b, t[2].c, t[2].a}, {t[2].a, t[2].b, t[4].c}, t[3]));
     add(line_plane(t[3].a, t[3].b, t[2]));
     add(from.crossing(t[4]));

@@ -70,6 +70,14 @@ inline std::optional<known_point> line_plane(const point3& a, const point3& b,
                        along(a, b, inner(n, minus(p.a, a)) / under)};
 }
 
+inline std::optional<known_point> line_normal(const point3& a, const point3& b, const point3& at,
+                                              const point3& n) {
+    const mpq_class under = inner(rational(n), minus(b, a));
+    if (under == 0) return {};
+    return known_point{implicit_point::where_line_meets(a, b, at, n),
+                       along(a, b, inner(rational(n), minus(at, a)) / under)};
+}
+
 inline std::optional<known_point> planes(const plane_points& p, const plane_points& q,
                                          const plane_points& r) {
     const rational_vector n = normal(p), m = normal(q), k = normal(r);

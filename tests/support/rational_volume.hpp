@@ -51,6 +51,12 @@ inline rational_point rational(const tf::implicit_point& p) {
             return rational(p.center());
         case origin::line_plane:
             return meeting(at(0), at(1), plane_at(2));
+        case origin::line_normal: {
+            const rational_point n = at(3), from = minus(at(2), at(0)), way = minus(at(1), at(0));
+            const mpq_class t = dot(n, from) / dot(n, way);
+            const rational_point a = at(0);
+            return {a[0] + t * way[0], a[1] + t * way[1], a[2] + t * way[2]};
+        }
         case origin::lines: {
             // The second line in a plane across both: through its ends along their normal.
             const rational_point n = cross(minus(at(1), at(0)), minus(at(3), at(2)));

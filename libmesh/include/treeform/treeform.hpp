@@ -13,6 +13,7 @@
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -32,6 +33,7 @@
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/solid.hpp>

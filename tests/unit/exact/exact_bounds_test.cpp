@@ -100,6 +100,7 @@ TEST_CASE("the filter's constant exceeds the error bound of its polynomial") {
     check_error_factor<detail::exact::lines_polynomial>();
     check_error_factor<detail::exact::line_plane_polynomial>();
     check_error_factor<detail::exact::planes_polynomial>();
+    check_error_factor<detail::exact::line_normal_polynomial>();
 }
 
 TEST_CASE("the guards keep what underflow loses below the slack, and products finite") {
@@ -159,7 +160,7 @@ TEST_CASE("no value of a constructed point outgrows the limbs of its degree") {
         return detail::exact::place_of<place>(kind, points.data());
     };
     const std::array places{at(origin::given), at(origin::lines), at(origin::line_plane),
-                            at(origin::planes)};
+                            at(origin::planes), at(origin::line_normal)};
     for (const place& p : places) {
         CHECK(p.over.x.degree == p.under.degree + 1);
         CHECK(detail::exact::side_of_place(points.data(), p) == 1);

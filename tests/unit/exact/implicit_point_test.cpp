@@ -42,10 +42,11 @@ implicit_point corner(const plane_points& p, const plane_points& q, const plane_
 constexpr plane_points diagonal{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // x + y + z = 1
 
 /// (1/3, 1/3, 1/3), defined in each way.
-std::array<implicit_point, 4> thirds() {
+std::array<implicit_point, 5> thirds() {
     const plane_points xy{{0, 0, 0}, {1, 1, 0}, {0, 0, 1}};  // x = y
     const plane_points yz{{0, 0, 0}, {0, 1, 1}, {1, 0, 0}};  // y = z
     return {implicit_point::where_line_meets({0, 0, 0}, {1, 1, 1}, diagonal),
+            implicit_point::where_line_meets({0, 0, 0}, {1, 1, 1}, {1, 0, 0}, {1, 1, 1}),
             corner(diagonal, xy, yz), corner(yz, diagonal, xy),
             implicit_point::where_lines_cross({-1, -1, -1}, {2, 2, 2}, {1, 0, 0}, {0, 0.5, 0.5})};
 }
@@ -76,6 +77,12 @@ TEST_CASE("lines cross, a line meets a plane and three planes meet where they sh
     CHECK(is_within(line_plane, 1, 2, 4));
     CHECK(tf::equal(line_plane, point3{1, 2, 4}));
     CHECK_FALSE(tf::equal(line_plane, point3{1, 2, std::nextafter(4.0, 5.0)}));
+
+    const auto across =
+        implicit_point::where_line_meets({1, 2, -3}, {1, 2, 7}, {9, 9, 4}, {0, 0, 3});
+    CHECK(across.kind() == implicit_point::origin::line_normal);
+    CHECK(is_within(across, 1, 2, 4));
+    CHECK(tf::equal(across, line_plane));
 
     const auto planes = corner(at_x(7), at_y(-2), at_z(0.125));
     CHECK(planes.kind() == implicit_point::origin::planes);
@@ -224,6 +231,7 @@ std::vector<implicit_point> points_of(const std::vector<point3>& given) {
     add([&] { return corner(plane(13), plane(3), plane(0)); });
     add([&] { return implicit_point::where_line_meets(given[0], given[1], plane(3)); });
     add([&] { return implicit_point::where_line_meets(given[10], given[11], plane(0)); });
+    add([&] { return implicit_point::where_line_meets(given[4], given[5], given[9], given[14]); });
     add([&] {
         return implicit_point::where_lines_cross(given[12], given[13], given[12], given[14]);
     });

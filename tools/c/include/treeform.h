@@ -6,6 +6,7 @@
 #include <treeform/c/assembly.h>
 #include <treeform/c/attributes.h>
 #include <treeform/c/base.h>
+#include <treeform/c/cuts.h>
 #include <treeform/c/files.h>
 #include <treeform/c/intersections.h>
 #include <treeform/c/mesh.h>

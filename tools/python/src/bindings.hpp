@@ -12,6 +12,7 @@ void add_boxes(pybind11::module_& module);
 void add_carrying(pybind11::module_& module);
 void add_certificates(pybind11::module_& module);
 void add_clouds(pybind11::module_& module);
+void add_cuts(pybind11::module_& module);
 void add_files(pybind11::module_& module);
 void add_intersections(pybind11::module_& module);
 void add_layouts(pybind11::module_& module);

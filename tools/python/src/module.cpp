@@ -113,6 +113,8 @@ constexpr const char* jobs[] = {"self_intersections",
                                 "count_inside_out",
                                 "find_features",
                                 "find_solid_defects",
+                                "section",
+                                "layer_heights",
                                 "resolve",
                                 "repair",
                                 "convex_hull",
@@ -153,7 +155,7 @@ void make_jobs(py::module_& module) {
     for (const char* name : {"read", "read_bytes", "read_urdf", "self_intersections_of_file",
                              "search_of", "weld_of", "wrap", "pack", "page", "picture"})
         make_job(module, name, job_kind::long_work);
-    for (const char* name : {"write", "weld_stream"}) make_job(module, name, job_kind::writes);
+    for (const char* name : {"write", "write_section", "weld_stream"}) make_job(module, name, job_kind::writes);
     for (const char* name : {"scatter", "search_tile", "finish"})
         make_job(module.attr("SearchInSteps"), name, job_kind::writes);
     for (const char* name : {"scatter", "weld_tile", "finish"})
@@ -176,6 +178,7 @@ PYBIND11_MODULE(_core, module) {
     add_meshes(module);
     add_carrying(module);
     add_certificates(module);
+    add_cuts(module);
     add_files(module);
     add_intersections(module);
     add_booleans(module);

@@ -18,6 +18,7 @@ from ._attributes import Attributes
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
                         symmetric_difference, union)
 from ._core import Certificate
+from ._cuts import Section, SectionLoop, layer_heights, section
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
                       NotSolidError)
 from ._files import Written, read, write
@@ -55,7 +56,7 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "MeshDefects", "MeshLike", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError",
            "NotSolidError", "PackedPart", "Packing", "PartClash", "Picture", "Placement",
            "PointTree", "PoseClashes", "RayHits", "Region", "RepairResult", "ResolveResult",
-           "Robot", "STANDINGS", "SearchEffort", "SolidDefects", "StreamSearch", "StreamWeld",
+           "Robot", "STANDINGS", "Section", "SectionLoop", "SearchEffort", "SolidDefects", "StreamSearch", "StreamWeld",
            "Topology", "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "align",
            "boolean", "check_poses", "check_solid", "clash", "clip", "closest_point",
            "closest_points", "contains", "convex_hull", "count_inside_out", "count_nearly_equal",
@@ -63,9 +64,10 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "faces_in_box", "find_defects", "find_features", "find_rounding_defects",
            "find_solid_defects", "from_meshio", "from_open3d", "from_pyvista", "from_trimesh",
            "from_vtk", "intersection", "intersection_curves", "intersection_regions", "intersects",
-           "join_equal_points", "lay_flat", "locate", "mate", "mate_features", "measure",
+           "join_equal_points", "lay_flat", "layer_heights", "locate", "mate", "mate_features", "measure",
            "mesh_intersections", "pack", "penetration_depth", "plot", "raycast", "raycast_all",
            "raycast_any", "read", "read_urdf", "repair", "resolve_self_intersections", "rounded",
+           "section",
            "self_intersections", "self_intersections_of_file", "separate", "show",
            "signed_distance", "slide", "split", "symmetric_difference", "thread_count", "threads",
            "time_of_impact", "turn", "union", "weld", "weld_stream", "winding_number", "wrap",

@@ -1,0 +1,212 @@
+#include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/work_progress.hpp>
+#include <libmesh/cut/layer_loops.hpp>
+#include <libmesh/cut/nested_loops.hpp>
+#include <libmesh/cut/plane_levels.hpp>
+#include <libmesh/weld/joined_faces.hpp>
+#include <treeform/mesh/section.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace treeform {
+namespace {
+
+namespace cut = detail::cut;
+
+/// A layer by itself.
+struct drawn_layer {
+    section_layer totals;
+    std::vector<section_loop> loops;
+    std::vector<point2> points;
+    std::vector<std::uint32_t> faces;
+};
+
+/// The faces that each plane meets, plane by plane.
+struct met_faces {
+    std::vector<std::size_t> begin;
+    std::vector<std::uint32_t> faces;
+};
+
+met_faces faces_met(mesh_view mesh, const cut::plane_levels& levels) {
+    met_faces met;
+    met.begin.assign(levels.planes.size() + 2, 0);
+    const auto each = [&](const auto& visit) {
+        for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+            const auto [a, b, c] = mesh.faces[f];
+            const auto [low, high] =
+                std::minmax({levels.level[a], levels.level[b], levels.level[c]});
+            if (low == high || a == b || b == c || c == a) continue;
+            for (std::uint32_t k = low; k < high; ++k) visit(f, k);
+        }
+    };
+    each([&](std::uint32_t, std::uint32_t k) { ++met.begin[k + 2]; });
+    for (std::size_t k = 2; k < met.begin.size(); ++k) met.begin[k] += met.begin[k - 1];
+    met.faces.resize(met.begin.back());
+    each([&](std::uint32_t f, std::uint32_t k) { met.faces[met.begin[k + 1]++] = f; });
+    return met;
+}
+
+point2 in_frame(const plane_frame& frame, const point3& p) {
+    return {frame.x.x * p.x + frame.x.y * p.y + frame.x.z * p.z,
+            frame.y.x * p.x + frame.y.y * p.y + frame.y.z * p.z};
+}
+
+void measure(section_loop& loop, std::span<const point2> points) {
+    const point2 origin = points.front();
+    double twice = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!loop.closed && i + 1 == points.size()) break;
+        const point2& p = points[i];
+        const point2& q = points[i + 1 == points.size() ? 0 : i + 1];
+        loop.length += std::hypot(q.x - p.x, q.y - p.y);
+        twice += (p.x - origin.x) * (q.y - origin.y) - (p.y - origin.y) * (q.x - origin.x);
+    }
+    if (loop.closed) loop.area = twice / 2;
+}
+
+drawn_layer draw(mesh_view mesh, const cut::plane_levels& levels, const plane_frame& frame,
+                 std::uint32_t k, std::span<const std::uint32_t> faces) {
+    cut::layer_loops traced = cut::loops_of(mesh, levels, k, faces);
+    drawn_layer layer;
+    std::vector<point3> centers;
+    centers.reserve(traced.points.size());
+    layer.points.reserve(traced.points.size());
+    double radius = 0.0;
+    for (const cut::crossing& c : traced.points) {
+        const implicit_point exact = cut::exact_point(mesh, levels, k, c);
+        point3 center = exact.center();
+        double off = exact.radius();
+        const double reach = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+        if (!(off <= 0x1p-46 * reach)) {  // the edge is all but parallel to the plane
+            center = rounded(exact);
+            off = 0x1p-52 * reach + 0x1p-1021;
+        }
+        radius = std::max(radius, off);
+        centers.push_back(center);
+        layer.points.push_back(in_frame(frame, center));
+    }
+    const std::vector<cut::nesting> nested =
+        cut::nested_loops(mesh, levels, k, traced, centers, radius);
+    for (std::size_t l = 0; l < traced.loops.size(); ++l) {
+        const auto& [first, count, closed, oriented] = traced.loops[l];
+        section_loop loop{first, count, closed, oriented, nested[l].parent, nested[l].depth};
+        measure(loop, std::span(layer.points).subspan(first, count));
+        layer.totals.area += loop.area;
+        layer.totals.length += loop.length;
+        layer.totals.open_count += closed ? 0 : 1;
+        layer.loops.push_back(loop);
+    }
+    layer.faces = std::move(traced.faces);
+    return layer;
+}
+
+/// Adds the loops of a layer, with numbers in the whole.
+void add_layer(section_result& result, const drawn_layer& layer, double height, const point3& at) {
+    section_layer totals = layer.totals;
+    totals.height = height;
+    totals.at = at;
+    totals.first_loop = static_cast<std::uint32_t>(result.loops.size());
+    totals.loop_count = static_cast<std::uint32_t>(layer.loops.size());
+    if (result.loops.size() + layer.loops.size() >= section_loop::none)
+        throw std::length_error("treeform::section: more loops than 32 bits can number");
+    for (section_loop loop : layer.loops) {
+        loop.first_point += result.points.size();
+        if (loop.parent != section_loop::none) loop.parent += totals.first_loop;
+        result.loops.push_back(loop);
+    }
+    result.points.insert(result.points.end(), layer.points.begin(), layer.points.end());
+    result.faces.insert(result.faces.end(), layer.faces.begin(), layer.faces.end());
+    result.layers.push_back(totals);
+}
+
+section_result sections_of(mesh_view mesh, const detail::weld::joined_faces& joined,
+                           const oriented_plane& plane, std::span<const double> heights,
+                           const section_options& options) {
+    section_result result;
+    result.frame = frame_of(plane);
+    detail::base::work_progress progress(options.progress);
+    const auto cancelled = [&] {
+        result = {};
+        result.status = status::cancelled;
+        return result;
+    };
+    if (!progress.reach(0.0)) return cancelled();
+    const mesh_view joint = joined.of(mesh);
+    const cut::plane_levels levels = cut::levels_of("section", mesh.points, plane, heights);
+    const met_faces met = faces_met(joint, levels);
+    std::vector<drawn_layer> layers(levels.planes.size());
+    std::atomic<std::size_t> done{0};
+    for_chunks(layers.size(), 1, [&](std::size_t begin, std::size_t, std::size_t) {
+        if (progress.cancelled()) return;
+        const auto k = static_cast<std::uint32_t>(begin);
+        const std::size_t first = met.begin[k], count = met.begin[k + 1] - first;
+        layers[k] =
+            draw(joint, levels, result.frame, k, std::span(met.faces).subspan(first, count));
+        progress.reach(0.1 +
+                       0.8 * static_cast<double>(++done) / static_cast<double>(layers.size()));
+    });
+    if (progress.cancelled()) return cancelled();
+    std::size_t points = 0;
+    for (const std::uint32_t k : levels.rank) points += layers[k].points.size();
+    result.points.reserve(points);
+    result.faces.reserve(points);
+    for (std::size_t i = 0; i < heights.size(); ++i)
+        add_layer(result, layers[levels.rank[i]], heights[i], levels.planes[levels.rank[i]]);
+    return progress.reach(1.0) ? std::move(result) : cancelled();
+}
+
+void check_mesh(mesh_view mesh) {
+    detail::base::check_faces("section", mesh.points.size(), mesh.faces);
+    detail::base::check_finite_faces("section", mesh);
+}
+
+}  // namespace
+
+section_result section(mesh_view mesh, const oriented_plane& plane, std::span<const double> heights,
+                       const section_options& options) {
+    check_mesh(mesh);
+    return sections_of(mesh, detail::weld::join_faces(mesh), plane, heights, options);
+}
+
+section_result section(const prepared_mesh& mesh, const oriented_plane& plane,
+                       std::span<const double> heights, const section_options& options) {
+    check_mesh(mesh.view());
+    return sections_of(mesh.view(), detail::weld::join_faces(mesh), plane, heights, options);
+}
+
+point3 section_result::in_space(const section_layer& layer, const point2& p) const {
+    const point3& n = frame.normal;
+    const double up = n.x * layer.at.x + n.y * layer.at.y + n.z * layer.at.z;
+    point3 result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = frame.x[i] * p.x + frame.y[i] * p.y + n[i] * up;
+    return result;
+}
+
+std::vector<double> layer_heights(points_view points, const oriented_plane& plane,
+                                  double thickness) {
+    const point3 n = frame_of(plane).normal;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    const double zero = n.x * plane.at.x + n.y * plane.at.y + n.z * plane.at.z;
+    for (const point3& p : points) {
+        const double height = n.x * p.x + n.y * p.y + n.z * p.z - zero;
+        if (!std::isfinite(height)) continue;
+        low = std::min(low, height);
+        high = std::max(high, height);
+    }
+    if (!(thickness > 0.0) || (high - low) / thickness > 0x1p24)
+        throw std::invalid_argument(
+            "treeform::layer_heights: a thickness that is not positive, or of which there would be "
+            "more than 2^24 layers");
+    std::vector<double> heights;
+    for (std::size_t i = 0;; ++i) {
+        const double height = low + (static_cast<double>(i) + 0.5) * thickness;
+        if (!(height < high)) return heights;
+        heights.push_back(height);
+    }
+}
+
+}  // namespace treeform

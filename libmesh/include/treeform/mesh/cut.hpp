@@ -1,0 +1,103 @@
+#pragma once
+/// \file
+/// Solids cut by planes, in halves or in many pieces, each closed by caps.
+///
+///     tf::cut_result halves = tf::cut(solid, {{0, 0, 5}, {0, 0, 1}});
+
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/section.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace treeform {
+
+struct cut_options {
+    /// Precision of the coordinates returned. float32 values are stored as doubles.
+    treeform::precision precision = treeform::precision::float64;
+    /// As in `boolean_options`: how far what rounding has broken is joined.
+    double max_displacement = std::numeric_limits<double>::infinity();
+    /// Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface.
+    bool caps = true;
+    progress_callback progress{};
+};
+
+/// What is between two planes.
+struct TREEFORM_API cut_piece {
+    static constexpr std::uint32_t none = operand_element::none;
+
+    treeform::mesh mesh;
+    std::vector<std::uint32_t>
+        face_source;  ///< [F] face of the input that each lies in; none: a cap
+    std::vector<std::uint32_t> vertex_source;  ///< [V] vertex of the input that each is; none: new
+    std::vector<std::uint32_t>
+        cap;  ///< [F] of a cap, the number of its plane; of other faces, none
+    /// Status ok says what it says of `boolean_result`; without caps, edges are not looked at. A
+    /// piece without faces is ok, too: there is nothing between these planes.
+    treeform::certificate certificate{};
+
+    /// The mesh.
+    /// \throws not_certified_error unless the certificate's status is ok
+    [[nodiscard]] const treeform::mesh& value() const&;
+    [[nodiscard]] treeform::mesh value() &&;
+};
+
+struct cut_result {
+    /// Of K planes, in their order along the normal, K + 1 pieces from the lowest up. None where the
+    /// certificate says why.
+    std::vector<cut_piece> pieces{};
+    /// That of the first piece that is not ok, or of the mesh where it bounds no solid.
+    treeform::certificate certificate{};
+};
+
+/// The mesh below, between and above planes at `heights` above `plane` (`parallel_plane`).
+///
+/// Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face that lies
+/// in a plane belongs to the side that its solid is on. What the solid has in the plane is then closed by
+/// a cap, the same for both sides. Only points on cuts are rounded, once; each piece is checked as results
+/// of `boolean` are. Caps between axes stay flat and alike when rounded; others may bend by a step of
+/// the precision.
+///
+/// The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has parts
+/// that are inside out or hidden in others, it is first made the solid that it winds around, rounded:
+/// then all that is said here is of that one. Equal planes are one.
+///
+/// \throws std::invalid_argument as `section` and `boolean`
+/// \cost   as `boolean` of the mesh with itself, and O(n log n) for the n faces that are cut; caps of n
+///         points O(n^1.5)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API cut_result cut(mesh_view mesh, const oriented_plane& plane,
+                                          std::span<const double> heights,
+                                          const cut_options& options = {});
+[[nodiscard]] TREEFORM_API cut_result cut(const prepared_mesh& mesh, const oriented_plane& plane,
+                                          std::span<const double> heights,
+                                          const cut_options& options = {});
+
+/// Both halves: what is below the plane, and what is above.
+[[nodiscard]] inline cut_result cut(mesh_view mesh, const oriented_plane& plane,
+                                    const cut_options& options = {}) {
+    return cut(mesh, plane, std::array{0.0}, options);
+}
+[[nodiscard]] inline cut_result cut(const prepared_mesh& mesh, const oriented_plane& plane,
+                                    const cut_options& options = {}) {
+    return cut(mesh, plane, std::array{0.0}, options);
+}
+
+/// Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along each axis as
+/// there can be, and equally far apart. A size that is infinite is not cut along. Pieces are those with
+/// faces, by x, then y, then z; numbers of planes count across x first, then y, then z. Cuts across y
+/// and z are of the rounded pieces of the cuts before.
+///
+/// \throws std::invalid_argument as `cut`, for a size that is not positive, or where there would be more than
+///         2^16 planes
+[[nodiscard]] TREEFORM_API cut_result cut_to_fit(mesh_view mesh, const point3& size,
+                                                 const cut_options& options = {});
+
+}  // namespace treeform
