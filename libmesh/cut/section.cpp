@@ -191,6 +191,8 @@ std::vector<double> layer_heights(points_view points, const oriented_plane& plan
     const point3 n = frame_of(plane).normal;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     const double zero = n.x * plane.at.x + n.y * plane.at.y + n.z * plane.at.z;
+    if (!std::isfinite(zero))
+        throw std::invalid_argument("treeform::layer_heights: the plane is not finite");
     for (const point3& p : points) {
         const double height = n.x * p.x + n.y * p.y + n.z * p.z - zero;
         if (!std::isfinite(height)) continue;

@@ -1,4 +1,4 @@
-/* Sections. */
+/* Sections, cuts, parts. */
 #include "test.h"
 
 #include <stdio.h>
@@ -40,4 +40,83 @@ static void test_sections(void) {
     treeform_free(mesh);
 }
 
-void test_cuts(void) { test_sections(); }
+static void test_halves(void) {
+    treeform_mesh* mesh = cube(0, 0, 0, 2);
+    treeform_mesh* open = NULL;
+    const treeform_plane across = {{0.5, 0, 0}, {1, 0, 0}};
+    const double heights[2] = {0, 1};
+    const double fit[3] = {1, 3, 1};
+    treeform_cut_options options;
+    treeform_cut_result* made = NULL;
+    size_t i;
+    size_t caps = 0;
+    treeform_cut_options_init(&options, sizeof options);
+    options.precision = TREEFORM_FLOAT32;
+    OK(treeform_cut(mesh, &across, heights, 2, &options, &made));
+    CHECK(made && made->count == 3 && made->certificate->status == TREEFORM_STATUS_OK);
+    for (i = 0; made && i < made->pieces[1].mesh.face_count; ++i)
+        if (made->pieces[1].cap[i] != TREEFORM_NONE) {
+            CHECK(made->pieces[1].face_source[i] == TREEFORM_NONE);
+            ++caps;
+        }
+    CHECK(caps > 4 && made && made->pieces[1].vertex_source[0] == TREEFORM_NONE);
+    CHECK(made && made->pieces[1].certificate->status == TREEFORM_STATUS_OK);
+    treeform_free(made);
+    OK(treeform_cut(mesh, NULL, NULL, 0, NULL, &made));
+    CHECK(made && made->count == 2 && made->pieces[0].mesh.face_count == 0);
+    treeform_free(made);
+    OK(treeform_cut_to_fit(mesh, fit, NULL, &made));
+    CHECK(made && made->count == 4);
+    treeform_free(made);
+    OK(treeform_mesh_create(cube_points, 8, cube_faces, 11, 0, &open));
+    ENDS(TREEFORM_NOT_CERTIFIED, "", treeform_cut(open, &across, NULL, 0, NULL, &made));
+    CHECK(made && made->count == 0);
+    treeform_free(made);
+    options.open = 1;
+    OK(treeform_cut(open, &across, NULL, 0, &options, &made));
+    CHECK(made && made->count == 2);
+    treeform_free(made);
+    treeform_free(open);
+    treeform_free(mesh);
+}
+
+static void test_parts(void) {
+    const treeform_mesh* both[2];
+    treeform_mesh* a = cube(0, 0, 0, 1);
+    treeform_mesh* b = cube(5, 0, 0, 2);
+    treeform_mesh* all = NULL;
+    treeform_made_mesh* made = NULL;
+    treeform_mesh_parts* parts = NULL;
+    treeform_mass_properties mass;
+    const double mirror[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    both[0] = a;
+    both[1] = b;
+    OK(treeform_concatenate(both, 2, &made));
+    CHECK(made && made->mesh.point_count == 16 && made->index_count == 24 && made->index[12] == 1);
+    OK(treeform_mesh_create(made->mesh.points, 16, made->mesh.faces, 24, 0, &all));
+    OK(treeform_components(all, 0, 0, &parts));
+    CHECK(parts && parts->count == 2 && near(parts->parts[1].volume, 8));
+    CHECK(parts && parts->parts[1].face_source[0] == 12 && parts->parts[1].vertex_source[0] == 8);
+    treeform_free(parts);
+    OK(treeform_components(all, 0, 1, &parts));
+    CHECK(parts && parts->count == 1 && near(parts->parts[0].area, 24));
+    treeform_free(parts);
+    INVALID("min_volume", treeform_components(all, -1, 0, &parts));
+    treeform_free(all);
+    treeform_free(made);
+    OK(treeform_transform_mesh(b, mirror, &made));
+    CHECK(made && made->mesh.points[0] == -5 && made->index == NULL);
+    OK(treeform_mesh_create(made->mesh.points, 8, made->mesh.faces, 12, 0, &all));
+    OK(treeform_find_mass_properties(all, &mass));
+    CHECK(near(mass.volume, 8) && near(mass.center[0], -6) && near(mass.inertia[4], 16.0 / 3));
+    treeform_free(all);
+    treeform_free(made);
+    treeform_free(a);
+    treeform_free(b);
+}
+
+void test_cuts(void) {
+    test_sections();
+    test_halves();
+    test_parts();
+}

@@ -92,6 +92,20 @@ treeform_code treeform_area(const treeform_mesh* mesh, double* area) {
     return glue::guard([&] { glue::need(area, "area") = of_finite(mesh, tf::surface_area); });
 }
 
+treeform_code treeform_find_mass_properties(const treeform_mesh* mesh,
+                                            treeform_mass_properties* properties) {
+    return glue::guard([&] {
+        const auto found = tf::find_mass_properties(glue::view(mesh));
+        treeform_mass_properties& p = glue::need(properties, "properties");
+        p.volume = found ? found->volume : 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            p.center[i] = found ? found->center[i] : glue::not_known;
+            for (std::size_t j = 0; j < 3; ++j)
+                p.inertia[3 * i + j] = found ? found->inertia[i][j] : glue::not_known;
+        }
+    });
+}
+
 treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* bounds) {
     return glue::guard([&] {
         constexpr double far = std::numeric_limits<double>::infinity();

@@ -18,7 +18,9 @@ from ._attributes import Attributes
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
                         symmetric_difference, union)
 from ._core import Certificate
-from ._cuts import Section, SectionLoop, layer_heights, section
+from ._cuts import (CutPiece, MassProperties, MeshPart, Section, SectionLoop, components,
+                    concatenate, cut, cut_to_fit, layer_heights, mass_properties, section,
+                    submesh, transformed)
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
                       NotSolidError)
 from ._files import Written, read, write
@@ -51,24 +53,25 @@ __version__: str = _core.version()
 
 __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
            "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
-           "ConvexHull", "Depth", "Deviation", "Error", "FacePairs", "Feature", "FileError",
-           "FilePairs", "Impact", "Joint", "KINDS", "LaidFlat", "MadeMesh", "Measure", "Mesh",
-           "MeshDefects", "MeshLike", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError",
-           "NotSolidError", "PackedPart", "Packing", "PartClash", "Picture", "Placement",
-           "PointTree", "PoseClashes", "RayHits", "Region", "RepairResult", "ResolveResult",
-           "Robot", "STANDINGS", "Section", "SectionLoop", "SearchEffort", "SolidDefects", "StreamSearch", "StreamWeld",
-           "Topology", "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "align",
-           "boolean", "check_poses", "check_solid", "clash", "clip", "closest_point",
-           "closest_points", "contains", "convex_hull", "count_inside_out", "count_nearly_equal",
-           "count_topology", "deviation", "difference", "distance", "drop", "face_components",
-           "faces_in_box", "find_defects", "find_features", "find_rounding_defects",
-           "find_solid_defects", "from_meshio", "from_open3d", "from_pyvista", "from_trimesh",
-           "from_vtk", "intersection", "intersection_curves", "intersection_regions", "intersects",
-           "join_equal_points", "lay_flat", "layer_heights", "locate", "mate", "mate_features", "measure",
-           "mesh_intersections", "pack", "penetration_depth", "plot", "raycast", "raycast_all",
-           "raycast_any", "read", "read_urdf", "repair", "resolve_self_intersections", "rounded",
-           "section",
+           "ConvexHull", "CutPiece", "Depth", "Deviation", "Error", "FacePairs", "Feature",
+           "FileError", "FilePairs", "Impact", "Joint", "KINDS", "LaidFlat", "MadeMesh",
+           "MassProperties", "Measure", "Mesh", "MeshDefects", "MeshLike", "MeshPart", "NONE",
+           "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError", "PackedPart",
+           "Packing", "PartClash", "Picture", "Placement", "PointTree", "PoseClashes", "RayHits",
+           "Region", "RepairResult", "ResolveResult", "Robot", "STANDINGS", "SearchEffort",
+           "Section", "SectionLoop", "SolidDefects", "StreamSearch", "StreamWeld", "Topology",
+           "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "align", "boolean",
+           "check_poses", "check_solid", "clash", "clip", "closest_point", "closest_points",
+           "components", "concatenate", "contains", "convex_hull", "count_inside_out",
+           "count_nearly_equal", "count_topology", "cut", "cut_to_fit", "deviation", "difference",
+           "distance", "drop", "face_components", "faces_in_box", "find_defects", "find_features",
+           "find_rounding_defects", "find_solid_defects", "from_meshio", "from_open3d",
+           "from_pyvista", "from_trimesh", "from_vtk", "intersection", "intersection_curves",
+           "intersection_regions", "intersects", "join_equal_points", "lay_flat", "layer_heights",
+           "locate", "mass_properties", "mate", "mate_features", "measure", "mesh_intersections",
+           "pack", "penetration_depth", "plot", "raycast", "raycast_all", "raycast_any", "read",
+           "read_urdf", "repair", "resolve_self_intersections", "rounded", "section",
            "self_intersections", "self_intersections_of_file", "separate", "show",
-           "signed_distance", "slide", "split", "symmetric_difference", "thread_count", "threads",
-           "time_of_impact", "turn", "union", "weld", "weld_stream", "winding_number", "wrap",
-           "write", "__version__"]
+           "signed_distance", "slide", "split", "submesh", "symmetric_difference", "thread_count",
+           "threads", "time_of_impact", "transformed", "turn", "union", "weld", "weld_stream",
+           "winding_number", "wrap", "write", "__version__"]

@@ -1,21 +1,26 @@
-"""Sections of meshes by planes."""
+"""Sections of meshes by planes, solids cut by them; parts of meshes."""
 
 from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Union
+from typing import Any, Iterable, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import NONE, Floats, Ids
-from ._mesh import MeshLike, held
+from ._core import Certificate
+from ._errors import require
+from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held, listed
 from ._progress import Progress
+from ._repair import MadeMesh
 from ._results import Result
 
-__all__ = ["Section", "SectionLoop", "layer_heights", "section"]
+__all__ = ["CutPiece", "MassProperties", "MeshPart", "Section", "SectionLoop", "components",
+           "concatenate", "cut", "cut_to_fit", "layer_heights", "mass_properties", "section", "submesh",
+           "transformed"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -111,6 +116,11 @@ class Section(Result):
         _core.write_section(os.fspath(path), self._data, format, progress=progress)
 
 
+def _heights(heights: ArrayLike | None) -> Floats:
+    """Without any, the plane itself."""
+    return np.zeros(1) if heights is None else np.atleast_1d(_arrays.floats(heights, "heights"))
+
+
 def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
             heights: ArrayLike | None = None, progress: Progress = None) -> Section:
     """The loops in which planes meet a mesh: closed where the mesh is, outer ones counter-clockwise,
@@ -127,10 +137,8 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
     >>> layers.areas.tolist(), layers.lengths.tolist()
     ([1.0, 1.0, 1.0, 1.0], [4.0, 4.0, 4.0, 4.0])
     """
-    all_heights = np.zeros(1) if heights is None else np.atleast_1d(
-        _arrays.floats(heights, "heights"))
     data, made = _core.section(held(mesh), _arrays.vector(at, "at"), _arrays.vector(normal, "normal"),
-                               all_heights, progress=progress)
+                               _heights(heights), progress=progress)
     kept = {name: made.pop(name) for name in ("first_loop", "first_point", "closed", "oriented",
                                               "parent", "depth", "loop_areas", "loop_lengths")}
     return Section(**made, _data=data, _loops=kept)
@@ -147,3 +155,182 @@ def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1
     """
     return _core.layer_heights(held(mesh), _arrays.vector(at, "at"),
                                _arrays.vector(normal, "normal"), thickness, progress=progress)
+
+
+@dataclass(frozen=True, repr=False)
+class CutPiece(MadeMesh):
+    """What is between two planes; closed, unless it was cut without caps.
+
+    face_source: (F,) the input's face that each face lies in; 4294967295 in a cap.
+    vertex_source: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
+    cap: (F,) of a cap, the number of its plane; 4294967295 of other faces.
+    """
+
+    face_source: Ids
+    vertex_source: Ids
+    cap: Ids
+
+
+def _pieces(made: tuple[list[dict[str, Any]], Certificate], check: bool) -> list[CutPiece]:
+    pieces, certificate = made
+    if check:
+        require(certificate, of_one=True)
+    for one in pieces:
+        one["mesh"] = Mesh._of(one.pop("points"), one.pop("faces"), one["certificate"],
+                               one.pop("data"))
+    return [CutPiece(**one) for one in pieces]
+
+
+def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
+        heights: ArrayLike | None = None, caps: bool = True, precision: str = "float64",
+        max_displacement: float = np.inf, check: bool = True,
+        progress: Progress = None) -> list[CutPiece]:
+    """A solid below and above a plane; with `heights`, between planes: K + 1 pieces, from the lowest up.
+    Each is closed by caps. Some may have no faces.
+
+    normal, at: (3,) of the plane. heights: (K,) above it, as for `section`.
+    caps: False cuts a surface, which may end anywhere, and leaves it open.
+    precision, max_displacement, check: as for `boolean`.
+
+    On which side a vertex is, is decided exactly; points on cuts are rounded, and pieces are checked as
+    booleans are. A mesh that meets itself is cut as the solid that it winds around.
+
+    Raises NotSolidError where the mesh is open, NotCertifiedError.
+
+    >>> import treeform
+    >>> below, above = treeform.cut(treeform.read("data/cube.stl"), (1, 1, 1), (0.5, 0.5, 0.5))
+    >>> below.mesh.is_solid, round(below.mesh.volume, 12), round(above.mesh.volume, 12)
+    (True, 0.5, 0.5)
+    """
+    return _pieces(_core.cut(held(mesh), _arrays.vector(at, "at"), _arrays.vector(normal, "normal"),
+                             _heights(heights), caps, precision, max_displacement,
+                             progress=progress), check)
+
+
+def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, caps: bool = True, precision: str = "float64",
+               max_displacement: float = np.inf, check: bool = True,
+               progress: Progress = None) -> list[CutPiece]:
+    """Pieces of a solid that fit into a box of this size (3,), as the bed of a printer: as few along each
+    axis as there can be, of equal length. An infinite size is not cut along. For the rest, see `cut`.
+
+    >>> import treeform
+    >>> len(treeform.cut_to_fit(treeform.read("data/cube.stl"), (0.5, 0.4, 2)))
+    6
+    """
+    return _pieces(_core.cut_to_fit(held(mesh), _arrays.vector(size, "size"), caps, precision,
+                                    max_displacement, progress=progress), check)
+
+
+@dataclass(frozen=True, repr=False)
+class MeshPart(MeshResult):
+    """Faces of a mesh by themselves, with the vertices that they use, and their attributes.
+
+    mesh: The part.
+    face_source: (F,) the number of each face in the whole.
+    vertex_source: (V,) that of each vertex, ascending.
+    volume: As `Mesh.volume`.
+    area: As `Mesh.area`.
+    """
+
+    mesh: Mesh
+    face_source: Ids
+    vertex_source: Ids
+    volume: float
+    area: float
+
+
+def _part(made: dict[str, Any]) -> MeshPart:
+    made["mesh"] = Mesh._of(made.pop("points"), made.pop("faces"), None, made.pop("data"))
+    return MeshPart(**made)
+
+
+def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None = None,
+               progress: Progress = None) -> list[MeshPart]:
+    """The faces that vertices link, as meshes, in the order of their lowest faces. A closed part that is
+    inside out is a cavity, and goes with the part around it.
+
+    min_volume: parts with less are left out, in cubic units; open ones have none.
+    largest: so many of the greatest volume are kept.
+
+    >>> import treeform
+    >>> spheres = treeform.components(treeform.read("data/two_spheres.stl"))
+    >>> [part.mesh for part in spheres]
+    [Mesh(162 vertices, 320 faces), Mesh(162 vertices, 320 faces)]
+    """
+    return [_part(one) for one in
+            _core.components(held(mesh), min_volume, largest, progress=progress)]
+
+
+def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> MeshPart:
+    """The faces of these numbers (n,), in this order, with their vertices and attributes. A mask (F,) of
+    True and False will do.
+
+    >>> import treeform
+    >>> treeform.submesh(treeform.read("data/cube.stl"), [0, 1]).mesh
+    Mesh(4 vertices, 2 faces)
+    """
+    chosen = np.asarray(faces)
+    if chosen.dtype == bool:
+        count = len(as_mesh(mesh).faces)
+        if chosen.shape != (count,):
+            raise ValueError(f"faces: the shape of the mask is {chosen.shape}, not ({count},)")
+        chosen = np.flatnonzero(chosen)
+    return _part(_core.submesh(held(mesh), _arrays.ids(chosen, "faces"), progress=progress))
+
+
+def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mesh:
+    """Vertices, faces and attributes of all meshes, one after the other; nothing is joined.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> treeform.concatenate([cube, cube])
+    Mesh(16 vertices, 24 faces)
+    """
+    several = listed(meshes)
+    if several is None:
+        raise ValueError("meshes: several meshes are needed")
+    points, faces, data = _core.concatenate([held(one) for one in several], progress=progress)
+    return Mesh._of(points, faces, None, data)
+
+
+def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None) -> Mesh:
+    """The mesh moved by a matrix (4, 4), with its attributes, normals turned. Where the matrix mirrors,
+    faces are turned over, so that they look outward as before.
+
+    >>> import numpy as np
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> mirrored = treeform.transformed(cube, np.diag([-2, 1, 1, 1]))
+    >>> mirrored.volume, mirrored.bounds.tolist()
+    (2.0, [[-2.0, 0.0, 0.0], [0.0, 1.0, 1.0]])
+    """
+    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
+    faces, data = _core.turned(own, move)
+    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, None, data)
+
+
+@dataclass(frozen=True, repr=False)
+class MassProperties(Result):
+    """Of a solid of density 1.
+
+    volume: What the mesh encloses; negative where it is inside out, and `inertia` too.
+    center: (3,) of mass.
+    inertia: (3, 3) about the center, by the axes x, y and z.
+    """
+
+    volume: float
+    center: Floats
+    inertia: Floats
+
+
+def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
+    """Volume, center of mass and inertia of what a closed mesh encloses, rounded once from twice the
+    precision; None where the volume is 0.
+
+    >>> import treeform
+    >>> cube = treeform.mass_properties(treeform.read("data/cube.stl"))
+    >>> cube.center.tolist(), round(cube.inertia[0, 0], 12)
+    ([0.5, 0.5, 0.5], 0.166666666667)
+    """
+    found = _core.mass_properties(held(mesh), progress=progress)
+    return None if found is None else MassProperties(**found)

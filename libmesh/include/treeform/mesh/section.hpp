@@ -134,7 +134,7 @@ struct section_options {
 /// Heights above `plane` of the middles of layers of this thickness, from the lowest point to the highest:
 /// half a thickness above the lowest is the first. Points that are not finite do not count.
 ///
-/// \throws std::invalid_argument for a thickness that is not positive, or of which there would be more than
+/// \throws std::invalid_argument for a plane that is not finite, a thickness that is not positive, or of which there would be more than
 ///         2^24 layers
 [[nodiscard]] TREEFORM_API std::vector<double> layer_heights(points_view points,
                                                              const oriented_plane& plane,

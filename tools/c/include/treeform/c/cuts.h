@@ -1,7 +1,7 @@
 #ifndef TREEFORM_C_CUTS_H
 #define TREEFORM_C_CUTS_H
 /// \file
-/// Sections of a mesh by planes.
+/// Sections of a mesh by planes, solids cut by them; parts of meshes, meshes one after the other, moved.
 
 #include <treeform/c/mesh.h>
 
@@ -78,6 +78,82 @@ TREEFORM_C_API treeform_code treeform_layer_heights(const treeform_mesh* mesh,
 TREEFORM_C_API treeform_code treeform_write_section(const char* path,
                                                     const treeform_section_result* section,
                                                     const char* format);
+
+/// How to cut.
+typedef struct treeform_cut_options {
+    size_t size;
+    treeform_precision precision;  ///< of the coordinates returned; default: double
+    int32_t open;                  ///< cut a surface, which may end anywhere, and make no caps
+    double max_displacement;       ///< as of `treeform_boolean_options`; default infinite
+    treeform_progress progress;
+    void* progress_data;
+} treeform_cut_options;
+/// Sets the defaults.
+TREEFORM_C_API void treeform_cut_options_init(treeform_cut_options* options, size_t size);
+
+/// What is between two planes.
+typedef struct treeform_cut_piece {
+    treeform_arrays mesh;
+    const uint32_t*
+        face_source;  ///< [F] the input's face that each lies in; `TREEFORM_NONE`: a cap
+    const uint32_t* vertex_source;  ///< [V] the input's vertex that each is; `TREEFORM_NONE`: new
+    const uint32_t* cap;            ///< [F] of a cap, the number of its plane; else `TREEFORM_NONE`
+    const treeform_certificate* certificate;
+} treeform_cut_piece;
+
+/// Pieces, and what was checked.
+typedef struct treeform_cut_result {
+    void* owner;
+    const treeform_cut_piece* pieces;  ///< [count]
+    size_t count;
+    const treeform_certificate* certificate;  ///< of the first piece that is not ok, or of the mesh
+} treeform_cut_result;
+
+/// The mesh below, between and above the planes at `heights` [count] above `plane`, as for
+/// `treeform_section`: count + 1 pieces, some perhaps without faces, each closed by caps. The mesh has to
+/// bound a solid, unless `open` is set. The code is that of the certificate.
+TREEFORM_C_API treeform_code treeform_cut(const treeform_mesh* mesh, const treeform_plane* plane,
+                                          const double* heights, size_t count,
+                                          const treeform_cut_options* options,
+                                          treeform_cut_result** result);
+
+/// Pieces that fit into a box of this size (an infinite one is not cut along), by x, then y, then z; planes
+/// are numbered in that order.
+TREEFORM_C_API treeform_code treeform_cut_to_fit(const treeform_mesh* mesh, const double size[3],
+                                                 const treeform_cut_options* options,
+                                                 treeform_cut_result** result);
+
+/// Faces of a mesh by themselves.
+typedef struct treeform_mesh_part {
+    treeform_arrays mesh;
+    const uint32_t* face_source;    ///< [F] the number of each face in the whole
+    const uint32_t* vertex_source;  ///< [V] that of each point; ascending
+    double volume;
+    double area;
+} treeform_mesh_part;
+
+/// Parts of a mesh.
+typedef struct treeform_mesh_parts {
+    void* owner;
+    const treeform_mesh_part* parts;  ///< [count]
+    size_t count;
+} treeform_mesh_parts;
+
+/// The faces that corners link, as meshes, by their lowest faces; a cavity goes with what is around it.
+/// Parts of a volume below `min_volume` are left out (open ones have none), and all but the `largest` ones
+/// where that is not 0.
+TREEFORM_C_API treeform_code treeform_components(const treeform_mesh* mesh, double min_volume,
+                                                 size_t largest, treeform_mesh_parts** parts);
+
+/// Points and faces of all meshes, one after the other; nothing is joined. `index` [F] is the mesh that
+/// each face is of.
+TREEFORM_C_API treeform_code treeform_concatenate(const treeform_mesh* const* meshes, size_t count,
+                                                  treeform_made_mesh** made);
+
+/// The mesh with its points moved by `matrix` [12]: 3 rows of 4. Where that mirrors, faces are turned over.
+TREEFORM_C_API treeform_code treeform_transform_mesh(const treeform_mesh* mesh,
+                                                     const double* matrix,
+                                                     treeform_made_mesh** made);
 
 #ifdef __cplusplus
 }

@@ -17,6 +17,18 @@ TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* 
 /// The sum of the areas of all faces, in square units, rounded. O(F).
 TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* area);
 
+/// Of a solid of density 1.
+typedef struct treeform_mass_properties {
+    double volume;
+    double center[3];   ///< of mass
+    double inertia[9];  ///< 3 by 3, about the center, by axes x, y and z
+} treeform_mass_properties;
+
+/// Volume, center of mass and inertia of what a closed mesh encloses. Where the volume is 0, the others are
+/// NaN. O(F).
+TREEFORM_C_API treeform_code treeform_find_mass_properties(const treeform_mesh* mesh,
+                                                           treeform_mass_properties* properties);
+
 /// The smallest box around all finite points; without any, min is +infinity and max -infinity.
 /// O(V).
 TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* bounds);
