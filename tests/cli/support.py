@@ -12,6 +12,7 @@ import unittest
 
 TOOL = os.environ.get("TF_SELFINTERSECT", "tf-selfintersect")
 BOOLEAN = os.environ.get("TF_BOOLEAN", "tf-boolean")
+CUT = os.environ.get("TF_CUT", "tf-cut")
 MEND = os.environ.get("TF_REPAIR", "tf-repair")
 PLACE = os.environ.get("TF_PLACE", "tf-place")
 WELD = os.environ.get("TF_WELD", "tf-weld")

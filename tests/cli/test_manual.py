@@ -6,7 +6,7 @@ import shutil
 from support import *
 
 TOOLS = {"tf-" + name: os.environ["TF_" + name.upper()]
-         for name in ("boolean", "place", "repair", "selfintersect", "weld")}
+         for name in ("boolean", "cut", "place", "repair", "selfintersect", "weld")}
 OWN_LINES = {"tf-place": ("clash", "check")}
 
 
@@ -76,7 +76,7 @@ class Manual(ToolTest):
         for tool in TOOLS:
             script = self.generate(tool, "fish", tool + ".fish")
             self.run_quietly("fish", "-n", script)
-            mode = {"tf-place": "slide", "tf-boolean": "union"}.get(tool, "")
+            mode = {"tf-boolean": "union", "tf-cut": "half", "tf-place": "slide"}.get(tool, "")
             offered = self.run_quietly("fish", "--no-config", "-c",
                                        f"source {script}; complete -C '{tool} {mode} --'")
             with open(script) as file:

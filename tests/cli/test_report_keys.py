@@ -7,7 +7,7 @@ from weld_support import XYZ, ply_text, xyz_bytes
 
 HOME = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PAGE = os.path.join(HOME, "tools", "REPORTS.md")
-NAMES = {"tf-selfintersect": TOOL, "tf-boolean": BOOLEAN, "tf-place": PLACE, "tf-repair": MEND,
+NAMES = {"tf-selfintersect": TOOL, "tf-boolean": BOOLEAN, "tf-cut": CUT, "tf-place": PLACE, "tf-repair": MEND,
          "tf-weld": WELD}
 
 # Modes whose entries have keys of their own.
@@ -229,6 +229,22 @@ class Reports(PlaceTest):
                 (["union", "a.obj", "missing.obj", "-n"], 3)]:
             yield arguments, status
 
+    def cut(self):
+        self.mesh("part.obj", box((0, 0, 0), (4, 4, 1)))
+        self.mesh("slit.obj", (box((0, 0, 0), (1, 1, 1))[0], box((0, 0, 0), (1, 1, 1))[1][1:]))
+        self.mesh("flat.obj", ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+        for arguments, status in [
+                (["half", "part.obj", "--at", "1,1,1", "--normal", "1,1,0", "-o", "half.3mf"], 0),
+                (["half", "part.obj", "--height", "0.5", "--keep", "below", "-o", "low.stl"], 0),
+                (["half", "part.obj", "--height", "0.5", "-n"], 0),
+                (["half", "slit.obj", "--height", "0.5", "-n"], 1),
+                (["pieces", "part.obj", "--bed", "3,3", "-o", "piece%d.ply", "--caps", "cap"], 0),
+                (["section", "part.obj", "--layers", "0.25", "-o", "layers.svg"], 0),
+                (["section", "slit.obj", "nan.obj", "--height", "0.5,2", "-n"], 0),
+                (["parts", "part.obj", "-o", "parts.obj"], 0),
+                (["info", "part.obj", "flat.obj", "missing.obj"], 3)]:
+            yield arguments, status
+
     def place(self):
         self.mesh("part.obj", box((1, 1, 5), (2, 2, 6)))
         self.mesh("in.obj", box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5)))
@@ -343,6 +359,7 @@ class Reports(PlaceTest):
     def test_page_and_reports_have_the_same_keys_of_the_same_types(self):
         self.mesh("outer.obj", box((-9, -9, -9), (9, 9, 9)))
         for tool, runs in (("tf-selfintersect", self.selfintersect), ("tf-boolean", self.boolean),
+                           ("tf-cut", self.cut),
                            ("tf-place", self.place), ("tf-place", self.assemblies),
                            ("tf-repair", self.mend),
                            ("tf-weld", self.weld)):

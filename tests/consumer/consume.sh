@@ -91,7 +91,7 @@ run_tool() {
     "$installed/bin/tf-selfintersect" "$SOURCE/data/two_spheres.stl" || status=$?
     test $status -eq 1
     local tool share=$installed/share
-    for tool in tf-boolean tf-place tf-repair tf-selfintersect tf-weld; do
+    for tool in tf-boolean tf-cut tf-place tf-repair tf-selfintersect tf-weld; do
         test -s "$share/man/man1/$tool.1"
         test -s "$share/bash-completion/completions/$tool"
         test -s "$share/zsh/site-functions/_$tool"

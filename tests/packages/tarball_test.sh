@@ -15,7 +15,7 @@ if ((EUID != 0)); then
 fi
 tarball=$(echo "$packages"/treeform-*-x86_64-linux.tar.gz)
 folder=$(basename "$tarball" .tar.gz)
-tools=(tf-boolean tf-place tf-repair tf-selfintersect tf-weld)
+tools=(tf-boolean tf-cut tf-place tf-repair tf-selfintersect tf-weld)
 
 # What is done everywhere: a job or two for each tool, many formats written and read, a picture, a page;
 # in the folder that is the current one, which has data/ and cloud.xyz.

@@ -65,8 +65,8 @@ libraries."
     "libtreeform${soname} (${ours})")
 treeform_deb(tools treeform-tools graphics
     "exact processing of triangle meshes - command line tools"
-    "This package has tf-boolean, tf-place, tf-repair, tf-selfintersect and
-tf-weld, their manual pages, and completions for bash, fish and zsh."
+    "This package has tf-boolean, tf-cut, tf-place, tf-repair,
+tf-selfintersect and tf-weld, their manual pages, and completions for bash, fish and zsh."
     "libtreeform${soname} (${ours})")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "treeform-tools-mpi")
 if(TARGET treeform_mpi)

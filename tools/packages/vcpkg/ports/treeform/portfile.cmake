@@ -25,7 +25,7 @@ vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/treeform)
 vcpkg_fixup_pkgconfig()
 if("tools" IN_LIST FEATURES)
     vcpkg_copy_tools(
-        TOOL_NAMES tf-boolean tf-place tf-repair tf-selfintersect tf-weld
+        TOOL_NAMES tf-boolean tf-cut tf-place tf-repair tf-selfintersect tf-weld
         AUTO_CLEAN)
 endif()
 

@@ -1,0 +1,167 @@
+"""tf-cut: sections, halves, pieces, parts, and what is in a file."""
+
+import re
+import zipfile
+
+from boolean_support import *
+from support import ToolTest
+
+
+class Cut(ToolTest):
+    tool = CUT
+
+    def put_box(self, name="part.obj", low=(0, 0, 0), high=(4, 4, 1)):
+        return write(self.path(name), box(low, high))
+
+    def test_a_box_is_halved_and_each_half_is_a_solid(self):
+        part = self.put_box()
+        run = self.run_tool("half", part, "--height", "0.25", "-o", "half%d.stl", status=0)
+        self.assertEqual(run.text, part + ": 2 pieces: 20 faces, volume 4; 20 faces, volume 12\n")
+        self.assertEqual(run.err, "")
+        for name in ("half0.stl", "half1.stl"):
+            done = subprocess.run([MEND, "--check", name], cwd=self.folder, capture_output=True)
+            self.assertEqual(done.returncode, 0, msg=done.stdout)
+        for keep, volume in (("below", 4), ("above", 12)):
+            run = self.run_tool("half", part, "--at", "9,9,0.25", "--keep", keep, "-f", "-o",
+                                "half.off", status=0)
+            self.assertIn(f"1 piece: 20 faces, volume {volume}\n", run.text)
+        run = self.run_tool("half", part, "--height", "7", "--keep", "above", "-o", "no.stl", status=0)
+        self.assertIn("0 pieces", run.text)
+        self.assertIn("nothing is there", run.err)
+        self.assertFalse(os.path.exists(self.path("no.stl")))
+
+    def test_sections_are_written_in_four_formats(self):
+        part = self.put_box()
+        for name, start in (("s.svg", "<svg"), ("s.dxf", "0\nSECTION"), ("s.obj", "v "),
+                            ("s.json", "{")):
+            run = self.run_tool("section", part, "--layers", "0.25", "-o", name, status=0)
+            self.assertEqual(run.text, part + ": 4 layers, 4 loops\n")
+            self.assertTrue(self.read(name).startswith(start))
+        self.assertEqual([layer["area"] for layer in json.loads(self.read("s.json"))["layers"]],
+                         [16] * 4)
+        entry = self.report("section", part, "--height", "0,1,2", "-n", status=0)["files"][0]
+        self.assertEqual([layer["area"] for layer in entry["layers"]], [0, 16, 0])
+        run = self.run_tool("section", part, "--at", "2,2,0.5", "--normal", "1,1,0", "-n", status=0)
+        self.assertIn("1 loop, area 5.65685, length 13.3137", run.text)
+        self.run_tool("section", part, "--height", "0.5", "-o", "s.svg", status=4)  # is there
+        self.assertTrue(self.read("s.svg").count("<g") == 4)
+
+    def test_open_and_turned_surfaces_are_told_of(self):
+        points, faces = box((0, 0, 0), (1, 1, 1))
+        upright = [i for i, f in enumerate(faces) if len({points[v][2] for v in f}) == 2]
+        part = write(self.path("open.obj"), (points, [f for i, f in enumerate(faces)
+                                                      if i != upright[0]]))
+        run = self.run_tool("section", part, "--height", "0.5", "-n", status=0)
+        self.assertIn("1 polyline is open", run.err)
+        a, b, c = faces[upright[0]]
+        turned = write(self.path("turned.obj"), (points, [f for i, f in enumerate(faces)
+                                                          if i != upright[0]] + [(a, c, b)]))
+        run = self.run_tool("section", turned, "--height", "0.5", "-n", status=0)
+        self.assertIn("1 polyline runs along faces that disagree", run.err)
+        run = self.run_tool("half", part, "--height", "0.5", "-o", "h%d.stl", status=1)
+        self.assertIn("not cut: its surface ends at 3 edges", run.text)
+        self.assertIn("--open cuts it as a surface", run.err)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["open.obj", "turned.obj"])
+        run = self.run_tool("half", part, "--height", "0.5", "--open", "-o", "h%d.stl", status=0)
+        self.assertIn("2 pieces", run.text)
+
+    def test_pieces_fit_the_bed_and_may_be_objects_of_one_file(self):
+        part = self.put_box()
+        entry = self.report("pieces", part, "--bed", "3,1.5", "-o", "piece%d.ply", "--caps", "cap",
+                            status=0)["files"][0]
+        self.assertEqual([piece["file"] for piece in entry["pieces"]],
+                         [f"piece{i}.ply" for i in range(6)])
+        self.assertAlmostEqual(sum(piece["volume"] for piece in entry["pieces"]), 16)
+        self.assertTrue(all(piece["certified"] for piece in entry["pieces"]))
+        self.assertIn(b"property int cap", self.read_bytes("piece0.ply"))
+        self.run_tool("pieces", part, "--height", "0.25,0.5", "-o", "all.3mf", status=0)
+        with zipfile.ZipFile(self.path("all.3mf")) as archive:
+            model = archive.read("3D/3dmodel.model").decode()
+        self.assertEqual(re.findall(r'name="(piece \d)"', model), ["piece 0", "piece 1", "piece 2"])
+        self.run_tool("pieces", part, "--height", "0.25", "-o", "all.obj", status=0)
+        self.assertEqual(re.findall(r"(?m)^o (.*)$", self.read("all.obj")), ["piece 0", "piece 1"])
+
+    def test_parts_are_taken_by_volume_and_keep_their_colors(self):
+        both = together(together(box((0, 0, 0), (1, 1, 1)), box((3, 0, 0), (5, 2, 2))),
+                        box((6, 0, 0), (6.5, 1, 1)))
+        part = write(self.path("three.obj"), both)
+        run = self.run_tool("parts", part, "-o", "part%d.stl", status=0)
+        self.assertEqual(run.text, part + ": 3 parts: 12 faces, volume 1; 12 faces, volume 8; "
+                                          "12 faces, volume 0.5\n")
+        run = self.run_tool("parts", part, "--min-volume", "0.75", "-n", status=0)
+        self.assertIn("2 parts", run.text)
+        run = self.run_tool("parts", part, "--largest", "1", "-o", "large.stl", status=0)
+        self.assertIn("1 part: 12 faces, volume 8", run.text)
+        lines = [line + (f" {i % 2} 0.5 0" if line.startswith("v ") else "")
+                 for i, line in enumerate(self.read("three.obj").splitlines())]
+        self.put("colors.obj", "\n".join(lines) + "\n")
+        self.run_tool("parts", "colors.obj", "-o", "c%d.obj", status=0)
+        self.assertEqual(len(re.findall(r"(?m)^v \S+ \S+ \S+ [01] 0.5 0$", self.read("c1.obj"))), 8)
+
+    def test_info_says_what_a_file_is_as_a_table_of_many(self):
+        part = self.put_box()
+        run = self.run_tool("info", part, status=0)
+        self.assertEqual(run.text, part + ": 12 faces, 4 x 4 x 1, solid; 1 component, area 48, "
+                                          "volume 16, center (2, 2, 0.5)\n")
+        points, faces = cube()
+        write(self.path("open.obj"), (points, faces[1:]))
+        report = self.report("info", part, "open.obj", status=0)
+        first, second = (entry["info"] for entry in report["files"])
+        self.assertEqual(first["inertia"][2][2], 16 * 32 / 12)
+        self.assertTrue(first["solid"] and not second["solid"])
+        self.assertEqual(second["defects"], "open at 3 edges")
+
+    def test_threads_change_no_byte(self):
+        part = self.put_box()
+        for threads in (1, 2):
+            self.run_tool("pieces", part, "--bed", "0.7,0.9,0.4", "-o", f"p{threads}.obj", "-j",
+                          threads, status=0)
+            self.run_tool("section", part, "--layers", "0.01", "-o", f"s{threads}.json", "-j",
+                          threads, status=0)
+        self.assertEqual(self.read("p1.obj"), self.read("p2.obj"))
+        self.assertEqual(self.read("s1.json"), self.read("s2.json"))
+
+    def test_pages_and_pictures(self):
+        part = self.put_box()
+        self.run_tool("half", part, "--height", "0.5", "-n", "--html", "a.html", "--png", "a.png",
+                      status=0)
+        self.run_tool("section", part, "--height", "0.5", "-n", "--html", "b.html", status=0)
+        self.run_tool("info", part, "--png", "c.png", status=0)
+        self.assertIn("caps", self.read("a.html"))
+        self.assertTrue(self.read_bytes("c.png").startswith(b"\x89PNG"))
+
+    def test_what_makes_no_sense_is_refused(self):
+        part = self.put_box()
+        for arguments, words in [
+                (["cut", part], "no mode"), (["half", part, "-n"], "give --height or --at"),
+                (["half", part, "--height", "1,2", "-n"], "one --height"),
+                (["half", part, "--height", "x", "-n"], "--height"),
+                (["half", part, "--height", "0.5", "-o", "a.stl"], "a_%d.stl"),
+                (["half", part, "--height", "0.5"], "nothing to give back"),
+                (["half", part, "--height", "0.5", "--bed", "1,1", "-n"], "--bed is not for half"),
+                (["half", part, "--at", "0,0,0", "--normal", "0,0,0", "-n"], "--normal"),
+                (["half", part, "--height", "1", "--caps", "c", "-o", "a.3mf"], "--caps needs"),
+                (["half", part, "--height", "1", "--output-dir", "d"], "--keep below or above"),
+                (["section", part, "-n"], "where?"),
+                (["section", part, "--height", "1", "-o", "a.stl"], "svg, dxf, obj or json"),
+                (["section", part, "--layers", "0", "-n"], "--layers"),
+                (["section", part, "--layers", "1", "--height", "1", "-n"], "exclude"),
+                (["section", part, "--height", "1", "--precision", "float", "-n"], "is not for"),
+                (["pieces", part, "-n"], "give --bed or --height"),
+                (["pieces", part, "--bed", "1", "-n"], "--bed"),
+                (["pieces", part, "--bed", "1,0", "-n"], "above 0"),
+                (["pieces", part, "--bed", "1,1", "--at", "0,0,0", "-n"], "--bed chooses"),
+                (["parts", part, "--height", "1", "-n"], "--height is not for parts"),
+                (["parts", part, "--min-volume", "-1", "-n"], "--min-volume"),
+                (["info", part, "-o", "a.stl"], "--output is not for info")]:
+            run = self.run_tool(*arguments, status=2)
+            self.assertIn(words, run.err, msg=arguments)
+        for arguments in (["pieces", part, "--bed", "1e-6,1", "-n"],
+                          ["section", part, "--layers", "1e-9", "-n"]):
+            self.run_tool(*arguments, status=2)
+        self.run_tool("info", "missing.stl", status=3)
+        self.assertEqual(os.listdir(self.folder), ["part.obj"])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,89 @@
+#pragma once
+/// \file
+/// What a user of tf-cut asks for, what is made of an input, and how it is told and written.
+
+#include "tools/common/parse_value.hpp"
+#include "tools/common/rails.hpp"
+#include "tools/common/run.hpp"
+#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/section.hpp>
+#include <treeform/tf.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tools {
+
+enum class cut_mode : std::uint8_t { half, section, pieces, parts, info };
+inline constexpr std::array<const char*, 5> cut_modes{"half", "section", "pieces", "parts", "info"};
+
+enum class kept_half : std::uint8_t { both, below, above };
+inline constexpr std::array<const char*, 3> kept_halves{"both", "below", "above"};
+
+struct cut_settings {
+    std::string mode_text{};
+    cut_mode mode = cut_mode::half;
+    tf::oriented_plane plane{};
+    std::vector<double> heights{0.0};  ///< of planes
+    double layers = 0.0;               ///< thickness, or 0
+    std::optional<tf::point3> bed{};
+    kept_half keep = kept_half::both;
+    bool open = false;
+    tools::rails rails{};
+    double min_volume = 0.0;
+    std::uint64_t largest = 0;  ///< 0: all
+    std::string caps{};         ///< name of the property with the plane of each cap; or none
+    std::filesystem::path output{};
+};
+
+/// A file, and its triangles that can be computed with.
+struct cut_input {
+    tf::mesh_file file{};
+    std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
+    std::uint64_t left_out = 0;                     ///< triangles with a corner that is not finite
+
+    [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
+};
+
+/// Of the box around it.
+[[nodiscard]] double diagonal_of(const cut_input& input);
+
+/// A piece or part.
+struct cut_off {
+    tf::mesh mesh{};
+    std::vector<std::uint32_t> face_source{};
+    std::vector<std::uint32_t> vertex_source{};
+    std::vector<std::uint32_t> cap{};  ///< as `cut_piece::cap`; empty of parts
+    double volume = 0.0;
+    double area = 0.0;
+    tf::certificate certificate{};
+};
+
+/// Keys of a report for which nothing has been done yet.
+void enter_blank_report(job& work, const cut_settings& s, const cut_input& input);
+
+/// Enters and says what there is.
+void say_section(job& work, const tf::section_result& made);
+void say_pieces(job& work, const cut_settings& s, const std::vector<cut_off>& pieces);
+void say_info(job& work, const cut_input& input);
+
+/// Writes pieces, each to a file of its own, or all to one. \throws failure
+void write_pieces(job& work, const cut_settings& s, const cut_input& input,
+                  std::vector<cut_off>& pieces);
+
+/// That pieces can be written so: --output with "%d", or a format with objects. \throws failure
+/// (bad_usage)
+void check_pieces_path(const common_options& options, std::size_t pieces);
+
+/// Page and picture, where they are asked for.
+void write_page(job& work, const cut_input& input, const std::string& verdict, bool good,
+                const std::vector<cut_off>& pieces, const tf::section_result* section);
+
+}  // namespace tools

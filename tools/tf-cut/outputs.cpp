@@ -1,0 +1,109 @@
+#include "tools/common/mesh_output.hpp"
+#include "tools/tf-cut/cutting.hpp"
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/parts.hpp>
+#include <treeform/tf.hpp>
+
+#include <utility>
+
+namespace tools {
+namespace {
+
+constexpr const char* number_mark = "%d";
+
+bool has_number(const std::filesystem::path& path) {
+    return path.string().find(number_mark) != std::string::npos;
+}
+
+std::filesystem::path numbered(const std::filesystem::path& path, std::size_t number) {
+    std::string text = path.string();
+    text.replace(text.find(number_mark), 2, std::to_string(number));
+    return text;
+}
+
+/// Of formats with objects, each piece is one.
+bool has_objects(const std::string& format) {
+    return format == "3mf" || format == "obj" || format == "glb";
+}
+
+/// The file of what was made, with the attributes of the input.
+tf::mesh_file carried(const cut_settings& s, const cut_input& input, cut_off&& piece) {
+    tf::mesh_file file = file_of(std::move(piece.mesh), piece.certificate);
+    tf::carry(file, input.source(), piece.face_source, piece.vertex_source);
+    if (!s.caps.empty()) {
+        std::vector<std::int32_t> cap(piece.cap.begin(), piece.cap.end());  // none is -1
+        tf::set_column(tf::obtain_element(file.attributes, "face", file.mesh.faces.size()),
+                       tf::make_column<std::int32_t>(s.caps, cap));
+    }
+    return file;
+}
+
+/// All pieces as one, and where the faces of each begin.
+cut_off together(std::vector<cut_off>& pieces, std::vector<tf::part>& parts) {
+    cut_off all;
+    std::vector<tf::mesh_view> views;
+    for (const cut_off& piece : pieces) {
+        parts.push_back({.object = "piece " + std::to_string(views.size()),
+                         .first_face = static_cast<std::uint32_t>(all.face_source.size())});
+        views.emplace_back(piece.mesh);
+        const auto append = [](auto& to, const auto& more) {
+            to.insert(to.end(), more.begin(), more.end());
+        };
+        append(all.face_source, piece.face_source);
+        append(all.vertex_source, piece.vertex_source);
+        append(all.cap, piece.cap);
+        all.certificate.precision = piece.certificate.precision;
+    }
+    all.mesh = tf::concatenate(views);
+    return all;
+}
+
+}  // namespace
+
+void check_pieces_path(const common_options& o, std::size_t pieces) {
+    if (o.output.empty() || pieces < 2 || has_number(o.output)) return;
+    const std::string format = mesh_format(o, o.output);
+    if (has_objects(format)) return;
+    const std::filesystem::path example =
+        o.output.parent_path() /
+        (o.output.stem().string() + "_" + number_mark + o.output.extension().string());
+    refuse("there may be several pieces, and " + format + " holds one: name them -o " +
+           example.string() + ", or write 3mf, obj or glb");
+}
+
+void write_pieces(job& work, const cut_settings& s, const cut_input& input,
+                  std::vector<cut_off>& pieces) {
+    const common_options& o = work.options;
+    const auto output = mesh_output(o, work.path);
+    if (!output || o.dry_run) return;
+    const auto timing = work.time("write");
+    const written_form form = form_of(work, input.file, *output);
+    if (const tf::carry_source source = input.source(); tf::has_values_left_out({&source, 1}))
+        work.warn("attributes", "not all properties of the input are carried over");
+    const auto write = [&](tf::mesh_file&& file, const std::filesystem::path& path, double moved,
+                           bool certified) {
+        if (certified) return write_certified(work, file, form, path, moved);
+        tf::write_options how = write_options_for(o, form);
+        if (!how.precision) how.precision = file.stored_as;
+        write_mesh(work, file, how, path, moved);
+    };
+    if (!has_number(*output) && pieces.size() != 1) {
+        std::vector<tf::part> parts;
+        cut_off all = together(pieces, parts);
+        tf::mesh_file file = carried(s, input, std::move(all));
+        file.attributes.parts = std::move(parts);
+        for (json& piece : work.entry["pieces"]) piece["file"] = output->string();
+        write(std::move(file), *output, 0.0, false);
+        return;
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const std::filesystem::path path = has_number(*output) ? numbered(*output, i) : *output;
+        if (has_number(*output)) check_outputs(work, {path});
+        const double moved = pieces[i].certificate.max_displacement;
+        const bool certified = s.mode != cut_mode::parts && !s.open;
+        write(carried(s, input, std::move(pieces[i])), path, moved, certified);
+        work.entry["pieces"][i]["file"] = path.string();
+    }
+}
+
+}  // namespace tools
