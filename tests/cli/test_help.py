@@ -6,25 +6,30 @@ from support import *
 
 HOME = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 TOOLS = {name: os.environ["TF_" + name.upper()]
-         for name in ("boolean", "place", "repair", "selfintersect", "weld")}
+         for name in ("boolean", "cut", "place", "repair", "selfintersect", "weld")}
 MODES = {"place": {"drop": "drop", "lay": "lay", "slide": "slide", "mate": "mate", "turn": "turn",
                    "clear": "separate", "arrange": "pack", "fit": "align", "measure": "measure",
                    "clash": "clash", "check": "check"},
-         "boolean": {mode: mode for mode in ("union", "intersection", "difference", "xor", "split")}}
+         "boolean": {mode: mode for mode in ("union", "intersection", "difference", "xor", "split")},
+         "cut": {mode: mode for mode in ("half", "section", "pieces", "parts", "info")}}
 # What a mode needs beside the option that is tried, so that only this is refused.
-NEEDED = {"arrange": ["--size", "9,9"], "check": ["--poses", "poses"]}
+NEEDED = {"half": ["--height", "1"], "section": ["--height", "1"], "pieces": ["--height", "1"],
+          "arrange": ["--size", "9,9"], "check": ["--poses", "poses"]}
 FIXED = ("slide", "mate", "turn", "clear", "fit", "measure")
 VALUES = {"X,Y,Z": "0,0,-1", "X,Y[,Z]": "9,9", "DIST": "1", "SEC": "1", "DEG": "45", "N": "1",
           "F": "0.5", "LO,HI": "0,1", "Z": "0", "FILE": "f.ply", "FILE:N": "a.obj:1", "U": "mm",
           "SIZE": "none", "DIR": "dir", "TEXT": "text", "A:B": "a:b", "RULE": "odd", "P": "p",
           "FACE|X,Y,Z": "1", "KIND": "plane", "EXT": "ply", "SET": "90", "EXPR": "a+b",
           "N:FILE": "1:m", "SHARE": "1%", "WHEN": "never", "V,...": "iso,top", "WxH": "90x60",
-          "V": "1"}
+          "V": "1", "H,...": "1", "T": "1", "HALF": "below"}
 WORDS = {"--precision": "float", "--png": "p.png", "--weights": "equal", "--metric": "plane"}
 # Options that are refused without others, or beside -o.
 WITH = {"--pick": ["--feature", "plane"], "--pick-fixed": ["--feature", "plane"],
         "--view": ["--png", "p.png"], "--png-size": ["--png", "p.png"],
         "--flip": ["--feature", "plane"], "--suffix": ["--output-dir", "dir"]}
+# Options that choose the planes themselves.
+PLANES = ("--bed", "--layers")
+OUTPUTS = {"section": "out.svg", "half": "out%d.ply", "pieces": "out%d.ply", "parts": "out%d.ply"}
 WITHOUT_OUTPUT = ("--output-dir", "--in-place", "--suffix", "--check", "--output")
 
 
@@ -88,13 +93,18 @@ class Help(ToolTest):
     def try_option(self, tool, mode, name, value):
         words = [name]
         if value:
-            words.append(WORDS.get(name) or VALUES[value])
-        needed = list(NEEDED.get(mode, [])) if name not in NEEDED.get(mode, []) else []
+            words.append(OUTPUTS[mode] if name == "--output" and mode in OUTPUTS else
+                         WORDS.get(name) or VALUES[value])
+        needed = [] if name in NEEDED.get(mode, []) else list(NEEDED.get(mode, []))
+        if tool == "cut" and name in PLANES:
+            needed = []
+        if tool == "cut" and name in ("--output-dir", "--in-place", "--suffix"):
+            needed += ["--keep", "below"]
         if mode in FIXED and name != "--fixed":
             needed += ["--fixed", "none.obj"]
         if name not in WITHOUT_OUTPUT and mode not in ("check",):
-            needed += ["-o", "out.ply"]
-        inputs = ["a.obj"] if tool == "place" else ["a.obj", "b.obj"]
+            needed += ["-o", OUTPUTS.get(mode, "out.ply")] if mode != "info" else []
+        inputs = ["a.obj"] if tool != "boolean" else ["a.obj", "b.obj"]
         return self.say(tool, mode, *words, *WITH.get(name, []), *needed, *inputs)
 
     def test_a_mode_lists_what_it_accepts(self):
@@ -107,7 +117,7 @@ class Help(ToolTest):
                 for name, value in {**whole, **listed}.items():
                     if name in ("--help", "--version", "--quiet", "--accept-open", "--package-dir"):
                         continue
-                    if name in of_all and mode not in ("measure", "split"):  # one will do
+                    if name in of_all and mode not in ("measure", "split", "info"):  # one will do
                         continue
                     with self.subTest(mode=mode, option=name):
                         run = self.try_option(tool, mode, name, value)

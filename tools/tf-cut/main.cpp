@@ -31,8 +31,8 @@ using tools::exit_status;
 using tools::refuse;
 
 const std::vector<std::string> of_planes{"--normal", "--at", "--height"};
-const std::vector<std::string> of_meshes{"--output-format", "--precision",  "--ascii", "--binary",
-                                         "--in-place",      "--output-dir", "--suffix"};
+const std::vector<std::string> of_one{"--in-place", "--output-dir", "--suffix"};
+const std::vector<std::string> of_meshes{"--output-format", "--precision", "--ascii", "--binary"};
 
 std::vector<std::string> both(std::vector<std::string> a, const std::vector<std::string>& b) {
     a.insert(a.end(), b.begin(), b.end());
@@ -46,7 +46,7 @@ void add_modes(command_line& line) {
                .usage = "half --height H [OPTIONS] INPUT...",
                .more = "Prints faces and volume of each half.\n\nExamples:\n"
                        "  $ tf-cut half data/sphere.ply --height 0.25 --keep above -o top.ply\n"
-                       "  data/sphere.ply: 1 piece: 318 faces, volume 1.32195\n"});
+                       "  data/sphere.ply: 1 piece: 662 faces, volume 1.31185\n"});
     line.mode({.names = "section",
                .text = "the loops in the planes, as SVG, DXF, OBJ, JSON",
                .usage = "section --height H[,H...] [OPTIONS] INPUT...",
@@ -54,23 +54,23 @@ void add_modes(command_line& line) {
                        "length, too.\n\nExamples:\n"
                        "  $ tf-cut section data/two_spheres.stl --layers 0.5 -o layers.svg\n"
                        "  data/two_spheres.stl: 4 layers, 8 loops\n",
-               .without = of_meshes});
+               .without = both(both(of_meshes, of_one), {"--max-move"})});
     line.mode({.names = "pieces",
                .text = "what is between planes, or fits a printer's bed",
                .usage = "pieces --bed X,Y[,Z] [OPTIONS] INPUT...",
                .more = "Prints faces and volumes of the pieces.\n\nExamples:\n"
                        "  $ tf-cut pieces data/sphere.ply --bed 1,2 -o piece_%d.ply\n"
-                       "  data/sphere.ply: 2 pieces: 388 faces, volume 2.07637; 388 faces, volume "
-                       "2.07637\n"});
+                       "  data/sphere.ply: 2 pieces: 702 faces, volume 2.07637; 702 faces, volume "
+                       "2.07637\n",
+               .without = of_one});
     line.mode({.names = "parts",
                .text = "the faces that corners link, each by themselves",
                .usage = "parts [OPTIONS] INPUT...",
                .more = "Prints faces and volumes of the parts. A cavity goes with the part around\n"
                        "it.\n\nExamples:\n"
-                       "  $ tf-cut parts data/two_spheres.stl -o part_%d.stl\n"
-                       "  data/two_spheres.stl: 2 parts: 320 faces, volume 4.04703; 320 faces, "
-                       "volume 4.04703\n",
-               .without = of_planes});
+                       "  $ tf-cut parts data/two_spheres.stl --largest 1 -o part.stl\n"
+                       "  data/two_spheres.stl: 1 part: 320 faces, volume 4.04704\n",
+               .without = both(both(of_planes, of_one), {"--max-move"})});
     line.mode({.names = "info",
                .text = "size, solid or why not, area, volume, center",
                .usage = "info [OPTIONS] INPUT...",
@@ -79,7 +79,8 @@ void add_modes(command_line& line) {
                    "  $ tf-cut info data/cube.stl\n"
                    "  data/cube.stl: 12 faces, 1 x 1 x 1, solid; 1 component, area 6, volume 1, "
                    "center (0.5, 0.5, 0.5)\n",
-               .without = both(both(of_planes, of_meshes), {"--output", "--dry-run"})});
+               .without = both(both(both(of_planes, of_meshes), of_one),
+                               {"--output", "--dry-run", "--max-move"})});
 }
 
 void add_options(command_line& line, cut_settings& s) {
@@ -123,9 +124,9 @@ void add_options(command_line& line, cut_settings& s) {
 void add_what_to_give_back(command_line& line, cut_settings& s) {
     line.group("What to give back");
     line.output(s.output, {"-o, --output", "FILE",
-                           "the pieces: \"%d\" in its name is the number of each;\n"
-                           "else they are objects of one 3MF, OBJ or GLB; of\n"
-                           "section: svg, dxf, obj or json"});
+                           "where the result goes: loops as svg, dxf, obj or json;\n"
+                           "pieces as meshes, \"%d\" in the name being the number\n"
+                           "of each, or as objects of one 3MF, OBJ or GLB"});
     line.option(s.caps, {"--caps", "P",
                          "half, pieces: write the number of its plane for each\n"
                          "face of a cap to property P of a PLY or GLB, else -1"});
@@ -139,14 +140,14 @@ const char* const epilogue =
     "A section is that of a plane just below: a vertex in the plane counts as above.\n"
     "Loops of a solid are closed, counter-clockwise where they are outer ones, and\n"
     "clockwise where they are holes. Where the surface ends, they are open, and a\n"
-    "warning says so. SVG, DXF and JSON have coordinates in the plane: (x, y) across z,\n"
-    "(y, z) across x, (z, x) across y; OBJ has lines in space.\n"
+    "warning says so. SVG, DXF and JSON have coordinates in the plane: (x, y) across\n"
+    "z, (y, z) across x, (z, x) across y; OBJ has lines in space.\n"
     "\n"
-    "Pieces are closed by caps, and have been checked in the coordinates written: they\n"
-    "are closed, oriented and free of self-intersections. Two pieces have the same cap,\n"
-    "turned. The input has to bound a solid, unless --open is given; where it meets\n"
-    "itself, the solid that it winds around is cut. Pieces are numbered from 0, from\n"
-    "the lowest up; with --bed by x, then y, then z.\n"
+    "Pieces are closed by caps, and have been checked in the coordinates written:\n"
+    "they are closed, oriented and free of self-intersections. Two pieces have the\n"
+    "same cap, turned. The input has to bound a solid, unless --open is given; where\n"
+    "it meets itself, the solid that it winds around is cut. Pieces are numbered from\n"
+    "0, from the lowest up; with --bed by x, then y, then z.\n"
     "\n"
     "Examples:\n"
     "  tf-cut half part.stl --at 0,0,12.5 --normal 0,1,1 -o half_%d.stl\n"
@@ -175,10 +176,9 @@ void check_mode(const command_line& line, cut_settings& s) {
     only("--layers", {section});
     only("--bed", {pieces});
     only("--keep", {half});
-    only("--output", {half, section, pieces, parts});
-    for (const char* name :
-         {"--output-format", "--precision", "--ascii", "--binary", "--in-place", "--output-dir"})
-        only(name, {half, pieces, parts});
+    for (const char* name : {"--output", "--dry-run"}) only(name, {half, section, pieces, parts});
+    for (const std::string& name : of_meshes) only(name.c_str(), {half, pieces, parts});
+    for (const std::string& name : of_one) only(name.c_str(), {half});
     const bool placed = line.given("--at") || line.given("--height");
     if (s.mode == half && !placed) refuse("half: where? give --height or --at");
     if (s.mode == half && s.heights.size() > 1) refuse("half: one --height; pieces takes several");
@@ -209,7 +209,7 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
         const bool single = s.mode == cut_mode::half && s.keep != tools::kept_half::both;
         if (!single) {
             if (!options.output_dir.empty() || options.in_place)
-                refuse("--output-dir and --in-place are for half with --keep below or above");
+                refuse("--output-dir and --in-place need --keep below or above");
             tools::check_pieces_path(options, s.largest == 1 ? 1 : 2);
         }
         if (!s.caps.empty() && !options.output.empty()) {
