@@ -2,7 +2,7 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/parts.hpp>
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 

@@ -126,8 +126,8 @@ ball line_plane_ball(const point3& a, const point3& b, const plane_points& p) {
 
 ball line_normal_ball(const point3& a, const point3& b, const point3& at, const point3& normal) {
     using polynomial = detail::exact::line_normal_polynomial;
-    const auto differences = polynomial::differences(
-        std::array{vector_of(a), vector_of(b), vector_of(at), vector_of(point3{}), vector_of(normal)});
+    const auto differences = polynomial::differences(std::array{
+        vector_of(a), vector_of(b), vector_of(at), vector_of(point3{}), vector_of(normal)});
     if (!(detail::exact::largest_magnitude(differences) <= detail::exact::largest_difference<3>))
         return nowhere;
     const auto t = polynomial::value(terms_of(differences));

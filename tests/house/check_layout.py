@@ -10,15 +10,15 @@ import sys
 import tempfile
 
 HEADER_LINES = 250    # of a public header
-PUBLIC_HEADERS = 64
+PUBLIC_HEADERS = 66
 FILE_LINES = 500
 FUNCTION_LINES = 60   # from the opening brace to the closing one
 TOOL_LINES = 900      # of C++ in the folder of a tool: what more it needs belongs in the library
 PAGE_LINES = 330      # of the page of a tool, page.cpp, which counts apart
 MORE_TOOL_LINES = {"tf-weld": 1700, "tf-selfintersect": 1150, "tf-boolean": 1125, "tf-place": 950,
                    "common": 4200, "picture": 2000, "assembly": 1200,
-                   "c": 7640,  # a function for each of the library's, and its docstring
-                   "python": 4350}  # every verb once, pictures, work by many processes
+                   "c": 8040,  # a function for each of the library's, and its docstring
+                   "python": 4600}  # every verb once, pictures, work by many processes
 
 # Rooms of libmesh, top down; an include points down this list, and not across a line of it.
 FLOORS = [

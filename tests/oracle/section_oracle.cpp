@@ -33,29 +33,29 @@
 namespace {
 
 using kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using cgal_surface = CGAL::Surface_mesh<kernel::Point_3>;
+using sliced_surface = CGAL::Surface_mesh<kernel::Point_3>;
 using polyline = std::vector<kernel::Point_3>;
 
 /// The mesh for CGAL; empty where it is no manifold.
-cgal_surface surface_of(const tf::mesh& mesh) {
-    cgal_surface made;
+sliced_surface sliced_surface_of(const tf::mesh& mesh) {
+    sliced_surface made;
     for (const tf::point3& p : mesh.points) made.add_vertex({p.x, p.y, p.z});
     for (const tf::face& f : mesh.faces)
-        if (made.add_face(cgal_surface::Vertex_index(f[0]), cgal_surface::Vertex_index(f[1]),
-                          cgal_surface::Vertex_index(f[2])) == cgal_surface::null_face())
+        if (made.add_face(sliced_surface::Vertex_index(f[0]), sliced_surface::Vertex_index(f[1]),
+                          sliced_surface::Vertex_index(f[2])) == sliced_surface::null_face())
             return {};
     return made;
 }
 
 /// Number, length and area of what CGAL finds; the area is that of odd winding, so of a solid.
-struct totals {
+struct slice_totals {
     std::size_t count = 0;
     double length = 0.0;
     double area = 0.0;
 };
 
-totals of_cgal(const cgal_surface& mesh, const tf::oriented_plane& plane) {
-    const CGAL::Polygon_mesh_slicer<cgal_surface, kernel> slicer(mesh);
+slice_totals slices_of_cgal(const sliced_surface& mesh, const tf::oriented_plane& plane) {
+    const CGAL::Polygon_mesh_slicer<sliced_surface, kernel> slicer(mesh);
     const kernel::Plane_3 cut(kernel::Point_3(plane.at.x, plane.at.y, plane.at.z),
                               kernel::Vector_3(plane.normal.x, plane.normal.y, plane.normal.z));
     std::vector<polyline> lines;
@@ -65,7 +65,7 @@ totals of_cgal(const cgal_surface& mesh, const tf::oriented_plane& plane) {
         return tf::point2{frame.x.x * p.x() + frame.x.y * p.y() + frame.x.z * p.z(),
                           frame.y.x * p.x() + frame.y.y * p.y() + frame.y.z * p.z()};
     };
-    totals made{lines.size()};
+    slice_totals made{lines.size()};
     std::vector<double> areas;
     for (const polyline& line : lines) {
         double twice = 0.0;
@@ -93,7 +93,7 @@ totals of_cgal(const cgal_surface& mesh, const tf::oriented_plane& plane) {
 }
 
 void check_sections(const tf::mesh& solid, std::uint64_t seed) {
-    const cgal_surface theirs = surface_of(solid);
+    const sliced_surface theirs = sliced_surface_of(solid);
     const auto box = tf::bounding_box(solid.points);
     REQUIRE(box.has_value());
     test::random source(seed);
@@ -109,7 +109,7 @@ void check_sections(const tf::mesh& solid, std::uint64_t seed) {
         for (const tf::section_loop& loop : mine.loops)
             CHECK((loop.area > 0.0) == (loop.depth % 2 == 0));
         if (theirs.number_of_faces() == 0) continue;
-        const totals expected = of_cgal(theirs, plane);
+        const slice_totals expected = slices_of_cgal(theirs, plane);
         CHECK(mine.loops.size() == expected.count);
         CHECK(mine.layers[0].length == doctest::Approx(expected.length).epsilon(1e-12));
         CHECK(mine.layers[0].area == doctest::Approx(expected.area).epsilon(1e-12));

@@ -1,5 +1,4 @@
 #include <treeform/mesh/cut.hpp>
-#include <treeform/mesh/parts.hpp>
 #include <treeform/mesh/section.hpp>
 
 #include <tools/c/glue.hpp>

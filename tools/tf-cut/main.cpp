@@ -10,7 +10,6 @@
 #include "tools/tf-cut/cutting.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/cut.hpp>
-#include <treeform/mesh/parts.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 

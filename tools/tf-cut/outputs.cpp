@@ -1,7 +1,7 @@
 #include "tools/common/mesh_output.hpp"
 #include "tools/tf-cut/cutting.hpp"
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/parts.hpp>
+#include <treeform/mesh/cut.hpp>
 #include <treeform/tf.hpp>
 
 #include <utility>

@@ -22,7 +22,6 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/parts.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/point_stream.hpp>

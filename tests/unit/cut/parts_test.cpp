@@ -1,7 +1,7 @@
 /// \file
 /// Parts of meshes, meshes one after the other, meshes moved.
 
-#include <treeform/mesh/parts.hpp>
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 

@@ -4,7 +4,6 @@
 #include "job.hpp"
 #include "words.hpp"
 #include <treeform/mesh/cut.hpp>
-#include <treeform/mesh/parts.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/section.hpp>
 

@@ -162,7 +162,8 @@ void make_jobs(py::module_& module) {
     for (const char* name : {"read", "read_bytes", "read_urdf", "self_intersections_of_file",
                              "search_of", "weld_of", "wrap", "pack", "page", "picture"})
         make_job(module, name, job_kind::long_work);
-    for (const char* name : {"write", "write_section", "weld_stream"}) make_job(module, name, job_kind::writes);
+    for (const char* name : {"write", "write_section", "weld_stream"})
+        make_job(module, name, job_kind::writes);
     for (const char* name : {"scatter", "search_tile", "finish"})
         make_job(module.attr("SearchInSteps"), name, job_kind::writes);
     for (const char* name : {"scatter", "weld_tile", "finish"})
