@@ -132,8 +132,9 @@ class slab_cutter {
         std::vector<std::array<slab_corner, 2>> rim;
         for (auto at = sides.begin(); at != sides.end();) {
             const auto end = std::upper_bound(at, sides.end(), *at);
-            const auto back = std::ranges::equal_range(sides, std::array{(*at)[1], (*at)[0]});
-            if (end - at > std::ssize(back)) rim.push_back(*at);
+            const std::array reverse{(*at)[1], (*at)[0]};
+            const auto [first, last] = std::equal_range(sides.begin(), sides.end(), reverse);
+            if (end - at > last - first) rim.push_back(*at);
             at = end;
         }
         return lid_over(rim, k);

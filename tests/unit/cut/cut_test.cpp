@@ -84,7 +84,7 @@ TEST_CASE("a plane in a face or beyond cuts nothing") {
     const tf::cut_result made = checked_cut(box, {}, std::array{-1.0, 0.0, 1.0, 1.0, 2.0});
     REQUIRE(made.pieces.size() == 5);
     CHECK(made.pieces[2].mesh.faces.size() == 12);
-    for (const std::size_t i : {0, 1, 3, 4}) CHECK(made.pieces[i].mesh.faces.empty());
+    for (const std::size_t i : {0U, 1U, 3U, 4U}) CHECK(made.pieces[i].mesh.faces.empty());
     const tf::mesh tower = tf::unite(box, test::moved(test::box(2, 2, 1), {0, 0, 1})).value();
     const tf::cut_result parts = checked_cut(tower, {}, std::array{1.0});
     CHECK(tf::signed_volume(parts.pieces[0].mesh) == 1.0);
@@ -141,7 +141,7 @@ TEST_CASE("turned planes, one and many; caps are sections; floats") {
         const tf::cut_result made = checked_cut(sponge, plane, heights);
         const tf::section_result sections = tf::section(sponge, plane, heights);
         for (std::uint32_t k = 0; k < heights.size(); ++k)
-            for (const std::size_t side : {0, 1})
+            for (const std::size_t side : {0U, 1U})
                 CHECK(cap_area(made.pieces[k + side], k) ==
                       doctest::Approx(sections.layers[k].area).epsilon(1e-12));
         const tf::cut_result floats =
@@ -178,6 +178,27 @@ TEST_CASE("what meets itself is cut as the solid that it winds around") {
         CHECK(test::is_clean_solid(piece.mesh));
         for (const std::uint32_t f : piece.face_source)
             CHECK((f < both.faces.size() || f == tf::cut_piece::none));
+    }
+}
+
+TEST_CASE("heaps of boxes on a lattice, that overlap and touch, are cut in their faces") {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        tf::mesh heap;
+        for (int i = 0; i < 6; ++i) heap = test::together(heap, test::lattice_box(source));
+        const double volume = tf::signed_volume(tf::unite(heap, tf::mesh{}).value());
+        tf::oriented_plane plane{{}, {}};
+        plane.normal[seed % 3] = seed % 2 == 0 ? 1.0 : -1.0;
+        if (seed % 5 == 0) plane.normal = {1, 1, -1};
+        const tf::cut_result made =
+            tf::cut(heap, plane, std::array{-4.0, -3.0, -1.5, -1.0, 0.0, 1.0, 1.5, 2.0, 3.0});
+        REQUIRE_MESSAGE(made.certificate, made.certificate.message());
+        CHECK(volume_of(made) == doctest::Approx(volume).epsilon(1e-12));
+        for (const tf::cut_piece& piece : made.pieces)
+            if (!piece.mesh.faces.empty()) CHECK(test::is_clean_solid(piece.mesh));
+        const tf::cut_result open = tf::cut(heap, plane, std::array{1.0, 1.5}, {.caps = false});
+        CHECK_MESSAGE(open.certificate, open.certificate.message());
     }
 }
 

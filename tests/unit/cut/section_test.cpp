@@ -291,6 +291,28 @@ TEST_CASE("areas, lengths and nesting are those of segments by themselves") {
     }
 }
 
+TEST_CASE("of faces in any disorder, every segment is in a polyline") {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        CAPTURE(seed);
+        test::random source(seed);
+        const tf::mesh soup = test::random_soup(source, 200, 0.5);
+        const tf::oriented_plane plane{{0.5, 0.5, 0.5}, {0.3, 0.2, 1.0}};
+        const tf::section_result made = tf::section(soup, plane);
+        const auto [area, length] = by_segments(soup, plane, made.frame);
+        CHECK(made.layers[0].length == doctest::Approx(length).epsilon(1e-12));
+        CHECK(made.layers[0].open_count == made.loops.size());
+        // On a lattice faces overlap, share edges by the dozen and lie in the planes.
+        const tf::mesh dense = test::lattice_soup(source, 300, 40, 4);
+        const std::vector<double> heights{0, 0.25, 0.5, 1, 1.5, 2, 3, 4};
+        for (const tf::point3& normal : {tf::point3{0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {1, 2, 3}}) {
+            const tf::section_result all = tf::section(dense, {{}, normal}, heights);
+            CHECK(all.layers.size() == heights.size());
+            for (const tf::section_loop& loop : all.loops)
+                CHECK(loop.point_count >= (loop.closed ? 3U : 2U));
+        }
+    }
+}
+
 TEST_CASE("many planes at once, in any order, equal ones too, are each by itself") {
     const tf::mesh ball = test::ball(3, 1.0);
     const std::vector<double> heights{0.25, -0.5, 0.25, 2.0, -1.0, 1.0, 0.0, -0.0};
