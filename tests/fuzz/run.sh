@@ -25,7 +25,8 @@ shift $((OPTIND - 1))
 targets=("$@")
 ((${#targets[@]})) || targets=(
     read_stl read_obj read_ply read_off read_pcd read_las read_xyz read_csv read_glb read_3mf
-    read_urdf read_blocks predicates implicit_points triangle_triangle self_intersections boolean repair weld
+    read_urdf read_blocks predicates implicit_points triangle_triangle self_intersections boolean cut
+    repair weld
     tool_selfintersect tool_weld tool_boolean tool_place tool_repair)
 
 build=build/fuzz

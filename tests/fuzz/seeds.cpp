@@ -33,9 +33,14 @@ namespace {
 using tf::test::stress_family;
 
 constexpr std::array formats{"3mf", "csv", "glb", "las", "obj", "off", "pcd", "ply", "stl", "xyz"};
-constexpr std::array deciders{
-    "predicates", "implicit_points", "triangle_triangle", "self_intersections", "boolean", "repair",
-    "weld"};
+constexpr std::array deciders{"predicates",
+                              "implicit_points",
+                              "triangle_triangle",
+                              "self_intersections",
+                              "boolean",
+                              "cut",
+                              "repair",
+                              "weld"};
 
 void write(const std::filesystem::path& path, std::string_view content) {
     std::ofstream out(path, std::ios::binary);
