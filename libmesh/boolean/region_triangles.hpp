@@ -24,8 +24,8 @@ struct flat_region {
 
     std::uint32_t first_face = 0;  ///< the number of a face of it
     face plane{};                  ///< the corners of that face
-    /// Or, instead of these: along which axis the plane is seen, and +1 where left is left from there,
-    /// -1 where it is right.
+    /// Or, instead of these: along which axis the plane is seen, and +1 where left is left from
+    /// there, -1 where it is right.
     int axis = -1;
     int orientation = 1;
     std::vector<std::uint32_t> points{};  ///< that the triangles are to have, in any order, some

@@ -90,10 +90,12 @@ void look_through(cut_piece& piece, const cut_piece& whole, std::uint32_t first_
         if (v != none) v = whole.vertex_source[v];
 }
 
-/// The mesh as the solid that it winds around, or without caps as a surface that meets itself nowhere.
+/// The mesh as the solid that it winds around, or without caps as a surface that meets itself
+/// nowhere.
 cut_piece sound_whole(const mesh_operand& mesh, const cut_options& options,
                       progress_callback progress) {
     const boolean_options how{.max_displacement = options.max_displacement,
+                              .keep_cuts = options.keep_cuts,
                               .progress = std::move(progress)};
     const mesh_view view = mesh.view();
     boolean_result made =

@@ -14,8 +14,8 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t key_of(const crossing& c) { return std::uint64_t{c.low} << 32 | c.high; }
 
-/// What a face has in the plane: it runs from where the face's outline goes down to where it goes up, so
-/// that the outside is to the right, seen from above.
+/// What a face has in the plane: it runs from where the face's outline goes down to where it goes
+/// up, so that the outside is to the right, seen from above.
 struct side {
     crossing from;
     crossing to;
@@ -126,8 +126,8 @@ class layer_tracer {
         previous_[leaving] = arriving;
     }
 
-    /// At an edge of more than two faces: a side that arrives goes on in the one that leaves and is next to
-    /// it clockwise, across a wedge of what is inside; what is left over, in any order.
+    /// At an edge of more than two faces: a side that arrives goes on in the one that leaves and is
+    /// next to it clockwise, across a wedge of what is inside; what is left over, in any order.
     void link_about(const std::vector<std::uint32_t>& leaving,
                     const std::vector<std::uint32_t>& arriving) {
         struct ray {

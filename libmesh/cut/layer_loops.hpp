@@ -13,7 +13,8 @@
 
 namespace treeform::detail::cut {
 
-/// Where an edge meets a plane: its end below, and its end above; the same twice for a vertex in the plane.
+/// Where an edge meets a plane: its end below, and its end above; the same twice for a vertex in
+/// the plane.
 struct crossing {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
@@ -35,8 +36,8 @@ struct layer_loops {
 
 /// The loops of plane k, as if it were a little lower.
 ///
-/// \param faces those that have a corner below the plane, and one in or above it; ascending, with three
-///              different corners
+/// \param faces those that have a corner below the plane, and one in or above it; ascending, with
+///              three different corners
 /// \cost  O(faces), predicates only at edges of more than two faces
 [[nodiscard]] layer_loops loops_of(mesh_view mesh, const plane_levels& levels, std::uint32_t k,
                                    std::span<const std::uint32_t> faces);

@@ -60,8 +60,8 @@ class loop_nester {
         return exact_point(mesh_, levels_, k_, layer_.points[point]);
     }
 
-    /// A point of the loop: at last, where all that were tried are on other loops, the middle of its longest
-    /// side, rounded.
+    /// A point of the loop: at last, where all that were tried are on other loops, the middle of
+    /// its longest side, rounded.
     [[nodiscard]] query query_of(std::uint32_t l, std::size_t tries) const {
         const layer_loops::loop& loop = layer_.loops[l];
         if (tries < std::min(most_tries, loop.count)) {
@@ -81,7 +81,8 @@ class loop_nester {
         return {l, middle, middle};
     }
 
-    /// Sets what is around the loops `asked`; those of which a point is on another loop are returned.
+    /// Sets what is around the loops `asked`; those of which a point is on another loop are
+    /// returned.
     std::vector<std::uint32_t> ask(const std::vector<std::uint32_t>& asked, std::size_t tries,
                                    std::vector<std::vector<std::uint32_t>>& around) const {
         std::vector<query> queries;
@@ -119,8 +120,8 @@ class loop_nester {
         return again;
     }
 
-    /// Notes whether the line down from q crosses the side from p to r. A side has its ends at or before q
-    /// in x, or not, so that each end counts for one side of two.
+    /// Notes whether the line down from q crosses the side from p to r. A side has its ends at or
+    /// before q in x, or not, so that each end counts for one side of two.
     void cross(query& q, std::uint32_t loop, std::size_t p, std::size_t r) const {
         const double off = 2 * radius_;
         const point3 &a = centers_[p], &b = centers_[r];

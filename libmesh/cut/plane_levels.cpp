@@ -32,9 +32,9 @@ struct reckoned {
     double error;
 };
 
-/// normal . p: three products and two sums, each off by at most u = 2^-53 of what it makes and, where
-/// that is a denormal or flushed, 2^-1022; 5 u of the sum of magnitudes, itself off by as much, is less
-/// than 2^-50 of it.
+/// normal . p: three products and two sums, each off by at most u = 2^-53 of what it makes and,
+/// where that is a denormal or flushed, 2^-1022; 5 u of the sum of magnitudes, itself off by as
+/// much, is less than 2^-50 of it.
 reckoned along(const point3& normal, const point3& p) {
     const double magnitude =
         std::abs(normal.x * p.x) + std::abs(normal.y * p.y) + std::abs(normal.z * p.z);

@@ -27,8 +27,8 @@ struct plane_levels {
     }
 };
 
-/// \throws std::invalid_argument naming `function` for a plane or height that is not finite, or a normal
-///         that is zero
+/// \throws std::invalid_argument naming `function` for a plane or height that is not finite, or a
+///         normal that is zero
 /// \cost   O(K log K + V log K)
 /// \same   on any number of threads
 [[nodiscard]] plane_levels levels_of(const char* function, points_view points,

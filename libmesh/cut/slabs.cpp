@@ -86,7 +86,8 @@ class slab_cutter {
                0;
     }
 
-    /// The part of a face in slab s, a strictly convex polygon, as triangles about its first corner.
+    /// The part of a face in slab s, a strictly convex polygon, as triangles about its first
+    /// corner.
     void add_part(std::uint32_t f, std::uint32_t s) {
         std::array<slab_corner, 6> corners;
         std::size_t count = 0;
@@ -116,7 +117,8 @@ class slab_cutter {
         return exact_point(mesh_, levels_, c.is_given() ? 0 : c.plane, c.at);
     }
 
-    /// The cap of what is below plane k: where edges that lie in the plane have no other face, it has.
+    /// The cap of what is below plane k: where edges that lie in the plane have no other face, it
+    /// has.
     [[nodiscard]] std::vector<slab_face> cap_of(std::uint32_t k) const {
         std::vector<std::array<slab_corner, 2>>
             sides;  // of the cap, the other way than those of faces

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The faces of a mesh cut by parallel planes, and the caps that close what is between them, exactly.
+/// The faces of a mesh cut by parallel planes, and the caps that close what is between them,
+/// exactly.
 
 #include <libmesh/cut/plane_levels.hpp>
 #include <libmesh/round/round_surface.hpp>
@@ -21,8 +22,8 @@ struct slab {
 
 /// [K + 1] Slabs below, between and above the planes of `levels`.
 ///
-/// \pre    any two faces have a corner, an edge or nothing in common, none is degenerate; with `caps`, they
-///         bound a solid
+/// \pre    any two faces have a corner, an edge or nothing in common, none is degenerate; with
+///         `caps`, they bound a solid
 /// \cost   O(F + n log n) for n faces that are cut; caps as `triangles_of`
 /// \same   on any number of threads
 [[nodiscard]] std::vector<slab> slabs_of(mesh_view mesh, const plane_levels& levels, bool caps);

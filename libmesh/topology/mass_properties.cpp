@@ -12,8 +12,8 @@ namespace {
 
 using detail::base::double_double;
 
-/// Of tetrahedra from one point to faces: 6 times the volume, 24 times the first moments, 120 times the
-/// second ones (xx, yy, zz, yz, zx, xy).
+/// Of tetrahedra from one point to faces: 6 times the volume, 24 times the first moments, 120 times
+/// the second ones (xx, yy, zz, yz, zx, xy).
 using moment_sums = std::array<double_double, 10>;
 
 void add_moments(const point3& a, const point3& b, const point3& c, moment_sums& sums) {

@@ -25,6 +25,10 @@ class Cut(ToolTest):
             run = self.run_tool("half", part, "--at", "9,9,0.25", "--keep", keep, "-f", "-o",
                                 "half.off", status=0)
             self.assertIn(f"1 piece: 20 faces, volume {volume}\n", run.text)
+        self.run_tool("half", "half1.stl", "--height", "0.5", "-f", "-o", "half%d.stl", status=2)
+        os.remove(self.path("half0.stl"))
+        self.run_tool("half", part, "--height", "0.5", "-o", "half%d.stl", status=4)
+        self.assertFalse(os.path.exists(self.path("half0.stl")))
         run = self.run_tool("half", part, "--height", "7", "--keep", "above", "-o", "no.stl", status=0)
         self.assertIn("0 pieces", run.text)
         self.assertIn("nothing is there", run.err)

@@ -1,6 +1,6 @@
 /// \file
-/// Small meshes and planes, mostly through their vertices: sections of closed meshes are closed, pieces
-/// that are certified are clean and closed, and add up.
+/// Small meshes and planes, mostly through their vertices: sections of closed meshes are closed,
+/// pieces that are certified are clean and closed, and add up.
 
 #include "bytes.hpp"
 #include <treeform/mesh/cut.hpp>

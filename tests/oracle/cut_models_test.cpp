@@ -1,6 +1,6 @@
 /// \file
-/// Real solids cut by planes, also through their vertices and in their faces: every piece is certified,
-/// and they add up; sections in vertices are closed.
+/// Real solids cut by planes, also through their vertices and in their faces: every piece is
+/// certified, and they add up; sections in vertices are closed.
 ///
 /// TREEFORM_STRESS_COUNT is the number of planes for each model (default 6).
 

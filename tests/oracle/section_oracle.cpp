@@ -1,6 +1,6 @@
 /// \file
-/// Sections against CGAL's slicer (`Polygon_mesh_slicer`): as many polylines, of the same length and area.
-/// Of planes through vertices, edges and faces, against sections a little below.
+/// Sections against CGAL's slicer (`Polygon_mesh_slicer`): as many polylines, of the same length
+/// and area. Of planes through vertices, edges and faces, against sections a little below.
 ///
 /// TREEFORM_STRESS_COUNT is the number of planes for each mesh (default 20).
 

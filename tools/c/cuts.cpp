@@ -27,6 +27,7 @@ tf::cut_options options_of(const treeform_cut_options* options) {
     return {.precision = glue::precision(o.precision),
             .max_displacement = o.max_displacement,
             .caps = o.open == 0,
+            .keep_cuts = o.keep_cuts != 0,
             .progress = glue::progress(o)};
 }
 

@@ -316,9 +316,11 @@ tf::cut_result cut(tools::job& work, const cut_input& input, const cut_settings&
     if (const auto output = tools::mesh_output(work.options, work.path))
         form = tools::form_of(work, input.file, *output);
     const tf::mesh_file* const files = &input.file;
+    const tf::carry_source source = input.source();
     const tf::cut_options options{
         .precision = tools::written_precision(work.options, form, {&files, 1}),
         .caps = !s.open,
+        .keep_cuts = tf::merging_mixes_values({&source, 1}),
         .progress = work.progress("cut")};
     tf::cut_result made = suitable(s.bed ? "--bed" : "--height", [&] {
         return s.bed ? tf::cut_to_fit(input.file.mesh, *s.bed, options)

@@ -4,6 +4,7 @@
 #include <treeform/mesh/cut.hpp>
 #include <treeform/tf.hpp>
 
+#include <system_error>
 #include <utility>
 
 namespace tools {
@@ -96,9 +97,16 @@ void write_pieces(job& work, const cut_settings& s, const cut_input& input,
         write(std::move(file), *output, 0.0, false);
         return;
     }
+    if (has_number(*output))
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const std::filesystem::path path = numbered(*output, i);
+            std::error_code ignored;
+            if (std::filesystem::equivalent(path, work.path, ignored))
+                refuse(path.string() + " is an input; no output may replace it");
+            check_outputs(work, {path});
+        }
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const std::filesystem::path path = has_number(*output) ? numbered(*output, i) : *output;
-        if (has_number(*output)) check_outputs(work, {path});
         const double moved = pieces[i].certificate.max_displacement;
         const bool certified = s.mode != cut_mode::parts && !s.open;
         write(carried(s, input, std::move(pieces[i])), path, moved, certified);

@@ -1,10 +1,12 @@
 /// \file
-/// Solids cut by planes: pieces are certified and add up, caps are sections, planes may lie in faces.
+/// Solids cut by planes: pieces are certified and add up, caps are sections, planes may lie in
+/// faces.
 
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>
@@ -20,6 +22,7 @@
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -174,6 +177,9 @@ TEST_CASE("what meets itself is cut as the solid that it winds around") {
     const tf::cut_result made = tf::cut(both, {{0, 0, 0.75}, {0, 0, 1}});
     REQUIRE(made.certificate);
     CHECK(volume_of(made) == 1.875);
+    const tf::cut_result kept = tf::cut(both, {{0, 0, 0.75}, {0, 0, 1}}, {.keep_cuts = true});
+    CHECK(volume_of(kept) == doctest::Approx(1.875).epsilon(1e-14));
+    CHECK(kept.pieces.at(0).mesh.faces.size() >= made.pieces.at(0).mesh.faces.size());
     for (const tf::cut_piece& piece : made.pieces) {
         CHECK(test::is_clean_solid(piece.mesh));
         for (const std::uint32_t f : piece.face_source)
@@ -244,6 +250,25 @@ TEST_CASE("pieces fit") {
               .pieces.size() == 8);
     CHECK_THROWS_AS((void)tf::cut_to_fit(box, {0, 1, 1}), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::cut_to_fit(box, {1e-6, 1, 1}), std::invalid_argument);
+}
+
+TEST_CASE("threads change no byte") {
+    const tf::mesh ball =
+        test::together(test::ball(4, 1.0), test::moved(test::ball(3, 1.0), {1, 0, 0}));
+    const std::vector<double> heights = tf::layer_heights(ball.points, {}, 0.07);
+    const auto both = [&] {
+        return std::pair{tf::section(ball, {}, heights), tf::cut(ball, {{}, {1, 2, 3}}, heights)};
+    };
+    const auto [sections, pieces] = both();
+    const tf::thread_scope one(1);
+    const auto [sections_alone, pieces_alone] = both();
+    CHECK(sections.points == sections_alone.points);
+    CHECK(sections.faces == sections_alone.faces);
+    REQUIRE(pieces.pieces.size() == pieces_alone.pieces.size());
+    for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
+        CHECK(pieces.pieces[i].mesh == pieces_alone.pieces[i].mesh);
+        CHECK(pieces.pieces[i].face_source == pieces_alone.pieces[i].face_source);
+    }
 }
 
 TEST_CASE("what is no plane is refused; progress may stop it; nothing is cut in nothing") {

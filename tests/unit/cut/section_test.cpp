@@ -1,6 +1,6 @@
 /// \file
-/// Sections: loops, how they lie in each other, planes through vertices, edges and faces, meshes that
-/// are no solids.
+/// Sections: loops, how they lie in each other, planes through vertices, edges and faces, meshes
+/// that are no solids.
 
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -218,7 +218,8 @@ TEST_CASE("where a mesh ends, polylines are open, and where neighbors disagree t
 }
 
 TEST_CASE("planes through vertices, along edges and in faces, turned") {
-    // x + y + z = 1 goes through three corners of the box; just below, the section is their triangle.
+    // x + y + z = 1 goes through three corners of the box; just below, the section is their
+    // triangle.
     const tf::mesh box = test::box(1, 1, 1);
     const tf::section_result made = tf::section(box, {{1, 0, 0}, {1, 1, 1}});
     check_layers(made);

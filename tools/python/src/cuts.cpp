@@ -74,9 +74,12 @@ void write_section(const std::filesystem::path& path, const tf::section_result& 
     without_lock([&] { tf::write_section(path, section, format); });
 }
 
-tf::cut_options options_of(bool caps, const std::string& precision, double max_displacement) {
-    return {
-        .precision = precision_of(precision), .max_displacement = max_displacement, .caps = caps};
+tf::cut_options options_of(bool caps, const std::string& precision, double max_displacement,
+                           const carrying& attributes) {
+    return {.precision = precision_of(precision),
+            .max_displacement = max_displacement,
+            .caps = caps,
+            .keep_cuts = attributes.mixes()};
 }
 
 /// The pieces, and the certificate of all.
@@ -101,7 +104,7 @@ py::tuple cut(const held_mesh& mesh, const std::array<double, 3>& at,
               const std::string& precision, double max_displacement) {
     const carrying attributes({&mesh});
     const std::span<const double> all = rows_of<double>(heights);
-    tf::cut_options options = options_of(caps, precision, max_displacement);
+    tf::cut_options options = options_of(caps, precision, max_displacement, attributes);
     return as_tuple(run([&](const tf::progress_callback& report) {
                         options.progress = report;
                         return mesh.with([&](const auto& m) {
@@ -114,7 +117,7 @@ py::tuple cut(const held_mesh& mesh, const std::array<double, 3>& at,
 py::tuple cut_to_fit(const held_mesh& mesh, const std::array<double, 3>& size, bool caps,
                      const std::string& precision, double max_displacement) {
     const carrying attributes({&mesh});
-    tf::cut_options options = options_of(caps, precision, max_displacement);
+    tf::cut_options options = options_of(caps, precision, max_displacement, attributes);
     return as_tuple(run([&](const tf::progress_callback& report) {
                         options.progress = report;
                         return tf::cut_to_fit(mesh.view(), {size[0], size[1], size[2]}, options);

@@ -19,8 +19,8 @@ from ._repair import MadeMesh
 from ._results import Result
 
 __all__ = ["CutPiece", "MassProperties", "MeshPart", "Section", "SectionLoop", "components",
-           "concatenate", "cut", "cut_to_fit", "layer_heights", "mass_properties", "section", "submesh",
-           "transformed"]
+           "concatenate", "cut", "cut_to_fit", "layer_heights", "mass_properties", "section",
+           "submesh", "transformed"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -49,8 +49,8 @@ class SectionLoop(Result):
 
 @dataclass(frozen=True, repr=False)
 class Section(Result):
-    """What is in parallel planes: layers, in the order of their heights as given. Layer i has the loops
-    `loops(i)`.
+    """What is in parallel planes: layers, in the order of their heights as given. Layer i has the
+    loops `loops(i)`.
 
     heights: (K,) of the layers.
     origins: (K, 3) a point of each plane.
@@ -83,7 +83,8 @@ class Section(Result):
         """The loops of a layer.
 
         >>> import treeform
-        >>> [loop.area for loop in treeform.section(treeform.read("data/cube.stl"), at=(0, 0, 0.5)).loops()]
+        >>> cube = treeform.read("data/cube.stl")
+        >>> [loop.area for loop in treeform.section(cube, at=(0, 0, 0.5)).loops()]
         [1.0]
         """
         of = self._loops
@@ -112,7 +113,8 @@ class Section(Result):
 
     def write(self, path: Union[str, os.PathLike[str]], *, format: str = "",
               progress: Progress = None) -> None:
-        """Writes all layers as SVG, DXF, OBJ (lines in space) or JSON, by the extension or `format`."""
+        """Writes all layers as SVG, DXF, OBJ (lines in space) or JSON, by the extension or
+        `format`."""
         _core.write_section(os.fspath(path), self._data, format, progress=progress)
 
 
@@ -123,13 +125,14 @@ def _heights(heights: ArrayLike | None) -> Floats:
 
 def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
             heights: ArrayLike | None = None, progress: Progress = None) -> Section:
-    """The loops in which planes meet a mesh: closed where the mesh is, outer ones counter-clockwise,
-    holes clockwise, nested. What makes a loop, and what lies in it, is decided exactly.
+    """The loops in which planes meet a mesh: closed where the mesh is, outer ones
+    counter-clockwise, holes clockwise, nested. What makes a loop, and what lies in it, is decided
+    exactly.
 
     normal, at: (3,) of the plane. A vertex in a plane counts as above it: the section is that just
     below.
-    heights: (K,) of planes above that one, along its normal at length 1: thousands take little longer
-    than one. None is the plane itself.
+    heights: (K,) of planes above that one, along its normal at length 1: thousands take little
+    longer than one. None is the plane itself.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -137,8 +140,9 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
     >>> layers.areas.tolist(), layers.lengths.tolist()
     ([1.0, 1.0, 1.0, 1.0], [4.0, 4.0, 4.0, 4.0])
     """
-    data, made = _core.section(held(mesh), _arrays.vector(at, "at"), _arrays.vector(normal, "normal"),
-                               _heights(heights), progress=progress)
+    data, made = _core.section(held(mesh), _arrays.vector(at, "at"),
+                               _arrays.vector(normal, "normal"), _heights(heights),
+                               progress=progress)
     kept = {name: made.pop(name) for name in ("first_loop", "first_point", "closed", "oriented",
                                               "parent", "depth", "loop_areas", "loop_lengths")}
     return Section(**made, _data=data, _loops=kept)
@@ -146,8 +150,8 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
 
 def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1),
                   at: ArrayLike = (0, 0, 0), *, progress: Progress = None) -> Floats:
-    """(K,) heights for `section`: the middles of layers of this thickness, from the lowest vertex to the
-    highest.
+    """(K,) heights for `section`: the middles of layers of this thickness, from the lowest vertex
+    to the highest.
 
     >>> import treeform
     >>> treeform.layer_heights(treeform.read("data/cube.stl"), 0.5).tolist()
@@ -185,15 +189,15 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
         heights: ArrayLike | None = None, caps: bool = True, precision: str = "float64",
         max_displacement: float = np.inf, check: bool = True,
         progress: Progress = None) -> list[CutPiece]:
-    """A solid below and above a plane; with `heights`, between planes: K + 1 pieces, from the lowest up.
-    Each is closed by caps. Some may have no faces.
+    """A solid below and above a plane; with `heights`, between planes: K + 1 pieces, from the
+    lowest up. Each is closed by caps. Some may have no faces.
 
     normal, at: (3,) of the plane. heights: (K,) above it, as for `section`.
     caps: False cuts a surface, which may end anywhere, and leaves it open.
     precision, max_displacement, check: as for `boolean`.
 
-    On which side a vertex is, is decided exactly; points on cuts are rounded, and pieces are checked as
-    booleans are. A mesh that meets itself is cut as the solid that it winds around.
+    On which side a vertex is, is decided exactly; points on cuts are rounded, and pieces are
+    checked as booleans are. A mesh that meets itself is cut as the solid that it winds around.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError.
 
@@ -210,8 +214,9 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
 def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, caps: bool = True, precision: str = "float64",
                max_displacement: float = np.inf, check: bool = True,
                progress: Progress = None) -> list[CutPiece]:
-    """Pieces of a solid that fit into a box of this size (3,), as the bed of a printer: as few along each
-    axis as there can be, of equal length. An infinite size is not cut along. For the rest, see `cut`.
+    """Pieces of a solid that fit into a box of this size (3,), as the bed of a printer: as few
+    along each axis as there can be, of equal length. An infinite size is not cut along. For the
+    rest, see `cut`.
 
     >>> import treeform
     >>> len(treeform.cut_to_fit(treeform.read("data/cube.stl"), (0.5, 0.4, 2)))
@@ -246,8 +251,8 @@ def _part(made: dict[str, Any]) -> MeshPart:
 
 def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None = None,
                progress: Progress = None) -> list[MeshPart]:
-    """The faces that vertices link, as meshes, in the order of their lowest faces. A closed part that is
-    inside out is a cavity, and goes with the part around it.
+    """The faces that vertices link, as meshes, in the order of their lowest faces. A closed part
+    that is inside out is a cavity, and goes with the part around it.
 
     min_volume: parts with less are left out, in cubic units; open ones have none.
     largest: so many of the greatest volume are kept.
@@ -262,8 +267,8 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None =
 
 
 def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> MeshPart:
-    """The faces of these numbers (n,), in this order, with their vertices and attributes. A mask (F,) of
-    True and False will do.
+    """The faces of these numbers (n,), in this order, with their vertices and attributes. A mask
+    (F,) of True and False will do.
 
     >>> import treeform
     >>> treeform.submesh(treeform.read("data/cube.stl"), [0, 1]).mesh
@@ -294,8 +299,8 @@ def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mes
 
 
 def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None) -> Mesh:
-    """The mesh moved by a matrix (4, 4), with its attributes, normals turned. Where the matrix mirrors,
-    faces are turned over, so that they look outward as before.
+    """The mesh moved by a matrix (4, 4), with its attributes, normals turned. Where the matrix
+    mirrors, faces are turned over, so that they look outward as before.
 
     >>> import numpy as np
     >>> import treeform
@@ -324,8 +329,8 @@ class MassProperties(Result):
 
 
 def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
-    """Volume, center of mass and inertia of what a closed mesh encloses, rounded once from twice the
-    precision; None where the volume is 0.
+    """Volume, center of mass and inertia of what a closed mesh encloses, rounded once from twice
+    the precision; None where the volume is 0.
 
     >>> import treeform
     >>> cube = treeform.mass_properties(treeform.read("data/cube.stl"))

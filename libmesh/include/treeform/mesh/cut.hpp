@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Solids cut by planes, in halves or in many pieces, each closed by caps. Parts of a mesh as meshes of
-/// their own; meshes one after the other; meshes moved.
+/// Solids cut by planes, in halves or in many pieces, each closed by caps. Parts of a mesh as
+/// meshes of their own; meshes one after the other; meshes moved.
 ///
 ///     tf::cut_result halves = tf::cut(solid, {{0, 0, 5}, {0, 0, 1}});
 
@@ -29,6 +29,9 @@ struct cut_options {
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface.
     bool caps = true;
+    /// Of a mesh that meets itself, as in `boolean_options`: where merging would mix values
+    /// (`merging_mixes_values`), faces that were cut are to stay apart.
+    bool keep_cuts = false;
     progress_callback progress{};
 };
 
@@ -41,7 +44,7 @@ struct TREEFORM_API cut_piece {
         face_source;  ///< [F] face of the input that each lies in; none: a cap
     std::vector<std::uint32_t> vertex_source;  ///< [V] vertex of the input that each is; none: new
     std::vector<std::uint32_t>
-        cap;  ///< [F] of a cap, the number of its plane; of other faces, none
+        cap;  ///< [F] of a cap, the number of its plane, from the lowest; else none
     /// Status ok says what it says of `boolean_result`; without caps, edges are not looked at. A
     /// piece without faces is ok, too: there is nothing between these planes.
     treeform::certificate certificate{};
@@ -53,8 +56,8 @@ struct TREEFORM_API cut_piece {
 };
 
 struct cut_result {
-    /// Of K planes, in their order along the normal, K + 1 pieces from the lowest up. None where the
-    /// certificate says why.
+    /// Of K planes, in their order along the normal, K + 1 pieces from the lowest up. None where
+    /// the certificate says why.
     std::vector<cut_piece> pieces{};
     /// That of the first piece that is not ok, or of the mesh where it bounds no solid.
     treeform::certificate certificate{};
@@ -62,19 +65,21 @@ struct cut_result {
 
 /// The mesh below, between and above planes at `heights` above `plane` (`parallel_plane`).
 ///
-/// Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face that lies
-/// in a plane belongs to the side that its solid is on. What the solid has in the plane is then closed by
-/// a cap, the same for both sides. Only points on cuts are rounded, once; each piece is checked as results
-/// of `boolean` are. Caps between axes stay flat and alike when rounded; others may bend by a step of
-/// the precision.
+/// Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face
+/// that lies in a plane belongs to the side that its solid is on. What the solid has in the plane
+/// is then closed by a cap, the same for both sides. Only points on cuts are rounded, once; each
+/// piece is checked as results of `boolean` are. Caps between axes stay flat and alike when
+/// rounded; others may bend by a step of the precision.
 ///
-/// The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has parts
-/// that are inside out or hidden in others, it is first made the solid that it winds around, rounded:
-/// then all that is said here is of that one. Equal planes are one.
+/// `carry` gives pieces the attributes of a file, by their sources.
+///
+/// The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has
+/// parts that are inside out or hidden in others, it is first made the solid that it winds around,
+/// rounded: then all that is said here is of that one. Equal planes are one.
 ///
 /// \throws std::invalid_argument as `section` and `boolean`
-/// \cost   as `boolean` of the mesh with itself, and O(n log n) for the n faces that are cut; caps of n
-///         points O(n^1.5)
+/// \cost   as `boolean` of the mesh with itself, and O(n log n) for the n faces that are cut; caps
+///         of n points O(n^1.5)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API cut_result cut(mesh_view mesh, const oriented_plane& plane,
                                           std::span<const double> heights,
@@ -93,13 +98,13 @@ struct cut_result {
     return cut(mesh, plane, std::array{0.0}, options);
 }
 
-/// Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along each axis as
-/// there can be, and equally far apart. A size that is infinite is not cut along. Pieces are those with
-/// faces, by x, then y, then z; numbers of planes count across x first, then y, then z. Cuts across y
-/// and z are of the rounded pieces of the cuts before.
+/// Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
+/// each axis as there can be, and equally far apart, to rounding. A size that is infinite is not cut along.
+/// Pieces are those with faces, by x, then y, then z; numbers of planes count across x first, then
+/// y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
 ///
-/// \throws std::invalid_argument as `cut`, for a size that is not positive, or where there would be more than
-///         2^16 planes
+/// \throws std::invalid_argument as `cut`, for a size that is not positive, or where there would be
+///         more than 2^16 planes
 [[nodiscard]] TREEFORM_API cut_result cut_to_fit(mesh_view mesh, const point3& size,
                                                  const cut_options& options = {});
 
@@ -120,12 +125,12 @@ struct components_options {
 };
 
 /// The faces that corners link, as meshes, in the order of their lowest faces. Corners with equal
-/// coordinates are one. A closed part that is inside out is a cavity, and goes with the smallest closed
-/// part that it is in, if any. Volumes count without their sign, those of open parts as 0.
+/// coordinates are one. A closed part that is inside out is a cavity, and goes with the smallest
+/// closed part that it is in, if any. Volumes count without their sign, those of open parts as 0.
 ///
 /// \pre    every coordinate of a corner is finite
-/// \throws std::invalid_argument naming the lowest face with a corner out of range, and for a `min_volume`
-///         that is negative or NaN
+/// \throws std::invalid_argument naming the lowest face with a corner out of range, and for a
+///         `min_volume` that is negative or NaN
 /// \cost   O(V + F); for cavities, as `contains`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::vector<mesh_part> components(
@@ -141,8 +146,8 @@ struct components_options {
 /// \throws std::length_error for more points or faces than 32 bits can number
 [[nodiscard]] TREEFORM_API mesh concatenate(std::span<const mesh_view> meshes);
 
-/// The mesh with its points moved. Where `by` mirrors, faces are turned over, so that they look outward as
-/// before.
+/// The mesh with its points moved. Where `by` mirrors, faces are turned over, so that they look
+/// outward as before.
 [[nodiscard]] TREEFORM_API mesh transform_mesh(mesh_view mesh, const transform<3>& by);
 
 }  // namespace treeform

@@ -110,13 +110,14 @@ struct mass_properties {
     friend bool operator==(const mass_properties&, const mass_properties&) = default;
 };
 
-/// Volume, center of mass and inertia of what a closed mesh encloses; all with the opposite sign, but for
-/// the center, where it is inside out. A region that the surface winds around several times counts that
-/// often. None where the volume is 0, as of an empty mesh; of an open one, they mean little.
+/// Volume, center of mass and inertia of what a closed mesh encloses; all with the opposite sign,
+/// but for the center, where it is inside out. A region that the surface winds around several times
+/// counts that often. None where the volume is 0, as of an empty mesh; of an open one, they mean
+/// little.
 ///
-/// Coordinates are first taken from the middle of the box, which rounds them by at most 2^-53 of its
-/// diagonal; sums are then made in twice the precision of double, of products that are off by 2^-50 at
-/// most.
+/// Coordinates are first taken from the middle of the box, which rounds them by at most 2^-53 of
+/// its diagonal; sums are then made in twice the precision of double, of products that are off by
+/// 2^-50 at most.
 ///
 /// \pre    every coordinate is finite
 /// \throws std::invalid_argument naming the lowest face with a corner out of range

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Sections of a mesh by parallel planes: closed loops, how they lie in each other, areas and lengths;
-/// files of them.
+/// Sections of a mesh by parallel planes: closed loops, how they lie in each other, areas and
+/// lengths; files of them.
 ///
 ///     tf::section_result layers = tf::section(mesh, {}, std::array{0.1, 0.3, 0.5});
 
@@ -22,21 +22,21 @@
 
 namespace treeform {
 
-/// The plane through a point across a normal: p is above it where normal . (p - at) > 0. The length of
-/// the normal does not matter, only that it is not zero.
+/// The plane through a point across a normal: p is above it where normal . (p - at) > 0. The length
+/// of the normal does not matter, only that it is not zero.
 struct oriented_plane {
     point3 at{};
     point3 normal{0.0, 0.0, 1.0};
     friend bool operator==(const oriented_plane&, const oriented_plane&) = default;
 };
 
-/// The plane at a height above another one: through at + height n, n the normal at length 1, each number
-/// rounded to a double. Along an axis, from the origin, these are exact.
+/// The plane at a height above another one: through at + height n, n the normal at length 1, each
+/// number rounded to a double. Along an axis, from the origin, these are exact.
 [[nodiscard]] TREEFORM_API oriented_plane parallel_plane(const oriented_plane& plane,
                                                          double height);
 
-/// Axes of planes, of length 1, rounded; x, y and the normal are right-handed. Along an axis of space,
-/// x and y are the next two: (x, y) for +z, (y, z) for +x, (z, x) for +y.
+/// Axes of planes, of length 1, rounded; x, y and the normal are right-handed. Along an axis of
+/// space, x and y are the next two: (x, y) for +z, (y, z) for +x, (z, x) for +y.
 struct plane_frame {
     point3 x{1.0, 0.0, 0.0};
     point3 y{0.0, 1.0, 0.0};
@@ -53,8 +53,8 @@ struct section_loop {
     std::size_t first_point = 0;  ///< its points follow one another; the first is not repeated
     std::size_t point_count = 0;
     bool closed = true;
-    /// The faces along it agree in their orientation. What is inside is to the left then, seen from above
-    /// the plane: outer loops run counter-clockwise, holes clockwise.
+    /// The faces along it agree in their orientation. What is inside is to the left then, seen from
+    /// above the plane: outer loops run counter-clockwise, holes clockwise.
     bool oriented = true;
     std::uint32_t parent = none;  ///< the innermost loop around it; none for open ones
     std::uint32_t depth = 0;  ///< how many loops are around it: of a solid, holes have an odd one
@@ -94,23 +94,24 @@ struct section_options {
 
 /// Sections of a mesh by the planes at `heights` above `plane` (`parallel_plane`).
 ///
-/// Which side of a plane a vertex is on, which segments make a loop, and which loop lies in which are
-/// decided exactly, on the coordinates as given. Then points are rounded.
+/// Which side of a plane a vertex is on, which segments make a loop, and which loop lies in which
+/// are decided exactly, on the coordinates as given. Then points are rounded.
 ///
-/// A vertex in a plane counts as above it. So a section is that of a plane just below: a box from height 0
-/// to 1 has none at 0, and its full top at 1. A point or line in which it only touches the plane from
-/// below is none. Sides that lie in the plane are there where the mesh goes on below.
+/// A vertex in a plane counts as above it. So a section is that of a plane just below: a box from
+/// height 0 to 1 has none at 0, and its full top at 1. A point or line in which it only touches the
+/// plane from below is none. Sides that lie in the plane are there where the mesh goes on below.
 ///
-/// Of a mesh that is closed and agrees in its orientation, all polylines are closed. Loops may touch where
-/// faces do; at an edge of four faces or more, those that bound one wedge of the solid are joined. Where
-/// the mesh has a border, polylines are open; where neighbors disagree, they go on, not `oriented`. Loops
-/// of faces that cross each other do, too: `parent` is then that of one of their points, and areas
-/// are added up as often as the surface winds around them. Corners with equal coordinates are one.
+/// Of a mesh that is closed and agrees in its orientation, all polylines are closed. Loops may
+/// touch where faces do; at an edge of four faces or more, those that bound one wedge of the solid
+/// are joined. Where the mesh has a border, polylines are open; where neighbors disagree, they go
+/// on, not `oriented`. Loops of faces that cross each other do, too: `parent` is then that of one
+/// of their points, and areas are added up as often as the surface winds around them. Corners with
+/// equal coordinates are one.
 ///
 /// Loops are in the order of their lowest faces.
 ///
-/// \throws std::invalid_argument naming a face with a corner out of range or not finite, for a plane or
-///         height that is not finite, or a normal that is zero
+/// \throws std::invalid_argument naming a face with a corner out of range or not finite, for a
+///         plane or height that is not finite, or a normal that is zero
 /// \cost   O(V log K + F + S log L) for K planes and L loops in one of S sides
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API section_result section(mesh_view mesh, const oriented_plane& plane,
@@ -131,21 +132,22 @@ struct section_options {
     return section(mesh, plane, std::array{0.0}, options);
 }
 
-/// Heights above `plane` of the middles of layers of this thickness, from the lowest point to the highest:
-/// half a thickness above the lowest is the first. Points that are not finite do not count.
+/// Heights above `plane` of the middles of layers of this thickness, from the lowest point to the
+/// highest: half a thickness above the lowest is the first. Points that are not finite do not
+/// count.
 ///
-/// \throws std::invalid_argument for a plane that is not finite, a thickness that is not positive, or of which there would be more than
-///         2^24 layers
+/// \throws std::invalid_argument for a plane that is not finite, a thickness that is not positive,
+///         or of which there would be more than 2^24 layers
 [[nodiscard]] TREEFORM_API std::vector<double> layer_heights(points_view points,
                                                              const oriented_plane& plane,
                                                              double thickness);
 
-/// Writes sections as `svg`, `dxf`, `obj` or `json`, by the extension where no format is given: loops in
-/// the frame (SVG: a group a layer, y up; DXF: polylines at the height as z; JSON: all that is known), OBJ
-/// lines in space. "-" is standard output.
+/// Writes sections as `svg`, `dxf`, `obj` or `json`, by the extension where no format is given:
+/// loops in the frame (SVG: a group a layer, y up; DXF: polylines at the height as z; JSON: all
+/// that is known), OBJ lines in space. "-" is standard output.
 ///
-/// \throws io_error for another format, or when the file cannot be written: then there is none, or the one
-///         that was there
+/// \throws io_error for another format, or when the file cannot be written: then there is none, or
+///         the one that was there
 /// \same   bytes
 TREEFORM_API void write_section(const std::filesystem::path& path, const section_result& section,
                                 const std::string& format = {});

@@ -1,7 +1,8 @@
 #ifndef TREEFORM_C_CUTS_H
 #define TREEFORM_C_CUTS_H
 /// \file
-/// Sections of a mesh by planes, solids cut by them; parts of meshes, meshes one after the other, moved.
+/// Sections of a mesh by planes, solids cut by them; parts of meshes, meshes one after the other,
+/// moved.
 
 #include <treeform/c/mesh.h>
 
@@ -51,10 +52,10 @@ typedef struct treeform_section_result {
     double x[3], y[3], normal[3];  ///< the frame: axes of length 1, right-handed
 } treeform_section_result;
 
-/// Sections of a mesh by the planes at `heights` [count] above `plane` (null: through the origin, across
-/// z): along its normal at length 1. Null and 0 heights are the plane itself. All topology is decided
-/// exactly; a vertex in a plane counts as above it. Of a mesh that is closed and agrees in its orientation,
-/// all loops are closed. `progress` may be null.
+/// Sections of a mesh by the planes at `heights` [count] above `plane` (null: through the origin,
+/// across z): along its normal at length 1. Null and 0 heights are the plane itself. All topology
+/// is decided exactly; a vertex in a plane counts as above it. Of a mesh that is closed and agrees
+/// in its orientation, all loops are closed. `progress` may be null.
 TREEFORM_C_API treeform_code treeform_section(const treeform_mesh* mesh,
                                               const treeform_plane* plane, const double* heights,
                                               size_t count, treeform_progress progress,
@@ -68,8 +69,8 @@ typedef struct treeform_heights {
     size_t count;
 } treeform_heights;
 
-/// Heights above `plane` (null: as above) of the middles of layers of this thickness, from the lowest point
-/// of the mesh to the highest.
+/// Heights above `plane` (null: as above) of the middles of layers of this thickness, from the
+/// lowest point of the mesh to the highest.
 TREEFORM_C_API treeform_code treeform_layer_heights(const treeform_mesh* mesh,
                                                     const treeform_plane* plane, double thickness,
                                                     treeform_heights** heights);
@@ -85,6 +86,7 @@ typedef struct treeform_cut_options {
     treeform_precision precision;  ///< of the coordinates returned; default: double
     int32_t open;                  ///< cut a surface, which may end anywhere, and make no caps
     double max_displacement;       ///< as of `treeform_boolean_options`; default infinite
+    int32_t keep_cuts;             ///< of a mesh that meets itself, do not merge what was cut
     treeform_progress progress;
     void* progress_data;
 } treeform_cut_options;
@@ -110,15 +112,15 @@ typedef struct treeform_cut_result {
 } treeform_cut_result;
 
 /// The mesh below, between and above the planes at `heights` [count] above `plane`, as for
-/// `treeform_section`: count + 1 pieces, some perhaps without faces, each closed by caps. The mesh has to
-/// bound a solid, unless `open` is set. The code is that of the certificate.
+/// `treeform_section`: count + 1 pieces, some perhaps without faces, each closed by caps. The mesh
+/// has to bound a solid, unless `open` is set. The code is that of the certificate.
 TREEFORM_C_API treeform_code treeform_cut(const treeform_mesh* mesh, const treeform_plane* plane,
                                           const double* heights, size_t count,
                                           const treeform_cut_options* options,
                                           treeform_cut_result** result);
 
-/// Pieces that fit into a box of this size (an infinite one is not cut along), by x, then y, then z; planes
-/// are numbered in that order.
+/// Pieces that fit into a box of this size (an infinite one is not cut along), by x, then y, then
+/// z; planes are numbered in that order.
 TREEFORM_C_API treeform_code treeform_cut_to_fit(const treeform_mesh* mesh, const double size[3],
                                                  const treeform_cut_options* options,
                                                  treeform_cut_result** result);
@@ -139,18 +141,19 @@ typedef struct treeform_mesh_parts {
     size_t count;
 } treeform_mesh_parts;
 
-/// The faces that corners link, as meshes, by their lowest faces; a cavity goes with what is around it.
-/// Parts of a volume below `min_volume` are left out (open ones have none), and all but the `largest` ones
-/// where that is not 0.
+/// The faces that corners link, as meshes, by their lowest faces; a cavity goes with what is around
+/// it. Parts of a volume below `min_volume` are left out (open ones have none), and all but the
+/// `largest` ones where that is not 0.
 TREEFORM_C_API treeform_code treeform_components(const treeform_mesh* mesh, double min_volume,
                                                  size_t largest, treeform_mesh_parts** parts);
 
-/// Points and faces of all meshes, one after the other; nothing is joined. `index` [F] is the mesh that
-/// each face is of.
+/// Points and faces of all meshes, one after the other; nothing is joined. `index` [F] is the mesh
+/// that each face is of.
 TREEFORM_C_API treeform_code treeform_concatenate(const treeform_mesh* const* meshes, size_t count,
                                                   treeform_made_mesh** made);
 
-/// The mesh with its points moved by `matrix` [12]: 3 rows of 4. Where that mirrors, faces are turned over.
+/// The mesh with its points moved by `matrix` [12]: 3 rows of 4. Where that mirrors, faces are
+/// turned over.
 TREEFORM_C_API treeform_code treeform_transform_mesh(const treeform_mesh* mesh,
                                                      const double* matrix,
                                                      treeform_made_mesh** made);
