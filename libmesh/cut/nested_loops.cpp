@@ -88,21 +88,7 @@ class loop_nester {
         std::vector<query> queries;
         for (const std::uint32_t l : asked) queries.push_back(query_of(l, tries));
         std::ranges::stable_sort(queries, {}, [&](const query& q) { return x(q.near); });
-        std::vector<double> at;
-        for (const query& q : queries) at.push_back(x(q.near));
-        for (const std::uint32_t l : closed_) {
-            const layer_loops::loop& loop = layer_.loops[l];
-            for (std::size_t i = 0; i < loop.count; ++i) {
-                const std::size_t p = loop.first + i;
-                const std::size_t r = i + 1 == loop.count ? loop.first : p + 1;
-                const double low = std::min(x(centers_[p]), x(centers_[r]));
-                const double high = std::max(x(centers_[p]), x(centers_[r]));
-                const auto begin = std::ranges::lower_bound(at, low - 2 * radius_);
-                const auto end = std::upper_bound(begin, at.end(), high + 2 * radius_);
-                for (auto q = begin; q != end; ++q)
-                    cross(queries[static_cast<std::size_t>(q - at.begin())], l, p, r);
-            }
-        }
+        for (const std::uint32_t l : closed_) ask_about(l, queries);
         std::vector<std::uint32_t> again;
         for (query& q : queries) {
             if (q.touches && tries < std::min(most_tries, layer_.loops[q.loop].count)) {
@@ -120,12 +106,41 @@ class loop_nester {
         return again;
     }
 
+    /// What loop l is around, of the points of other loops: those within its box.
+    void ask_about(std::uint32_t l, std::vector<query>& queries) const {
+        const layer_loops::loop& loop = layer_.loops[l];
+        const double off = 2 * radius_;
+        double left = x(centers_[loop.first]), right = left;
+        double low = y(centers_[loop.first]), high = low;
+        for (const point3& p : centers_.subspan(loop.first, loop.count)) {
+            left = std::min(left, x(p)), right = std::max(right, x(p));
+            low = std::min(low, y(p)), high = std::max(high, y(p));
+        }
+        std::vector<query*> asked;  // by x
+        auto q = std::ranges::lower_bound(queries, left - off, {},
+                                          [&](const query& one) { return x(one.near); });
+        for (; q != queries.end() && x(q->near) <= right + off; ++q)
+            if (q->loop != l && low - off <= y(q->near) && y(q->near) <= high + off)
+                asked.push_back(&*q);
+        if (asked.empty()) return;
+        const auto place = [&](const query* one) { return x(one->near); };
+        for (std::size_t i = 0; i < loop.count; ++i) {
+            const std::size_t p = loop.first + i;
+            const std::size_t r = i + 1 == loop.count ? loop.first : p + 1;
+            const double from = std::min(x(centers_[p]), x(centers_[r]));
+            const double to = std::max(x(centers_[p]), x(centers_[r]));
+            for (auto one = std::ranges::lower_bound(asked, from - off, {}, place);
+                 one != asked.end() && place(*one) <= to + off; ++one)
+                cross(**one, l, p, r);
+        }
+    }
+
     /// Notes whether the line down from q crosses the side from p to r. A side has its ends at or
     /// before q in x, or not, so that each end counts for one side of two.
     void cross(query& q, std::uint32_t loop, std::size_t p, std::size_t r) const {
         const double off = 2 * radius_;
         const point3 &a = centers_[p], &b = centers_[r];
-        if (q.loop == loop || std::min(y(a), y(b)) - off > y(q.near)) return;
+        if (std::min(y(a), y(b)) - off > y(q.near)) return;
         const bool clear = std::abs(x(a) - x(q.near)) > off && std::abs(x(b) - x(q.near)) > off;
         if (clear && std::max(y(a), y(b)) + off < y(q.near)) {
             if ((x(a) < x(q.near)) != (x(b) < x(q.near))) q.crossed.push_back(loop);
