@@ -1,5 +1,6 @@
 #include <libmesh/assembly/contact_regions.hpp>
 #include <libmesh/assembly/part_boxes.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/nearness/closest_points.hpp>
@@ -127,7 +128,9 @@ void count(clash_result& result, const part_clash& one, double clearance) {
 
 }  // namespace
 
-clash_result clash(std::span<const prepared_mesh> parts, const clash_options& options) {
+clash_result clash(const mesh_refs& given_parts, const clash_options& options) {
+    const detail::base::prepared_refs all_parts(given_parts);
+    const std::span<const prepared_mesh> parts = all_parts;
     check_parts(parts, options);
     const auto ignored = detail::assembly::sorted_pairs("clash", options.ignored, parts.size());
     const auto near =
@@ -158,13 +161,6 @@ clash_result clash(std::span<const prepared_mesh> parts, const clash_options& op
     result.ignored = near.size() - pairs.size();
     for (const prepared_mesh& part : parts) result.parts_indexed += part.indexes_built() > 0;
     return result;
-}
-
-clash_result clash(std::span<const mesh_view> parts, const clash_options& options) {
-    std::vector<prepared_mesh> prepared;
-    prepared.reserve(parts.size());
-    for (const mesh_view& part : parts) prepared.push_back(prepared_mesh::borrow(part));
-    return clash(prepared, options);
 }
 
 }  // namespace treeform

@@ -1,5 +1,6 @@
 #include <libmesh/assembly/moved_part.hpp>
 #include <libmesh/assembly/part_boxes.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/clash.hpp>
@@ -87,8 +88,10 @@ void check_pose_input(std::span<const prepared_mesh> parts, std::span<const tran
 
 }  // namespace
 
-pose_result check_poses(std::span<const prepared_mesh> parts, std::span<const transform<3>> poses,
+pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<3>> poses,
                         const pose_options& options) {
+    const detail::base::prepared_refs all_parts(given_parts);
+    const std::span<const prepared_mesh> parts = all_parts;
     check_pose_input(parts, poses, options);
     const std::size_t count = parts.empty() ? 0 : poses.size() / parts.size();
     const pose_inspection inspection(parts, options);
@@ -116,36 +119,31 @@ pose_result check_poses(std::span<const prepared_mesh> parts, std::span<const tr
     return result;
 }
 
-std::vector<bool> intersects(const prepared_mesh& a, const prepared_mesh& b,
+std::vector<bool> intersects(const mesh_ref& given_a, const mesh_ref& given_b,
                              std::span<const mesh_positions> positions) {
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_ref b(given_b);
     std::vector<std::uint8_t> found(positions.size());
     for_chunks(positions.size(), positions_per_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i)
-                       found[i] = intersects(a, b, positions[i]) ? 1 : 0;
+                       found[i] = intersects(*a, *b, positions[i]) ? 1 : 0;
                });
     return {found.begin(), found.end()};
 }
 
-std::vector<bool> intersects(mesh_view a, mesh_view b, std::span<const mesh_positions> positions) {
-    return intersects(prepared_mesh::borrow(a), prepared_mesh::borrow(b), positions);
-}
-
-std::vector<double> distance(const prepared_mesh& a, const prepared_mesh& b,
+std::vector<double> distance(const mesh_ref& given_a, const mesh_ref& given_b,
                              std::span<const mesh_positions> positions, double radius) {
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_ref b(given_b);
     std::vector<double> found(positions.size());
     for_chunks(
         positions.size(), positions_per_chunk,
         [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i)
-                found[i] = distance(a, b, {positions[i].move_a, positions[i].move_b, radius});
+                found[i] = distance(*a, *b, {positions[i].move_a, positions[i].move_b, radius});
         });
     return found;
-}
-
-std::vector<double> distance(mesh_view a, mesh_view b, std::span<const mesh_positions> positions,
-                             double radius) {
-    return distance(prepared_mesh::borrow(a), prepared_mesh::borrow(b), positions, radius);
 }
 
 }  // namespace treeform

@@ -1,5 +1,7 @@
 #include <libmesh/base/point_faces.hpp>
 #include <libmesh/base/prepared_slots.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -20,13 +22,15 @@ struct prepared_mesh::state {
     std::atomic<std::uint64_t> built{0};
 };
 
-prepared_mesh::prepared_mesh() : state_(std::make_unique<state>()) {}
+prepared_mesh::prepared_mesh() : state_(std::make_shared<state>()) {}
 prepared_mesh::~prepared_mesh() = default;
 
 prepared_mesh::prepared_mesh(mesh&& owned) : prepared_mesh() {
     state_->owned = std::move(owned);
     view_ = state_->owned;
 }
+
+prepared_mesh::prepared_mesh(usable_mesh&& owned) : prepared_mesh(std::move(owned.mesh)) {}
 
 prepared_mesh prepared_mesh::borrow(mesh_view view) {
     prepared_mesh result;
@@ -60,7 +64,17 @@ prepared_mesh& prepared_mesh::operator=(prepared_mesh&& other) noexcept {
     return *this;
 }
 
+mesh_ref::mesh_ref(const usable_mesh& mesh) : view_(mesh.mesh) {}
+
 std::uint64_t prepared_mesh::indexes_built() const { return state_->built.load(); }
+
+prepared_mesh detail::base::prepared_slots::shared(const prepared_mesh& mesh) {
+    prepared_mesh result;
+    result.view_ = mesh.view_;
+    result.cloud_ = mesh.cloud_;
+    result.state_ = mesh.state_;
+    return result;
+}
 
 const void* detail::base::prepared_slots::get(const prepared_mesh& mesh, slot_name name,
                                               function_ref<std::shared_ptr<const void>()> build) {

@@ -44,6 +44,9 @@ class prepared_slots {
         return *static_cast<const T*>(get(mesh, s.name, build));
     }
 
+    /// Another prepared mesh with the same slots and arrays. \pre `mesh` outlives it
+    [[nodiscard]] static prepared_mesh shared(const prepared_mesh& mesh);
+
   private:
     static const void* get(const prepared_mesh& mesh, slot_name name,
                            function_ref<std::shared_ptr<const void>()> build);

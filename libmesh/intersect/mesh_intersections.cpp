@@ -1,5 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/effort.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/intersect/block_candidates.hpp>
 #include <libmesh/intersect/face_candidates.hpp>
 #include <libmesh/intersect/join_outputs.hpp>
@@ -171,8 +172,10 @@ mesh_intersection_result detail::intersect::mesh_intersections(
                                effort);
 }
 
-mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepared_mesh& b,
-                                            const mesh_intersection_options& options) {
+namespace {
+
+mesh_intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh& b,
+                                          const mesh_intersection_options& options) {
     const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
     const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
     const pair_search<3> search(transformed(tree_a, options.move_a),
@@ -184,11 +187,16 @@ mesh_intersection_result mesh_intersections(const prepared_mesh& a, const prepar
         options);
 }
 
-mesh_intersection_result mesh_intersections(mesh_view a, mesh_view b,
+}  // namespace
+
+mesh_intersection_result mesh_intersections(const mesh_ref& a, const mesh_ref& b,
                                             const mesh_intersection_options& options) {
+    if (a.prepared() != nullptr || b.prepared() != nullptr)
+        return between_prepared(detail::base::prepared_ref(a), detail::base::prepared_ref(b),
+                                options);
     const auto [tree_a, tree_b] = detail::intersect::overlap_trees(
-        "mesh_intersections", a, b, {options.move_a, options.move_b});
-    return classified_by_faces(a, tree_a.boxes, b, tree_b.boxes, options, {});
+        "mesh_intersections", a.view(), b.view(), {options.move_a, options.move_b});
+    return classified_by_faces(a.view(), tree_a.boxes, b.view(), tree_b.boxes, options, {});
 }
 
 bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
@@ -196,14 +204,16 @@ bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view
     return any_meet(a, tree_a, b, tree_b, positions, positions);
 }
 
-bool intersects(const prepared_mesh& a, const prepared_mesh& b, const mesh_positions& positions) {
-    return detail::intersect::intersects(a.view(), build_face_tree(a, "intersects: a"), b.view(),
-                                         build_face_tree(b, "intersects: b"), positions);
-}
-
-bool intersects(mesh_view a, mesh_view b, const mesh_positions& positions) {
-    const auto [tree_a, tree_b] = detail::intersect::overlap_trees("intersects", a, b, positions);
-    return any_meet(a, tree_a.boxes, b, tree_b.boxes, positions, {});
+bool intersects(const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions) {
+    if (a.prepared() != nullptr || b.prepared() != nullptr) {
+        const detail::base::prepared_ref of_a(a), of_b(b);
+        return detail::intersect::intersects(a.view(), build_face_tree(of_a, "intersects: a"),
+                                             b.view(), build_face_tree(of_b, "intersects: b"),
+                                             positions);
+    }
+    const auto [tree_a, tree_b] =
+        detail::intersect::overlap_trees("intersects", a.view(), b.view(), positions);
+    return any_meet(a.view(), tree_a.boxes, b.view(), tree_b.boxes, positions, {});
 }
 
 }  // namespace treeform

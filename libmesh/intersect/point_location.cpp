@@ -1,6 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/geometry/flat_triangle.hpp>
@@ -244,26 +245,20 @@ bool is_in(const point_location& found) { return found.where != location::outsid
 
 }  // namespace
 
-point_location locate(const prepared_mesh& mesh, const point3& point) {
+point_location locate(const mesh_ref& given_mesh, const point3& point) {
+    const detail::base::prepared_ref mesh(given_mesh);
     return locate_in(mesh, point);
 }
-point_location locate(mesh_view mesh, const point3& point) {
-    return locate(prepared_mesh::borrow(mesh), point);
-}
-std::vector<point_location> locate(const prepared_mesh& mesh, std::span<const point3> points) {
+std::vector<point_location> locate(const mesh_ref& given_mesh, std::span<const point3> points) {
+    const detail::base::prepared_ref mesh(given_mesh);
     return locate_in(mesh, points);
 }
-std::vector<point_location> locate(mesh_view mesh, std::span<const point3> points) {
-    return locate(prepared_mesh::borrow(mesh), points);
-}
 
-bool contains(const prepared_mesh& mesh, const point3& point) { return is_in(locate(mesh, point)); }
-bool contains(mesh_view mesh, const point3& point) { return is_in(locate(mesh, point)); }
+bool contains(const mesh_ref& mesh, const point3& point) { return is_in(locate(mesh, point)); }
 
-int winding_number(const prepared_mesh& mesh, const point3& point) {
+int winding_number(const mesh_ref& mesh, const point3& point) {
     return locate(mesh, point).winding;
 }
-int winding_number(mesh_view mesh, const point3& point) { return locate(mesh, point).winding; }
 
 std::vector<curve_edge> polygon_edges(std::uint32_t count) {
     std::vector<curve_edge> edges(count);

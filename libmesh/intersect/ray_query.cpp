@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/geometry/features.hpp>
 #include <libmesh/intersect/ray_query.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -168,33 +169,25 @@ namespace treeform {
 
 using detail::intersect::ray_query;
 
-std::optional<mesh_hit> raycast(const prepared_mesh& mesh, const ray3& ray) {
+std::optional<mesh_hit> raycast(const mesh_ref& given_mesh, const ray3& ray) {
+    const detail::base::prepared_ref mesh(given_mesh);
     return ray_query(mesh.view(), build_face_tree(mesh, "raycast")).first(ray);
 }
-std::optional<mesh_hit> raycast(mesh_view mesh, const ray3& ray) {
-    return raycast(prepared_mesh::borrow(mesh), ray);
-}
 
-std::vector<std::optional<mesh_hit>> raycast(const prepared_mesh& mesh,
+std::vector<std::optional<mesh_hit>> raycast(const mesh_ref& given_mesh,
                                              std::span<const ray3> rays) {
+    const detail::base::prepared_ref mesh(given_mesh);
     return ray_query(mesh.view(), build_face_tree(mesh, "raycast")).first(rays);
 }
-std::vector<std::optional<mesh_hit>> raycast(mesh_view mesh, std::span<const ray3> rays) {
-    return raycast(prepared_mesh::borrow(mesh), rays);
-}
 
-mesh_hits raycast_all(const prepared_mesh& mesh, std::span<const ray3> rays) {
+mesh_hits raycast_all(const mesh_ref& given_mesh, std::span<const ray3> rays) {
+    const detail::base::prepared_ref mesh(given_mesh);
     return ray_query(mesh.view(), build_face_tree(mesh, "raycast_all")).all(rays);
 }
-mesh_hits raycast_all(mesh_view mesh, std::span<const ray3> rays) {
-    return raycast_all(prepared_mesh::borrow(mesh), rays);
-}
 
-std::vector<std::uint8_t> raycast_any(const prepared_mesh& mesh, std::span<const ray3> rays) {
+std::vector<std::uint8_t> raycast_any(const mesh_ref& given_mesh, std::span<const ray3> rays) {
+    const detail::base::prepared_ref mesh(given_mesh);
     return ray_query(mesh.view(), build_face_tree(mesh, "raycast_any")).any(rays);
-}
-std::vector<std::uint8_t> raycast_any(mesh_view mesh, std::span<const ray3> rays) {
-    return raycast_any(prepared_mesh::borrow(mesh), rays);
 }
 
 }  // namespace treeform

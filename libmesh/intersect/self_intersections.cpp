@@ -110,9 +110,15 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
 
 }  // namespace
 
-self_intersection_result self_intersections(mesh_view mesh,
+self_intersection_result self_intersections(const mesh_ref& given,
                                             const self_intersection_options& options) {
+    const mesh_view mesh = given.view();
     check(mesh, options);
+    if (given.prepared() != nullptr)
+        return find_pairs(options.vertices == vertex_identity::by_coordinates
+                              ? detail::weld::join_faces(*given.prepared()).of(mesh)
+                              : mesh,
+                          build_face_tree(*given.prepared()), options);
     detail::weld::joined_faces joined;
     if (options.vertices == vertex_identity::by_coordinates)
         joined = detail::weld::join_faces(mesh);
@@ -123,15 +129,6 @@ self_intersection_result self_intersections(mesh_view mesh,
         detail::intersect::pairs_by_tree(joined.of(mesh), std::move(tree), options);
     result.tree_seconds = seconds;
     return result;
-}
-
-self_intersection_result self_intersections(const prepared_mesh& mesh,
-                                            const self_intersection_options& options) {
-    check(mesh.view(), options);
-    const mesh_view view = options.vertices == vertex_identity::by_coordinates
-                               ? detail::weld::join_faces(mesh).of(mesh.view())
-                               : mesh.view();
-    return find_pairs(view, build_face_tree(mesh), options);
 }
 
 self_intersection_result detail::intersect::pairs_by_tree(

@@ -1,5 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>
@@ -312,24 +313,15 @@ namespace treeform {
 using detail::nearness::closest_point_query;
 using detail::nearness::closest_point_query_of;
 
-std::optional<closest_point_result> closest_point(const prepared_mesh& mesh, const point3& query,
+std::optional<closest_point_result> closest_point(const mesh_ref& mesh, const point3& query,
                                                   double radius) {
-    return closest_point_query_of(mesh).nearest(query, radius);
-}
-std::optional<closest_point_result> closest_point(mesh_view mesh, const point3& query,
-                                                  double radius) {
-    return closest_point_query(mesh).nearest(query, radius);
+    return closest_point_query_of(detail::base::prepared_ref(mesh)).nearest(query, radius);
 }
 
-std::vector<std::optional<closest_point_result>> closest_point(const prepared_mesh& mesh,
+std::vector<std::optional<closest_point_result>> closest_point(const mesh_ref& mesh,
                                                                std::span<const point3> queries,
                                                                double radius) {
-    return closest_point_query_of(mesh).nearest(queries, radius);
-}
-std::vector<std::optional<closest_point_result>> closest_point(mesh_view mesh,
-                                                               std::span<const point3> queries,
-                                                               double radius) {
-    return closest_point_query(mesh).nearest(queries, radius);
+    return closest_point_query_of(detail::base::prepared_ref(mesh)).nearest(queries, radius);
 }
 
 }  // namespace treeform

@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/closest_points.hpp>
@@ -263,26 +264,24 @@ std::optional<closest_points_result> find(const std::string& function, const pre
                   options.radius);
 }
 
-double distance_of(const std::optional<closest_points_result>& found) {
-    return found ? found->distance : std::numeric_limits<double>::infinity();
+std::optional<closest_points_result> find_between(const char* function, const mesh_ref& a,
+                                                  const mesh_ref& b,
+                                                  const distance_options& options) {
+    if (a.prepared() == nullptr && b.prepared() == nullptr)
+        return find(function, a.view(), b.view(), options);
+    return find(function, *detail::base::prepared_ref(a), *detail::base::prepared_ref(b), options);
 }
 
 }  // namespace
 
-std::optional<closest_points_result> closest_points(mesh_view a, mesh_view b,
+std::optional<closest_points_result> closest_points(const mesh_ref& a, const mesh_ref& b,
                                                     const distance_options& options) {
-    return find("closest_points", a, b, options);
-}
-std::optional<closest_points_result> closest_points(const prepared_mesh& a, const prepared_mesh& b,
-                                                    const distance_options& options) {
-    return find("closest_points", a, b, options);
+    return find_between("closest_points", a, b, options);
 }
 
-double distance(const prepared_mesh& a, const prepared_mesh& b, const distance_options& options) {
-    return distance_of(find("distance", a, b, options));
-}
-double distance(mesh_view a, mesh_view b, const distance_options& options) {
-    return distance_of(find("distance", a, b, options));
+double distance(const mesh_ref& a, const mesh_ref& b, const distance_options& options) {
+    const auto found = find_between("distance", a, b, options);
+    return found ? found->distance : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace treeform

@@ -420,7 +420,9 @@ align_result found_by_steps(points_view moving, mesh_view fixed, const align_opt
 
 }  // namespace
 
-align_result align(points_view moving, mesh_view fixed, const align_options& options) {
+namespace {
+
+align_result aligned(points_view moving, mesh_view fixed, const align_options& options) {
     check(moving, fixed, options);
     align_result result = found_by_steps(moving, fixed, options);
     if (result.status == status::cancelled) return result;
@@ -435,15 +437,16 @@ align_result align(points_view moving, mesh_view fixed, const align_options& opt
     return result;
 }
 
-align_result align(mesh_view moving, mesh_view fixed, const align_options& options) {
-    return align(moving.points, fixed, options);
+}  // namespace
+
+align_result align(points_view moving, const mesh_ref& fixed, const align_options& options) {
+    mesh_view to = fixed.view();
+    if (fixed.prepared() != nullptr && fixed.prepared()->is_cloud()) to.faces = {};
+    return aligned(moving, to, options);
 }
 
-align_result align(const prepared_mesh& moving, const prepared_mesh& fixed,
-                   const align_options& options) {
-    mesh_view to = fixed.view();
-    if (fixed.is_cloud()) to.faces = {};
-    return align(moving.view().points, to, options);
+align_result align(const mesh_ref& moving, const mesh_ref& fixed, const align_options& options) {
+    return align(moving.view().points, fixed, options);
 }
 
 }  // namespace treeform

@@ -1,4 +1,5 @@
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/shape.hpp>
@@ -80,8 +81,11 @@ void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const
 
 }  // namespace
 
-contact_classes classify_contacts(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+contact_classes classify_contacts(const mesh_ref& given_moving, const mesh_refs& given_fixed,
                                   const placement& at) {
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
     const mesh_view here = moving.view();
     const mesh_view there{at.points, here.faces};
     std::optional<tree<3>> own;

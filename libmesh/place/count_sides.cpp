@@ -1,5 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/point_sides.hpp>
 #include <treeform/mesh/measure.hpp>
@@ -40,7 +41,9 @@ void lower_sides(const prepared_mesh& solid, points_view points, std::vector<std
 
 }  // namespace
 
-side_counts count_sides(points_view points, std::span<const prepared_mesh> solids) {
+side_counts count_sides(points_view points, const mesh_refs& given_solids) {
+    const detail::base::prepared_refs all_solids(given_solids);
+    const std::span<const prepared_mesh> solids = all_solids;
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!detail::base::is_finite(points[i]))
             throw std::invalid_argument("treeform::count_sides: point " + std::to_string(i) +

@@ -1,6 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/effort.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/intersect/point_locator.hpp>
@@ -199,9 +200,11 @@ class way_out_search {
 
 }  // namespace
 
-std::optional<penetration_depth_result> penetration_depth(const prepared_mesh& a,
-                                                          const prepared_mesh& b,
+std::optional<penetration_depth_result> penetration_depth(const mesh_ref& given_a,
+                                                          const mesh_ref& given_b,
                                                           const depth_options& options) {
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_ref b(given_b);
     detail::place::check_operand("penetration_depth", "a", a);
     detail::place::check_operand("penetration_depth", "b", b);
     if (a.is_cloud() || b.is_cloud() || a.view().faces.empty() || b.view().faces.empty())
@@ -236,11 +239,6 @@ std::optional<penetration_depth_result> penetration_depth(const prepared_mesh& a
     work.reach(1.0);
     return penetration_depth_result{
         .depth = length_of(move), .move = move, .effort = effort.so_far()};
-}
-
-std::optional<penetration_depth_result> penetration_depth(mesh_view a, mesh_view b,
-                                                          const depth_options& options) {
-    return penetration_depth(prepared_mesh::borrow(a), prepared_mesh::borrow(b), options);
 }
 
 }  // namespace treeform

@@ -1,4 +1,5 @@
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
@@ -244,20 +245,12 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
 
 }  // namespace
 
-std::optional<deviation_result> deviation(const prepared_mesh& a, const prepared_mesh& b,
+std::optional<deviation_result> deviation(const mesh_ref& given_a, const mesh_refs& given_fixed,
                                           const deviation_options& options) {
-    return deviation_from(a, b, !b.is_cloud(), options);
-}
-
-std::optional<deviation_result> deviation(mesh_view a, mesh_view b,
-                                          const deviation_options& options) {
-    return deviation(prepared_mesh::borrow(a), prepared_mesh::borrow(b), options);
-}
-
-std::optional<deviation_result> deviation(const prepared_mesh& a,
-                                          std::span<const prepared_mesh> fixed,
-                                          const deviation_options& options) {
-    if (fixed.size() == 1) return deviation(a, fixed[0], options);
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
+    if (fixed.size() == 1) return deviation_from(a, fixed[0], !fixed[0].is_cloud(), options);
     const bool solid = std::any_of(fixed.begin(), fixed.end(),
                                    [](const prepared_mesh& one) { return !one.is_cloud(); });
     return deviation_from(a, prepared_mesh(joined(fixed)), solid, options);

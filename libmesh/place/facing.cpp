@@ -1,5 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/double_double.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/intersect/point_locator.hpp>
@@ -108,15 +109,12 @@ bool looks_inward(const shape& of, std::uint32_t face) {
 
 namespace treeform {
 
-std::uint64_t count_inside_out(const prepared_mesh& mesh) {
+std::uint64_t count_inside_out(const mesh_ref& given_mesh) {
+    const detail::base::prepared_ref mesh(given_mesh);
     detail::place::check_operand("count_inside_out", "mesh", mesh);
     if (mesh.is_cloud() || mesh.view().faces.empty() || !detail::intersect::is_closed(mesh))
         return 0;
     return detail::place::facing_of(mesh).inside_out();
-}
-
-std::uint64_t count_inside_out(mesh_view mesh) {
-    return count_inside_out(prepared_mesh::borrow(mesh));
 }
 
 }  // namespace treeform

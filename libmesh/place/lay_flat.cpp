@@ -383,7 +383,8 @@ void look_at_stability(laid_flat& laid, mesh_view mesh, const std::vector<std::u
 
 }  // namespace
 
-std::optional<laid_flat> lay_flat(mesh_view mesh, const lay_flat_options& options) {
+std::optional<laid_flat> lay_flat(const mesh_ref& given, const lay_flat_options& options) {
+    const mesh_view mesh = given.view();
     check(mesh, options);
     const std::vector<std::uint32_t> ids = points_that_count(mesh);
     detail::base::work_progress work(options.progress);
@@ -408,10 +409,6 @@ std::optional<laid_flat> lay_flat(mesh_view mesh, const lay_flat_options& option
     laid.certificate.max_displacement = max_displacement(mesh.points, laid.matrix, laid.points);
     work.reach(1.0);
     return laid;
-}
-
-std::optional<laid_flat> lay_flat(const prepared_mesh& mesh, const lay_flat_options& options) {
-    return lay_flat(mesh.view(), options);
 }
 
 }  // namespace treeform

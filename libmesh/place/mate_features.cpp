@@ -1,5 +1,6 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/turn_motion.hpp>
@@ -195,9 +196,12 @@ class feature_mover {
 
 }  // namespace
 
-feature_mating mate_features(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+feature_mating mate_features(const mesh_ref& given_moving, const mesh_refs& given_fixed,
                              const mesh_feature& of_moving, const mesh_feature& of_fixed,
                              const feature_mate_options& options) {
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
     check(of_moving, of_fixed);
     detail::place::check_operand("mate_features", "moving", moving.view());
     for (std::size_t i = 0; i < fixed.size(); ++i)
@@ -207,13 +211,6 @@ feature_mating mate_features(const prepared_mesh& moving, std::span<const prepar
         throw std::invalid_argument(
             "treeform::mate_features: the clearance is negative or not finite");
     return feature_mover(moving, fixed, of_moving, of_fixed, options).run();
-}
-
-feature_mating mate_features(mesh_view moving, mesh_view fixed, const mesh_feature& of_moving,
-                             const mesh_feature& of_fixed, const feature_mate_options& options) {
-    const prepared_mesh other = prepared_mesh::borrow(fixed);
-    return mate_features(prepared_mesh::borrow(moving), std::span(&other, 1), of_moving, of_fixed,
-                         options);
 }
 
 }  // namespace treeform

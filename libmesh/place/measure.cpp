@@ -1,4 +1,5 @@
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/closest_points.hpp>
@@ -123,17 +124,15 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
     return result;
 }
 
-std::optional<mesh_measure> measure(const prepared_mesh& a, const prepared_mesh& b,
+std::optional<mesh_measure> measure(const mesh_ref& given_a, const mesh_ref& given_b,
                                     const measure_options& options) {
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_ref b(given_b);
     detail::place::check_operand("measure", "a", a);
     detail::place::check_operand("measure", "b", b);
     return detail::place::measure_of(detail::place::shape(a, options.vertices),
                                      detail::place::shape(b, options.vertices), options.radius,
                                      options.progress);
-}
-
-std::optional<mesh_measure> measure(mesh_view a, mesh_view b, const measure_options& options) {
-    return measure(prepared_mesh::borrow(a), prepared_mesh::borrow(b), options);
 }
 
 }  // namespace treeform

@@ -1,3 +1,4 @@
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/filling.hpp>
 #include <libmesh/place/pack_shapes.hpp>
@@ -190,7 +191,9 @@ std::string packing::message() const {
            (tries == 1 ? " try" : " tries");
 }
 
-packing pack(std::span<const prepared_mesh> parts, const pack_options& options) {
+packing pack(const mesh_refs& given_parts, const pack_options& options) {
+    const detail::base::prepared_refs all_parts(given_parts);
+    const std::span<const prepared_mesh> parts = all_parts;
     check(options);
     for (std::size_t i = 0; i < parts.size(); ++i)
         detail::place::check_operand("pack", "part " + std::to_string(i), parts[i].view());
@@ -220,13 +223,6 @@ packing pack(std::span<const prepared_mesh> parts, const pack_options& options) 
     const double plate = options.size.x * options.size.y * (options.stack ? options.size.z : 1.0);
     if (found.plates_used > 0) found.density = room / (found.plates_used * plate);
     return found;
-}
-
-packing pack(std::span<const mesh_view> parts, const pack_options& options) {
-    std::vector<prepared_mesh> borrowed;
-    borrowed.reserve(parts.size());
-    for (const mesh_view part : parts) borrowed.push_back(prepared_mesh::borrow(part));
-    return pack(borrowed, options);
 }
 
 }  // namespace treeform

@@ -1,3 +1,4 @@
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/facing.hpp>
@@ -170,16 +171,14 @@ mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
     return penetrating(of_a ? *of_a : result.face_a, of_b ? *of_b : result.face_b);
 }
 
-mesh_relation_result relation(const prepared_mesh& a, const prepared_mesh& b,
+mesh_relation_result relation(const mesh_ref& given_a, const mesh_ref& given_b,
                               const relation_options& options) {
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_ref b(given_b);
     check_operand("relation", "a", a);
     check_operand("relation", "b", b);
     return detail::place::relation_of(shape(a, options.vertices), shape(b, options.vertices),
                                       options.progress);
-}
-
-mesh_relation_result relation(mesh_view a, mesh_view b, const relation_options& options) {
-    return relation(prepared_mesh::borrow(a), prepared_mesh::borrow(b), options);
 }
 
 }  // namespace treeform

@@ -1,3 +1,4 @@
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/place/placing.hpp>
 #include <treeform/mesh/slide.hpp>
 
@@ -41,44 +42,30 @@ placement slide_as(const char* function, const prepared_mesh& moving, many fixed
 
 }  // namespace
 
-placement slide(const prepared_mesh& moving, many fixed, const point3& direction,
+placement slide(const mesh_ref& given_moving, const mesh_refs& given_fixed, const point3& direction,
                 const slide_options& options) {
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
     return slide_as("slide", moving, fixed, direction, options);
 }
 
-placement slide(const prepared_mesh& moving, const prepared_mesh& fixed, const point3& direction,
-                const slide_options& options) {
-    return slide(moving, one(fixed), direction, options);
-}
-
-placement slide(mesh_view moving, mesh_view fixed, const point3& direction,
-                const slide_options& options) {
-    return slide(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), direction, options);
-}
-
-placement drop(const prepared_mesh& moving, many fixed, const drop_options& o) {
+placement drop(const mesh_ref& given_moving, const mesh_refs& given_fixed, const drop_options& o) {
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
     const auto bed = fixed.empty() ? std::optional(0.0) : std::nullopt;
     return slide_as("drop", moving, fixed, o.direction, slide_of(o, bed));
 }
 
-placement drop(const prepared_mesh& moving, const drop_options& options) {
-    return drop(moving, many{}, options);
+placement drop(const mesh_ref& moving, const drop_options& options) {
+    return drop(moving, mesh_refs(), options);
 }
 
-placement drop(mesh_view moving, const drop_options& options) {
-    return drop(prepared_mesh::borrow(moving), options);
-}
-
-placement drop(const prepared_mesh& moving, const prepared_mesh& fixed,
-               const drop_options& options) {
-    return drop(moving, one(fixed), options);
-}
-
-placement drop(mesh_view moving, mesh_view fixed, const drop_options& options) {
-    return drop(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), options);
-}
-
-placement mate(const prepared_mesh& moving, many fixed, const mate_options& o) {
+placement mate(const mesh_ref& given_moving, const mesh_refs& given_fixed, const mate_options& o) {
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
     placing work(moving, fixed,
                  {.function = "mate",
                   .clearance = o.clearance,
@@ -90,16 +77,11 @@ placement mate(const prepared_mesh& moving, many fixed, const mate_options& o) {
     return work.run([](placing& p) { p.mate(); });
 }
 
-placement mate(const prepared_mesh& moving, const prepared_mesh& fixed,
-               const mate_options& options) {
-    return mate(moving, one(fixed), options);
-}
-
-placement mate(mesh_view moving, mesh_view fixed, const mate_options& options) {
-    return mate(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), options);
-}
-
-placement separate(const prepared_mesh& moving, many fixed, const separate_options& o) {
+placement separate(const mesh_ref& given_moving, const mesh_refs& given_fixed,
+                   const separate_options& o) {
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
     placing work(moving, fixed,
                  {.function = "separate",
                   .clearance = o.clearance,
@@ -114,16 +96,11 @@ placement separate(const prepared_mesh& moving, many fixed, const separate_optio
     return work.run([](placing& p) { p.separate(); });
 }
 
-placement separate(const prepared_mesh& moving, const prepared_mesh& fixed,
-                   const separate_options& options) {
-    return separate(moving, one(fixed), options);
-}
-
-placement separate(mesh_view moving, mesh_view fixed, const separate_options& options) {
-    return separate(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), options);
-}
-
-placement measure_among(const prepared_mesh& moving, many fixed, const measure_among_options& o) {
+placement measure_among(const mesh_ref& given_moving, const mesh_refs& given_fixed,
+                        const measure_among_options& o) {
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
     placing work(moving, fixed,
                  {.function = "measure_among",
                   .clearance = o.clearance,

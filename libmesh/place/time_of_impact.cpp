@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
@@ -160,18 +161,15 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     return result;
 }
 
-impact time_of_impact(const prepared_mesh& a, const prepared_mesh& b, const point3& motion,
+impact time_of_impact(const mesh_ref& given_a, const mesh_ref& given_b, const point3& motion,
                       const impact_options& options) {
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_ref b(given_b);
     detail::place::check_operand("time_of_impact", "a", a);
     detail::place::check_operand("time_of_impact", "b", b);
     detail::place::check_motion("time_of_impact", motion);
     return detail::place::impact_of(a.view(), build_face_tree(a), b.view(), build_face_tree(b),
                                     motion, options);
-}
-
-impact time_of_impact(mesh_view a, mesh_view b, const point3& motion,
-                      const impact_options& options) {
-    return time_of_impact(prepared_mesh::borrow(a), prepared_mesh::borrow(b), motion, options);
 }
 
 }  // namespace treeform

@@ -1,4 +1,5 @@
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/closest_points.hpp>
@@ -139,19 +140,15 @@ approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_vie
     return result;
 }
 
-approach time_to_distance(const prepared_mesh& a, const prepared_mesh& b, const point3& motion,
+approach time_to_distance(const mesh_ref& given_a, const mesh_ref& given_b, const point3& motion,
                           double distance, const approach_options& options) {
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_ref b(given_b);
     detail::place::check_operand("time_to_distance", "a", a);
     detail::place::check_operand("time_to_distance", "b", b);
     detail::place::check_motion("time_to_distance", motion);
     return detail::place::approach_of(a.view(), build_face_tree(a), b.view(), build_face_tree(b),
                                       motion, distance, options);
-}
-
-approach time_to_distance(mesh_view a, mesh_view b, const point3& motion, double distance,
-                          const approach_options& options) {
-    return time_to_distance(prepared_mesh::borrow(a), prepared_mesh::borrow(b), motion, distance,
-                            options);
 }
 
 }  // namespace treeform

@@ -1,5 +1,6 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/surroundings.hpp>
@@ -187,23 +188,16 @@ class turning {
 
 }  // namespace
 
-turn_result turn(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
-                 const turn_axis& axis, const turn_options& options) {
+turn_result turn(const mesh_ref& given_moving, const mesh_refs& given_fixed, const turn_axis& axis,
+                 const turn_options& options) {
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
     check(axis, options);
     detail::place::check_operand("turn", "moving", moving.view());
     for (std::size_t i = 0; i < fixed.size(); ++i)
         detail::place::check_operand("turn", "fixed " + std::to_string(i), fixed[i].view());
     return turning(moving, fixed, axis, options).run();
-}
-
-turn_result turn(const prepared_mesh& moving, const prepared_mesh& fixed, const turn_axis& axis,
-                 const turn_options& options) {
-    return turn(moving, std::span(&fixed, 1), axis, options);
-}
-
-turn_result turn(mesh_view moving, mesh_view fixed, const turn_axis& axis,
-                 const turn_options& options) {
-    return turn(prepared_mesh::borrow(moving), prepared_mesh::borrow(fixed), axis, options);
 }
 
 }  // namespace treeform

@@ -5,8 +5,8 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
@@ -190,13 +190,10 @@ struct align_result {
 ///         Patterns, PAMI 13 (1991); trimming: Chetverikov, Stepanov and Krsek, IVC 23 (2005);
 ///         weights and acceleration: Zhang, Yao and Deng, Fast and Robust Iterative Closest Point,
 ///         PAMI 44 (2022); turns: Alexa, Super-Fibonacci Spirals, CVPR (2022)
-[[nodiscard]] TREEFORM_API align_result align(points_view moving, mesh_view fixed,
+[[nodiscard]] TREEFORM_API align_result align(points_view moving, const mesh_ref& fixed,
                                               const align_options& options = {});
-
-[[nodiscard]] TREEFORM_API align_result align(mesh_view moving, mesh_view fixed,
-                                              const align_options& options = {});
-[[nodiscard]] TREEFORM_API align_result align(const prepared_mesh& moving,
-                                              const prepared_mesh& fixed,
+/// The same of a mesh's points.
+[[nodiscard]] TREEFORM_API align_result align(const mesh_ref& moving, const mesh_ref& fixed,
                                               const align_options& options = {});
 
 }  // namespace treeform

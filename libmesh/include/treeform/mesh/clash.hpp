@@ -6,8 +6,8 @@
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
@@ -95,9 +95,7 @@ struct clash_result {
 ///         for each of these `relation`, `distance` with a clearance, `mesh_intersections` where
 ///         they meet, `intersection` and `penetration_depth` where they penetrate
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API clash_result clash(std::span<const prepared_mesh> parts,
-                                              const clash_options& options = {});
-[[nodiscard]] TREEFORM_API clash_result clash(std::span<const mesh_view> parts,
+[[nodiscard]] TREEFORM_API clash_result clash(const mesh_refs& parts,
                                               const clash_options& options = {});
 
 /// Adds a file with a body for each name in it (object and group, node of a scene), or one body
@@ -122,10 +120,7 @@ TREEFORM_API body_file& add_named_parts(body_set& bodies, mesh_file file, std::s
 ///
 /// \throws std::invalid_argument as `intersects`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::vector<bool> intersects(const prepared_mesh& a,
-                                                        const prepared_mesh& b,
-                                                        std::span<const mesh_positions> positions);
-[[nodiscard]] TREEFORM_API std::vector<bool> intersects(mesh_view a, mesh_view b,
+[[nodiscard]] TREEFORM_API std::vector<bool> intersects(const mesh_ref& a, const mesh_ref& b,
                                                         std::span<const mesh_positions> positions);
 
 /// [P] `distance` for many positions, in parallel; infinite beyond `radius`.
@@ -133,10 +128,7 @@ TREEFORM_API body_file& add_named_parts(body_set& bodies, mesh_file file, std::s
 /// \throws std::invalid_argument as `distance`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::vector<double> distance(
-    const prepared_mesh& a, const prepared_mesh& b, std::span<const mesh_positions> positions,
-    double radius = std::numeric_limits<double>::infinity());
-[[nodiscard]] TREEFORM_API std::vector<double> distance(
-    mesh_view a, mesh_view b, std::span<const mesh_positions> positions,
+    const mesh_ref& a, const mesh_ref& b, std::span<const mesh_positions> positions,
     double radius = std::numeric_limits<double>::infinity());
 
 struct pose_options {
@@ -180,7 +172,7 @@ struct pose_result {
 /// \cost   the indexes of the parts; then, for each pose, O(N^2) comparisons of boxes, and an
 ///         `intersects` for pairs whose boxes overlap
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API pose_result check_poses(std::span<const prepared_mesh> parts,
+[[nodiscard]] TREEFORM_API pose_result check_poses(const mesh_refs& parts,
                                                    std::span<const transform<3>> poses,
                                                    const pose_options& options = {});
 

@@ -6,8 +6,8 @@
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -83,7 +83,8 @@ struct deviation_result {
     bool cancelled = false;  ///< `progress` asked to stop: nothing else is set
 };
 
-/// How far the points of `a` (all of them, used by faces or not) are from the surface of `b`.
+/// How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of all
+/// meshes in it as one. Faces are numbered through, mesh after mesh.
 ///
 /// The side is exact: that of the exact winding number of `b` about the point (`locate`). Corners of
 /// `b` with equal coordinates are one vertex, as in a file that repeats them. When `b` is open, or a
@@ -96,19 +97,11 @@ struct deviation_result {
 /// \throws std::invalid_argument for a point of `a` that is not finite, a face of `b` as
 ///         `closest_point`, a band that is NaN or the wrong way round, or more bins than 2^20
 /// \cost   `closest_point` for each point, in an order of space; and for signs a winding number for
-///         one point in 1024, and the faces between neighbors for the others
+///         one point in 1024, and the faces between neighbors for the others. A copy of `b` where
+///         there are several
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<deviation_result> deviation(
-    const prepared_mesh& a, const prepared_mesh& b, const deviation_options& options = {});
-[[nodiscard]] TREEFORM_API std::optional<deviation_result> deviation(
-    mesh_view a, mesh_view b, const deviation_options& options = {});
-
-/// The same for all of `fixed` as one surface. Faces are numbered through, mesh after mesh.
-///
-/// \cost as above, and a copy of `fixed` where there are several
-[[nodiscard]] TREEFORM_API std::optional<deviation_result> deviation(
-    const prepared_mesh& a, std::span<const prepared_mesh> fixed,
-    const deviation_options& options = {});
+    const mesh_ref& a, const mesh_refs& b, const deviation_options& options = {});
 
 /// [V] the distances of a body's points, as points of its file; NaN for points that are not the
 /// body's. `distances` are those of the points of its shape.

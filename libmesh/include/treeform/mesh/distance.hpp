@@ -3,7 +3,7 @@
 /// Distances of two meshes, and of points from a mesh. No distance is squared.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/transform.hpp>
 
@@ -53,14 +53,10 @@ struct closest_points_result {
 ///         faces are skipped by the direction between the nearest points so far
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
-    const prepared_mesh& a, const prepared_mesh& b, const distance_options& options = {});
-[[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
-    mesh_view a, mesh_view b, const distance_options& options = {});
+    const mesh_ref& a, const mesh_ref& b, const distance_options& options = {});
 
 /// The distance of the surfaces `a` and `b`; infinite when `closest_points` finds none.
-[[nodiscard]] TREEFORM_API double distance(const prepared_mesh& a, const prepared_mesh& b,
-                                           const distance_options& options = {});
-[[nodiscard]] TREEFORM_API double distance(mesh_view a, mesh_view b,
+[[nodiscard]] TREEFORM_API double distance(const mesh_ref& a, const mesh_ref& b,
                                            const distance_options& options = {});
 
 /// The point of a mesh that is nearest to a query.
@@ -86,17 +82,12 @@ struct closest_point_result {
 ///         many when the query is further away than 1e5 times the extent of the mesh
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_point_result> closest_point(
-    const prepared_mesh& mesh, const point3& query,
+    const mesh_ref& mesh, const point3& query,
     double radius = std::numeric_limits<double>::infinity());
-[[nodiscard]] TREEFORM_API std::optional<closest_point_result> closest_point(
-    mesh_view mesh, const point3& query, double radius = std::numeric_limits<double>::infinity());
 
 /// [Q] The same for many queries in parallel; answers in the order of the queries.
 [[nodiscard]] TREEFORM_API std::vector<std::optional<closest_point_result>> closest_point(
-    const prepared_mesh& mesh, std::span<const point3> queries,
-    double radius = std::numeric_limits<double>::infinity());
-[[nodiscard]] TREEFORM_API std::vector<std::optional<closest_point_result>> closest_point(
-    mesh_view mesh, std::span<const point3> queries,
+    const mesh_ref& mesh, std::span<const point3> queries,
     double radius = std::numeric_limits<double>::infinity());
 
 }  // namespace treeform

@@ -3,8 +3,8 @@
 /// Intersections of two meshes, and of a mesh with a box.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -59,9 +59,7 @@ struct mesh_intersection_result {
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
 [[nodiscard]] TREEFORM_API mesh_intersection_result mesh_intersections(
-    const prepared_mesh& a, const prepared_mesh& b, const mesh_intersection_options& options = {});
-[[nodiscard]] TREEFORM_API mesh_intersection_result
-mesh_intersections(mesh_view a, mesh_view b, const mesh_intersection_options& options = {});
+    const mesh_ref& a, const mesh_ref& b, const mesh_intersection_options& options = {});
 
 /// Where each mesh is; see `mesh_intersection_options`.
 struct mesh_positions {
@@ -75,9 +73,7 @@ struct mesh_positions {
 ///
 /// \throws std::invalid_argument as `mesh_intersections`
 /// \same   in its answer, on any number of threads
-[[nodiscard]] TREEFORM_API bool intersects(const prepared_mesh& a, const prepared_mesh& b,
-                                           const mesh_positions& positions = {});
-[[nodiscard]] TREEFORM_API bool intersects(mesh_view a, mesh_view b,
+[[nodiscard]] TREEFORM_API bool intersects(const mesh_ref& a, const mesh_ref& b,
                                            const mesh_positions& positions = {});
 
 /// The faces, ascending, that have a point in the closed box from `min` to `max`.

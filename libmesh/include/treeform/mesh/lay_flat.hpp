@@ -5,8 +5,8 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
@@ -109,10 +109,7 @@ struct laid_flat {
 /// \throws std::overflow_error for coordinates too large to be turned
 /// \cost   that of `convex_hull`, and O(F) for the center of mass and each side with an overhang
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<laid_flat> lay_flat(mesh_view mesh,
-                                                             const lay_flat_options& options = {});
-
-[[nodiscard]] TREEFORM_API std::optional<laid_flat> lay_flat(const prepared_mesh& mesh,
+[[nodiscard]] TREEFORM_API std::optional<laid_flat> lay_flat(const mesh_ref& mesh,
                                                              const lay_flat_options& options = {});
 
 }  // namespace treeform

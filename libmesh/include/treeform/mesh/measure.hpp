@@ -5,7 +5,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -66,10 +66,7 @@ struct mesh_relation_result {
 /// \cost   as `intersects` for meshes that penetrate or are far apart; else O(V) more, and a ray
 ///         for each component, or for each corner when the meshes touch
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh_relation_result relation(const prepared_mesh& a,
-                                                         const prepared_mesh& b,
-                                                         const relation_options& options = {});
-[[nodiscard]] TREEFORM_API mesh_relation_result relation(mesh_view a, mesh_view b,
+[[nodiscard]] TREEFORM_API mesh_relation_result relation(const mesh_ref& a, const mesh_ref& b,
                                                          const relation_options& options = {});
 
 /// The components of a closed mesh that are inside out, their volumes negative, and that are in no
@@ -81,8 +78,7 @@ struct mesh_relation_result {
 /// \cost   O(F log F) for the indexes, which a prepared mesh keeps, and a ray for each component
 ///         where there are several
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::uint64_t count_inside_out(const prepared_mesh& mesh);
-[[nodiscard]] TREEFORM_API std::uint64_t count_inside_out(mesh_view mesh);
+[[nodiscard]] TREEFORM_API std::uint64_t count_inside_out(const mesh_ref& mesh);
 
 /// A point of a surface.
 struct surface_point {
@@ -121,10 +117,7 @@ struct mesh_measure {
 /// \throws std::invalid_argument as `relation`, and for a radius that is negative or NaN
 /// \cost   that of `distance`, and of `relation` where the boxes of the meshes meet
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(const prepared_mesh& a,
-                                                               const prepared_mesh& b,
-                                                               const measure_options& options = {});
-[[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(mesh_view a, mesh_view b,
+[[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(const mesh_ref& a, const mesh_ref& b,
                                                                const measure_options& options = {});
 
 /// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.
@@ -174,9 +167,7 @@ struct penetration_depth_result {
 ///         lead out sooner; not more than `options.effort`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<penetration_depth_result> penetration_depth(
-    const prepared_mesh& a, const prepared_mesh& b, const depth_options& options = {});
-[[nodiscard]] TREEFORM_API std::optional<penetration_depth_result> penetration_depth(
-    mesh_view a, mesh_view b, const depth_options& options = {});
+    const mesh_ref& a, const mesh_ref& b, const depth_options& options = {});
 
 /// How many points are inside a solid, on a surface, outside of all.
 struct side_counts {
@@ -192,7 +183,6 @@ struct side_counts {
 /// \throws std::invalid_argument naming the point that is not finite, or a face as `locate` does
 /// \cost   as `deviation` without distances, for points in the box of a solid
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API side_counts count_sides(points_view points,
-                                                   std::span<const prepared_mesh> solids);
+[[nodiscard]] TREEFORM_API side_counts count_sides(points_view points, const mesh_refs& solids);
 
 }  // namespace treeform

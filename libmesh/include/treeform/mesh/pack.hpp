@@ -4,7 +4,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
@@ -112,9 +112,6 @@ struct packing {
 ///         milliseconds to search a free place, and for the place chosen a tree over the part and
 ///         some `distance` to each neighbor. Tries run in parallel
 /// \same   on any number of threads, unless `seconds` ends the search
-[[nodiscard]] TREEFORM_API packing pack(std::span<const mesh_view> parts,
-                                        const pack_options& options);
-[[nodiscard]] TREEFORM_API packing pack(std::span<const prepared_mesh> parts,
-                                        const pack_options& options);
+[[nodiscard]] TREEFORM_API packing pack(const mesh_refs& parts, const pack_options& options);
 
 }  // namespace treeform

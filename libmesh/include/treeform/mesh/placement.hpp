@@ -6,8 +6,8 @@
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -119,8 +119,7 @@ struct measure_among_options {
 /// \throws std::invalid_argument as `slide`
 /// \cost   `measure` for the fixed meshes that may be the nearest, and the pairs of faces that meet
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API placement measure_among(const prepared_mesh& moving,
-                                                   std::span<const prepared_mesh> fixed,
+[[nodiscard]] TREEFORM_API placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
                                                    const measure_among_options& options = {});
 
 /// How a face lies to the other meshes.
@@ -143,8 +142,8 @@ struct contact_classes {
 /// \pre    `at` was returned by a placement of `moving` among `fixed`
 /// \cost   all pairs of faces within the clearance of each other
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API contact_classes classify_contacts(const prepared_mesh& moving,
-                                                             std::span<const prepared_mesh> fixed,
+[[nodiscard]] TREEFORM_API contact_classes classify_contacts(const mesh_ref& moving,
+                                                             const mesh_refs& fixed,
                                                              const placement& at);
 
 /// A file, and what it is called.

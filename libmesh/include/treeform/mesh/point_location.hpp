@@ -3,7 +3,7 @@
 /// Whether points are inside, outside or on a closed mesh; the same for closed curves in the plane.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/tree.hpp>
 
@@ -66,24 +66,19 @@ struct point_location {
 /// \same   on any number of threads
 /// \source the half-open rule is the simulation of a ray moved by (0, eps, eps^2): Edelsbrunner and
 ///         Muecke, Simulation of Simplicity, ACM TOG 9 (1990)
-[[nodiscard]] TREEFORM_API point_location locate(const prepared_mesh& mesh, const point3& point);
-[[nodiscard]] TREEFORM_API point_location locate(mesh_view mesh, const point3& point);
+[[nodiscard]] TREEFORM_API point_location locate(const mesh_ref& mesh, const point3& point);
 
 /// [P] The same for many points in parallel; answers in the order of the points.
-[[nodiscard]] TREEFORM_API std::vector<point_location> locate(const prepared_mesh& mesh,
-                                                              std::span<const point3> points);
-[[nodiscard]] TREEFORM_API std::vector<point_location> locate(mesh_view mesh,
+[[nodiscard]] TREEFORM_API std::vector<point_location> locate(const mesh_ref& mesh,
                                                               std::span<const point3> points);
 
 /// Whether the point is inside the closed mesh or on its surface: inside is where the winding
 /// number is not 0 (`fill_rule::nonzero`). For errors and cost, see `locate`.
-[[nodiscard]] TREEFORM_API bool contains(const prepared_mesh& mesh, const point3& point);
-[[nodiscard]] TREEFORM_API bool contains(mesh_view mesh, const point3& point);
+[[nodiscard]] TREEFORM_API bool contains(const mesh_ref& mesh, const point3& point);
 
 /// How often the surface winds around the point; 0 on the surface. For errors and cost, see
 /// `locate`.
-[[nodiscard]] TREEFORM_API int winding_number(const prepared_mesh& mesh, const point3& point);
-[[nodiscard]] TREEFORM_API int winding_number(mesh_view mesh, const point3& point);
+[[nodiscard]] TREEFORM_API int winding_number(const mesh_ref& mesh, const point3& point);
 
 /// An edge of a curve, from one point to another. The inside of a simple curve is on its left.
 using curve_edge = std::array<std::uint32_t, 2>;

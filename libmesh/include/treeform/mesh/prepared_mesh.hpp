@@ -11,6 +11,8 @@
 
 namespace treeform {
 
+struct usable_mesh;
+
 namespace detail::base {
 class prepared_slots;
 }
@@ -29,6 +31,7 @@ class TREEFORM_API prepared_mesh {
     prepared_mesh();
     /// Owns the arrays.
     explicit prepared_mesh(mesh&& owned);
+    explicit prepared_mesh(usable_mesh&& owned);
     /// Refers to the caller's arrays, which must stay unchanged as long as this lives.
     [[nodiscard]] static prepared_mesh borrow(mesh_view view);
     static prepared_mesh borrow(mesh&&) = delete;  // gone before it is asked: let this own it
@@ -57,7 +60,7 @@ class TREEFORM_API prepared_mesh {
 
     mesh_view view_{};
     bool cloud_ = false;
-    std::unique_ptr<state> state_;
+    std::shared_ptr<state> state_;
 };
 
 }  // namespace treeform

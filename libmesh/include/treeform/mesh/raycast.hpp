@@ -3,7 +3,7 @@
 /// Which faces rays hit, exactly.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/detail/export.hpp>
 
@@ -45,25 +45,17 @@ struct mesh_hits {
 /// \cost   O(F log F) for the index, which a prepared mesh keeps; for most rays O(log F) and the
 ///         faces at the hit
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<mesh_hit> raycast(const prepared_mesh& mesh,
-                                                           const ray3& ray);
-[[nodiscard]] TREEFORM_API std::optional<mesh_hit> raycast(mesh_view mesh, const ray3& ray);
+[[nodiscard]] TREEFORM_API std::optional<mesh_hit> raycast(const mesh_ref& mesh, const ray3& ray);
 
 /// [R] The same for many rays in parallel; answers in the order of the rays. Errors name the ray.
-[[nodiscard]] TREEFORM_API std::vector<std::optional<mesh_hit>> raycast(const prepared_mesh& mesh,
-                                                                        std::span<const ray3> rays);
-[[nodiscard]] TREEFORM_API std::vector<std::optional<mesh_hit>> raycast(mesh_view mesh,
+[[nodiscard]] TREEFORM_API std::vector<std::optional<mesh_hit>> raycast(const mesh_ref& mesh,
                                                                         std::span<const ray3> rays);
 
 /// All faces that each ray hits, in the exact order along the ray, then by number.
-[[nodiscard]] TREEFORM_API mesh_hits raycast_all(const prepared_mesh& mesh,
-                                                 std::span<const ray3> rays);
-[[nodiscard]] TREEFORM_API mesh_hits raycast_all(mesh_view mesh, std::span<const ray3> rays);
+[[nodiscard]] TREEFORM_API mesh_hits raycast_all(const mesh_ref& mesh, std::span<const ray3> rays);
 
 /// [R] 1 when a ray hits any face, else 0.
-[[nodiscard]] TREEFORM_API std::vector<std::uint8_t> raycast_any(const prepared_mesh& mesh,
-                                                                 std::span<const ray3> rays);
-[[nodiscard]] TREEFORM_API std::vector<std::uint8_t> raycast_any(mesh_view mesh,
+[[nodiscard]] TREEFORM_API std::vector<std::uint8_t> raycast_any(const mesh_ref& mesh,
                                                                  std::span<const ray3> rays);
 
 }  // namespace treeform

@@ -6,8 +6,8 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/process_team.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -119,9 +119,7 @@ struct self_intersection_result {
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
 [[nodiscard]] TREEFORM_API self_intersection_result
-self_intersections(mesh_view mesh, const self_intersection_options& options = {});
-[[nodiscard]] TREEFORM_API self_intersection_result
-self_intersections(const prepared_mesh& mesh, const self_intersection_options& options = {});
+self_intersections(const mesh_ref& mesh, const self_intersection_options& options = {});
 
 /// Faces that meet, in one place of the mesh.
 struct intersection_region {

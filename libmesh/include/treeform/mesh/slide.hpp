@@ -3,8 +3,8 @@
 /// Moves a mesh against others: slide, drop, mate (by nearest points, planes or axes), separate.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -49,14 +49,7 @@ struct slide_options {
 /// \cost   O(V + F) of all to check the input; the search in motion; and for each attempt at
 ///         coordinates a tree over `moving` and a `relation` to what is near
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API placement slide(const prepared_mesh& moving,
-                                           std::span<const prepared_mesh> fixed,
-                                           const point3& direction,
-                                           const slide_options& options = {});
-[[nodiscard]] TREEFORM_API placement slide(const prepared_mesh& moving, const prepared_mesh& fixed,
-                                           const point3& direction,
-                                           const slide_options& options = {});
-[[nodiscard]] TREEFORM_API placement slide(mesh_view moving, mesh_view fixed,
+[[nodiscard]] TREEFORM_API placement slide(const mesh_ref& moving, const mesh_refs& fixed,
                                            const point3& direction,
                                            const slide_options& options = {});
 
@@ -79,18 +72,11 @@ struct drop_options {
 /// \throws std::invalid_argument as `slide`, and for a direction that does not lead down
 /// \cost   O(V)
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API placement drop(const prepared_mesh& moving,
-                                          const drop_options& options = {});
-[[nodiscard]] TREEFORM_API placement drop(mesh_view moving, const drop_options& options = {});
+[[nodiscard]] TREEFORM_API placement drop(const mesh_ref& moving, const drop_options& options = {});
 
 /// Moves `moving` down until it rests on one of `fixed`, or on the bed if there is one, as `slide`
 /// does. A mesh that reaches below the bed has no place.
-[[nodiscard]] TREEFORM_API placement drop(const prepared_mesh& moving,
-                                          std::span<const prepared_mesh> fixed,
-                                          const drop_options& options = {});
-[[nodiscard]] TREEFORM_API placement drop(const prepared_mesh& moving, const prepared_mesh& fixed,
-                                          const drop_options& options = {});
-[[nodiscard]] TREEFORM_API placement drop(mesh_view moving, mesh_view fixed,
+[[nodiscard]] TREEFORM_API placement drop(const mesh_ref& moving, const mesh_refs& fixed,
                                           const drop_options& options = {});
 
 /// How to mate.
@@ -110,12 +96,7 @@ struct mate_options {
 /// \throws std::invalid_argument as `slide`
 /// \cost   `measure` for the fixed meshes that may be the nearest, and a `slide`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API placement mate(const prepared_mesh& moving,
-                                          std::span<const prepared_mesh> fixed,
-                                          const mate_options& options = {});
-[[nodiscard]] TREEFORM_API placement mate(const prepared_mesh& moving, const prepared_mesh& fixed,
-                                          const mate_options& options = {});
-[[nodiscard]] TREEFORM_API placement mate(mesh_view moving, mesh_view fixed,
+[[nodiscard]] TREEFORM_API placement mate(const mesh_ref& moving, const mesh_refs& fixed,
                                           const mate_options& options = {});
 
 /// How to separate.
@@ -148,13 +129,7 @@ struct separate_options {
 /// \same   on any number of threads
 /// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
 ///         Computing the Intersection-Depth of Polyhedra, Algorithmica 9 (1993)
-[[nodiscard]] TREEFORM_API placement separate(const prepared_mesh& moving,
-                                              std::span<const prepared_mesh> fixed,
-                                              const separate_options& options = {});
-[[nodiscard]] TREEFORM_API placement separate(const prepared_mesh& moving,
-                                              const prepared_mesh& fixed,
-                                              const separate_options& options = {});
-[[nodiscard]] TREEFORM_API placement separate(mesh_view moving, mesh_view fixed,
+[[nodiscard]] TREEFORM_API placement separate(const mesh_ref& moving, const mesh_refs& fixed,
                                               const separate_options& options = {});
 
 struct feature_mate_options {
@@ -193,12 +168,8 @@ struct feature_mating {
 ///         length 1 or an origin that is not finite, and as `slide`
 /// \cost   that of `slide`, and two trees over `moving`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API feature_mating mate_features(const prepared_mesh& moving,
-                                                        std::span<const prepared_mesh> fixed,
-                                                        const mesh_feature& of_moving,
-                                                        const mesh_feature& of_fixed,
-                                                        const feature_mate_options& options = {});
-[[nodiscard]] TREEFORM_API feature_mating mate_features(mesh_view moving, mesh_view fixed,
+[[nodiscard]] TREEFORM_API feature_mating mate_features(const mesh_ref& moving,
+                                                        const mesh_refs& fixed,
                                                         const mesh_feature& of_moving,
                                                         const mesh_feature& of_fixed,
                                                         const feature_mate_options& options = {});

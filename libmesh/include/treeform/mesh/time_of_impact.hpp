@@ -5,9 +5,9 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -79,10 +79,8 @@ struct impact {
 /// \cost   that of `intersects`, and of a search along the motion, which most boxes never enter;
 ///         serial
 /// \same   on every machine
-[[nodiscard]] TREEFORM_API impact time_of_impact(const prepared_mesh& a, const prepared_mesh& b,
+[[nodiscard]] TREEFORM_API impact time_of_impact(const mesh_ref& a, const mesh_ref& b,
                                                  const point3& motion,
-                                                 const impact_options& options = {});
-[[nodiscard]] TREEFORM_API impact time_of_impact(mesh_view a, mesh_view b, const point3& motion,
                                                  const impact_options& options = {});
 
 /// The greatest double that is not beyond the exact time of a contact.
@@ -129,11 +127,8 @@ struct approach {
 /// \same   on every machine
 /// \source convex distance in motion: Cameron, Enhancing GJK, ICRA 1997, and Mirtich's conservative
 ///         advancement, here for pairs of faces
-[[nodiscard]] TREEFORM_API approach time_to_distance(const prepared_mesh& a, const prepared_mesh& b,
+[[nodiscard]] TREEFORM_API approach time_to_distance(const mesh_ref& a, const mesh_ref& b,
                                                      const point3& motion, double distance,
-                                                     const approach_options& options = {});
-[[nodiscard]] TREEFORM_API approach time_to_distance(mesh_view a, mesh_view b, const point3& motion,
-                                                     double distance,
                                                      const approach_options& options = {});
 
 /// A line to turn about, to the right (counter-clockwise, seen against `direction`).
@@ -191,14 +186,7 @@ struct turn_result {
 /// \same   on any number of threads
 /// \source the idea of steps by a bound of the motion: Mirtich, Impulse-based Dynamic Simulation of
 ///         Rigid Body Systems (1996), conservative advancement
-[[nodiscard]] TREEFORM_API turn_result turn(const prepared_mesh& moving,
-                                            std::span<const prepared_mesh> fixed,
-                                            const turn_axis& axis,
-                                            const turn_options& options = {});
-[[nodiscard]] TREEFORM_API turn_result turn(const prepared_mesh& moving, const prepared_mesh& fixed,
-                                            const turn_axis& axis,
-                                            const turn_options& options = {});
-[[nodiscard]] TREEFORM_API turn_result turn(mesh_view moving, mesh_view fixed,
+[[nodiscard]] TREEFORM_API turn_result turn(const mesh_ref& moving, const mesh_refs& fixed,
                                             const turn_axis& axis,
                                             const turn_options& options = {});
 
