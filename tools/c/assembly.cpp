@@ -64,10 +64,10 @@ treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
         how.ignored = pairs_of(o.ignored, o.ignored_count);
         how.vertices = glue::vertices(o.vertices);
         how.progress = glue::progress(o);
-        const glue::mesh_row row(parts, count, "parts");
+        const tf::mesh_refs row = glue::refs(parts, count, "parts");
         auto made = glue::make<treeform_clashes>();
         const tf::clash_result& found =
-            made->keep(tf::clash(std::span<const tf::prepared_mesh>(row), how));
+            made->keep(tf::clash(row, how));
         if (found.cancelled) throw glue::cancelled{};
         std::vector<treeform_part_clash> pairs;
         for (const tf::part_clash& one : found.pairs) pairs.push_back(clash_of(*made, one));
@@ -119,7 +119,7 @@ treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t cou
             throw std::length_error("too many poses");
         (void)glue::array(poses, 12 * pose_count * count, "poses");
         const std::span where(reinterpret_cast<const tf::transform<3>*>(poses), pose_count * count);
-        const glue::mesh_row row(parts, count, "parts");
+        const tf::mesh_refs row = glue::refs(parts, count, "parts");
         const tf::pose_result found = tf::check_poses(row, where, how);
         if (found.cancelled) throw glue::cancelled{};
         auto made = glue::make<treeform_poses_result>();

@@ -132,20 +132,11 @@ tf::prepared_mesh borrow(const treeform_mesh& mesh) {
                                      : tf::prepared_mesh::borrow(view);
 }
 
-mesh_row::mesh_row(const treeform_mesh* const* meshes, std::size_t count, const char* name) {
-    const std::span all = array(meshes, count, name);
-    bool side_by_side = true;
-    for (std::size_t i = 0; i < count; ++i) {
-        const treeform_mesh& one = need(all[i], name);
-        side_by_side = side_by_side && one.set == all[0]->set &&
-                       (i == 0 || (one.set && one.prepared == all[0]->prepared + i));
-    }
-    if (side_by_side && count != 0) {
-        row_ = {all[0]->prepared, count};
-        return;
-    }
-    for (const treeform_mesh* one : all) borrowed_.push_back(borrow(*one));
-    row_ = borrowed_;
+tf::mesh_refs refs(const treeform_mesh* const* meshes, std::size_t count, const char* name) {
+    std::vector<tf::mesh_ref> all;
+    for (const treeform_mesh* one : array(meshes, count, name))
+        all.emplace_back(*need(one, name).prepared);
+    return all;
 }
 
 std::vector<tf::mesh_view> views(const treeform_mesh* const* meshes, std::size_t count,

@@ -6,6 +6,7 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/process_team.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -351,17 +352,8 @@ void asked_in_pieces(const treeform_mesh* first, const treeform_mesh* second, st
 /// Another handle on the arrays of a mesh or cloud.
 [[nodiscard]] tf::prepared_mesh borrow(const treeform_mesh& mesh);
 
-/// Several meshes side by side: those of a set as they are, others borrowed for this call.
-class mesh_row {
-  public:
-    mesh_row(const treeform_mesh* const* meshes, std::size_t count, const char* name);
-    operator std::span<const tf::prepared_mesh>() const { return row_; }  // NOLINT
-
-  private:
-    std::vector<tf::prepared_mesh> borrowed_;
-    std::span<const tf::prepared_mesh> row_;
-};
-
+[[nodiscard]] tf::mesh_refs refs(const treeform_mesh* const* meshes, std::size_t count,
+                                 const char* name);
 [[nodiscard]] std::vector<tf::mesh_view> views(const treeform_mesh* const* meshes,
                                                std::size_t count, const char* name);
 

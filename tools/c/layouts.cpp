@@ -169,10 +169,10 @@ treeform_code treeform_pack(const treeform_mesh* const* parts, size_t count,
                             const treeform_pack_options* options, treeform_packing** packing) {
     return glue::guard([&] {
         glue::start(packing);
-        const glue::mesh_row row(parts, count, "parts");
+        const tf::mesh_refs row = glue::refs(parts, count, "parts");
         auto made = glue::make<treeform_packing>();
         const tf::packing& found =
-            made->keep(tf::pack(std::span<const tf::prepared_mesh>(row), options_of(options)));
+            made->keep(tf::pack(row, options_of(options)));
         if (found.certificate.status == tf::status::cancelled) throw glue::cancelled{};
         fill(*made, found);
         const bool all_placed = found.not_placed.empty();

@@ -213,7 +213,7 @@ treeform_code treeform_count_sides(const double* points, size_t count,
                                    uint64_t counts[3]) {
     return glue::guard([&] {
         (void)glue::need(counts, "counts");
-        const glue::mesh_row row(solids, solid_count, "solids");
+        const tf::mesh_refs row = glue::refs(solids, solid_count, "solids");
         const tf::side_counts found = tf::count_sides(glue::points(points, count, "points"), row);
         counts[0] = found.inside;
         counts[1] = found.on;
@@ -242,9 +242,9 @@ treeform_code treeform_deviation(const treeform_mesh* a, const treeform_mesh* co
         how.bins = glue::limit(o.bins);
         how.both_ways = o.both_ways != 0;
         how.progress = glue::progress(o);
-        const glue::mesh_row row(fixed, fixed_count, "fixed");
+        const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
         auto found = tf::deviation(*glue::need(a, "a").prepared,
-                                   std::span<const tf::prepared_mesh>(row), how);
+                                   row, how);
         if (!found) return;
         if (found->cancelled) throw glue::cancelled{};
         auto made = glue::make<treeform_deviation_result>();

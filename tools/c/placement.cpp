@@ -11,7 +11,6 @@ namespace tf = treeform;
 
 namespace {
 
-using fixed_meshes = std::span<const tf::prepared_mesh>;
 
 /// What a placement keeps besides what is handed out.
 struct kept_placement {
@@ -106,8 +105,8 @@ treeform_code place_among(const treeform_mesh* moving, const treeform_mesh* cons
     return glue::guard([&] {
         glue::start(out);
         const tf::prepared_mesh& m = *glue::need(moving, "moving").prepared;
-        const glue::mesh_row row(fixed, fixed_count, "fixed");
-        return give_placed(answer_of(place(m, fixed_meshes(row))), out);
+        const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
+        return give_placed(answer_of(place(m, row)), out);
     });
 }
 
@@ -161,7 +160,7 @@ treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* c
                              size_t fixed_count, const double direction[3],
                              const treeform_place_options* options,
                              treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, fixed_meshes f) {
+    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
         return tf::slide(m, f, glue::point(direction, "direction"),
                          options_of<tf::slide_options>(options));
     });
@@ -170,7 +169,7 @@ treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* c
 treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                             size_t fixed_count, const double* direction,
                             const treeform_place_options* options, treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, fixed_meshes f) {
+    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
         auto how = options_of<tf::drop_options>(options);
         if (direction) how.direction = glue::point(direction, "direction");
         return f.empty() ? tf::drop(m, how) : tf::drop(m, f, how);
@@ -180,7 +179,7 @@ treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* co
 treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                             size_t fixed_count, const treeform_place_options* options,
                             treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, fixed_meshes f) {
+    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
         return tf::mate(m, f, options_of<tf::mate_options>(options));
     });
 }
@@ -188,7 +187,7 @@ treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* co
 treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                                 size_t fixed_count, const treeform_place_options* options,
                                 treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, fixed_meshes f) {
+    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
         return tf::separate(m, f, options_of<tf::separate_options>(options));
     });
 }
@@ -196,7 +195,7 @@ treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh
 treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                                      size_t fixed_count, const treeform_place_options* options,
                                      treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, fixed_meshes f) {
+    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
         return tf::measure_among(m, f, options_of<tf::measure_among_options>(options));
     });
 }
@@ -207,9 +206,9 @@ treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* co
     return glue::guard([&] {
         glue::start(placement);
         const tf::prepared_mesh& m = *glue::need(moving, "moving").prepared;
-        const glue::mesh_row row(fixed, fixed_count, "fixed");
+        const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
         tf::turn_result turned =
-            tf::turn(m, fixed_meshes(row),
+            tf::turn(m, row,
                      {glue::point(origin, "origin"), glue::point(direction, "direction")},
                      options_of<tf::turn_options>(options));
         auto made = answer_of(std::move(turned.at));
@@ -228,9 +227,9 @@ treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform
     return glue::guard([&] {
         glue::start(placement);
         const tf::prepared_mesh& m = *glue::need(moving, "moving").prepared;
-        const glue::mesh_row row(fixed, fixed_count, "fixed");
+        const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
         tf::feature_mating mated = tf::mate_features(
-            m, fixed_meshes(row), feature_of(of_moving, "of_moving"),
+            m, row, feature_of(of_moving, "of_moving"),
             feature_of(of_fixed, "of_fixed"), options_of<tf::feature_mate_options>(options));
         auto made = answer_of(std::move(mated.at));
         made->value.angle = mated.turn_angle;
@@ -246,7 +245,7 @@ treeform_code treeform_classify_contacts(const treeform_mesh* moving,
     return glue::guard([&] {
         glue::start(classes);
         const tf::prepared_mesh& m = *glue::need(moving, "moving").prepared;
-        const glue::mesh_row row(fixed, fixed_count, "fixed");
+        const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
         void* const owner = glue::need(placement, "placement").owner;
         auto* const from =
             dynamic_cast<glue::answer<treeform_placement>*>(static_cast<glue::owned*>(owner));

@@ -342,7 +342,7 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::detail::intersect::mesh_intersections(sheet, tree, bad, tree),
                          doctest::Contains(": b: face 7"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::intersects({}, sheet, {{{{{nan}}}}, {}}),
+    CHECK_THROWS_WITH_AS((void)tf::intersects(tf::mesh{}, sheet, {{{{{nan}}}}, {}}),
                          doctest::Contains("not finite"), std::invalid_argument);
     bad = sheet;
     bad.points[6].y = nan;

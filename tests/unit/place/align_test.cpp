@@ -251,7 +251,7 @@ TEST_CASE("align: nothing, one point, and what is there already") {
     const auto none = tf::align(tf::points_view{}, fixed);
     CHECK_FALSE(none.converged);
     CHECK(none.matrix == tf::transform<3>{});
-    CHECK_FALSE(tf::align(fixed.points, {}).converged);
+    CHECK_FALSE(tf::align(fixed.points, tf::mesh{}).converged);
     const std::vector<point3> one{{5, 5, 5}};
     CHECK(tf::align(one, fixed).rms < 1e-12);
     const auto there = tf::align(fixed.points, fixed);

@@ -103,8 +103,8 @@ TEST_CASE("depth: there is none apart, touching, of open sheets side by side, or
     const tf::mesh a = box(1, 1, 1);
     CHECK_FALSE(tf::penetration_depth(a, moved(a, {2, 0, 0})).has_value());
     CHECK_FALSE(tf::penetration_depth(a, moved(a, {1, 0, 0})).has_value());
-    CHECK_FALSE(tf::penetration_depth(a, {}).has_value());
-    CHECK_FALSE(tf::penetration_depth({}, a).has_value());
+    CHECK_FALSE(tf::penetration_depth(a, tf::mesh{}).has_value());
+    CHECK_FALSE(tf::penetration_depth(tf::mesh{}, a).has_value());
     const auto cloud = tf::prepared_mesh::cloud({{0.5, 0.5, 0.5}});
     CHECK_FALSE(tf::penetration_depth(cloud, tf::prepared_mesh::borrow(a)).has_value());
 }

@@ -52,8 +52,8 @@ void check_each(const tf::mesh& a, const tf::mesh& b, const tf::deviation_result
 }  // namespace
 
 TEST_CASE("deviation: of nothing, or from nothing, there is none") {
-    CHECK_FALSE(tf::deviation({}, box(1, 1, 1)).has_value());
-    CHECK_FALSE(tf::deviation(box(1, 1, 1), {}).has_value());
+    CHECK_FALSE(tf::deviation(tf::mesh{}, box(1, 1, 1)).has_value());
+    CHECK_FALSE(tf::deviation(box(1, 1, 1), tf::mesh{}).has_value());
 }
 
 TEST_CASE("deviation: points outside, inside and on a box") {

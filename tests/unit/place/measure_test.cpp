@@ -42,8 +42,8 @@ void check_points(const tf::mesh& a, const tf::mesh& b, const tf::mesh_measure& 
 }  // namespace
 
 TEST_CASE("measure: of nothing there is nothing to say") {
-    CHECK_FALSE(tf::measure({}, box(1, 1, 1)).has_value());
-    CHECK_FALSE(tf::measure(box(1, 1, 1), {}).has_value());
+    CHECK_FALSE(tf::measure(tf::mesh{}, box(1, 1, 1)).has_value());
+    CHECK_FALSE(tf::measure(box(1, 1, 1), tf::mesh{}).has_value());
 }
 
 TEST_CASE("measure: boxes apart, touching, through each other, inside") {

@@ -260,21 +260,21 @@ TEST_CASE(
     "way") {
     const prepared_mesh a(moved(box(1, 1, 1), {0.5, 0.5, 0.75}));
     const prepared_mesh floor(box(2, 2, 1)), turned(test::inside_out(box(2, 2, 1)));
-    const auto at = tf::measure_among(a, {&floor, 1}), same = tf::measure_among(a, {&turned, 1});
+    const auto at = tf::measure_among(a, floor), same = tf::measure_among(a, turned);
     REQUIRE(at.contacts.size() == same.contacts.size());
     CHECK(at.at_place == tf::standing::penetrating);
     CHECK(same.at_place == at.at_place);
     for (std::size_t i = 0; i < at.contacts.size(); ++i)
         CHECK(same.contacts[i].normal == at.contacts[i].normal);
-    CHECK(tf::separate(a, {&turned, 1}).travel == tf::separate(a, {&floor, 1}).travel);
+    CHECK(tf::separate(a, turned).travel == tf::separate(a, floor).travel);
 }
 
 TEST_CASE("contacts are classified as the faces lie at the place") {
     const prepared_mesh floor(box(4, 4, 1));
     const auto classes_at = [&](double z, double clearance) {
         const prepared_mesh a(moved(box(1, 1, 1), {1.25, 1.5, z}));
-        const auto at = tf::measure_among(a, {&floor, 1}, {.clearance = clearance});
-        auto found = tf::classify_contacts(a, {&floor, 1}, at);
+        const auto at = tf::measure_among(a, floor, {.clearance = clearance});
+        auto found = tf::classify_contacts(a, floor, at);
         if (found.fixed[0].empty()) found.fixed[0].resize(1);
         return std::pair(*std::max_element(found.moving.begin(), found.moving.end()),
                          *std::max_element(found.fixed[0].begin(), found.fixed[0].end()));
