@@ -308,7 +308,7 @@ near_result boolean_of_joined(std::span<const mesh_view> views,
     return boolean_of(bundled, expression, rest, is_left);
 }
 
-near_result boolean_of(std::span<const mesh_operand> operands, std::span<const mesh_view> views,
+near_result boolean_of(std::span<const mesh_ref> operands, std::span<const mesh_view> views,
                        const boolean_expression& expression, boolean_options options,
                        left_faces is_left = nullptr) {
     options.volumes = options.volumes && views.size() == 2;
@@ -342,18 +342,23 @@ std::optional<near_result> union_without_gaps(const char* function,
     rest.face_groups = groups;
     rest.volumes = false;
     const std::vector<mesh_view> all = gaps.operands();
-    const std::vector<mesh_operand> given(all.begin(), all.end());
+    const std::vector<mesh_ref> given(all.begin(), all.end());
     near_result made = boolean_of(given, all, gaps.expression(), rest);
     gaps.name_sources(made.result);
     if (made.result.certificate) made.result.statistics.filled_faces = gaps.size();
     return made;
 }
 
-boolean_result evaluate(const char* function, std::span<const mesh_operand> operands,
+std::vector<mesh_view> views_of(std::span<const mesh_ref> operands) {
+    std::vector<mesh_view> views;
+    for (const mesh_ref& operand : operands) views.push_back(operand.view());
+    return views;
+}
+
+boolean_result evaluate(const char* function, std::span<const mesh_ref> operands,
                         const boolean_expression& expression, boolean_options options,
                         left_faces is_left = nullptr) {
-    std::vector<mesh_view> views;
-    for (const mesh_operand& operand : operands) views.push_back(operand.view());
+    const std::vector<mesh_view> views = views_of(operands);
     // Where few pairs are looked for and many found, the search begins once more.
     const progress_callback given = std::move(options.progress);
     detail::base::work_progress heard(given);
@@ -379,47 +384,44 @@ resolved_operand resolved(mesh_view mesh, const Make& make) {
 
 }  // namespace
 
-boolean_result boolean(std::span<const mesh_view> operands, const boolean_expression& expression,
+boolean_result boolean(const mesh_refs& operands, const boolean_expression& expression,
                        const boolean_options& options) {
-    return boolean(std::vector<mesh_operand>(operands.begin(), operands.end()), expression,
-                   options);
+    return evaluate("boolean", operands.all(), expression, options);
 }
 
-boolean_result boolean(std::span<const mesh_operand> operands, const boolean_expression& expression,
+boolean_result boolean(const mesh_refs& operands, const char* formula,
                        const boolean_options& options) {
-    return evaluate("boolean", operands, expression, options);
+    return boolean(operands, boolean_expression(formula, operands.size()), options);
 }
 
-boolean_result unite(const mesh_operand& a, const mesh_operand& b, const boolean_options& options) {
+boolean_result unite(const mesh_ref& a, const mesh_ref& b, const boolean_options& options) {
     return evaluate("unite", std::array{a, b}, boolean_expression::union_of(2), options);
 }
 
-boolean_result intersection(const mesh_operand& a, const mesh_operand& b,
-                            const boolean_options& options) {
+boolean_result intersection(const mesh_ref& a, const mesh_ref& b, const boolean_options& options) {
     return evaluate("intersection", std::array{a, b}, boolean_expression::intersection_of(2),
                     options);
 }
 
-boolean_result subtract(const mesh_operand& a, const mesh_operand& b,
-                        const boolean_options& options) {
+boolean_result subtract(const mesh_ref& a, const mesh_ref& b, const boolean_options& options) {
     return evaluate("subtract", std::array{a, b}, boolean_expression::difference_of(2), options);
 }
 
-boolean_result symmetric_difference(const mesh_operand& a, const mesh_operand& b,
+boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,
                                     const boolean_options& options) {
     return evaluate("symmetric_difference", std::array{a, b}, boolean_expression::xor_of(2),
                     options);
 }
 
-boolean_result clip(std::span<const mesh_view> operands, std::uint32_t sheet,
+boolean_result clip(const mesh_refs& operands, std::uint32_t sheet,
                     const boolean_expression& expression, const boolean_options& options) {
-    return evaluate("clip", operands, options, false, [&](auto given, const auto& how) {
-        return clip_of(given, sheet, expression, how);
-    });
+    return evaluate(
+        "clip", views_of(operands.all()), options, false,
+        [&](auto given, const auto& how) { return clip_of(given, sheet, expression, how); });
 }
 
-boolean_result split(std::span<const mesh_view> operands, const boolean_options& options) {
-    return evaluate("split", operands, options, false, split_of);
+boolean_result split(const mesh_refs& operands, const boolean_options& options) {
+    return evaluate("split", views_of(operands.all()), options, false, split_of);
 }
 
 resolved_operand detail::boolean::resolve_by_split(mesh_view mesh, const boolean_options& options) {
@@ -431,7 +433,7 @@ resolved_operand detail::boolean::resolve_by_split(mesh_view mesh, const boolean
 
 resolved_operand detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
     return resolved(mesh, [&](left_faces is_left) {
-        return evaluate("resolve_self_intersections", std::array{mesh_operand(mesh)},
+        return evaluate("resolve_self_intersections", std::array{mesh_ref(mesh)},
                         boolean_expression::union_of(1), options, is_left);
     });
 }
@@ -458,8 +460,8 @@ treeform::mesh boolean_result::value() && {
     return std::move(mesh);
 }
 
-certificate check_solid(mesh_view mesh, const progress_callback& progress) {
-    return detail::boolean::check_solid("check_solid", mesh, progress);
+certificate check_solid(const mesh_ref& mesh, const progress_callback& progress) {
+    return detail::boolean::check_solid("check_solid", mesh.view(), progress);
 }
 
 certificate detail::boolean::check_solid(const char* called, mesh_view mesh,

@@ -13,7 +13,7 @@
 
 namespace treeform::detail::boolean {
 
-bundled_operands::bundled_operands(std::span<const mesh_operand> operands) {
+bundled_operands::bundled_operands(std::span<const mesh_ref> operands) {
     std::array<const prepared_mesh*, 2> meshes{};
     for (std::size_t k = 0; k < 2; ++k) {
         meshes[k] = k < operands.size() ? operands[k].prepared() : nullptr;

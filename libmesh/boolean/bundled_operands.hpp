@@ -23,7 +23,7 @@ namespace treeform::detail::boolean {
 class bundled_operands {
   public:
     /// At most two, as they are.
-    explicit bundled_operands(std::span<const mesh_operand> operands);
+    explicit bundled_operands(std::span<const mesh_ref> operands);
     /// Any number, which may be open.
     explicit bundled_operands(std::span<const mesh_view> operands);
     /// Number `sheet`, and all others as one mesh.

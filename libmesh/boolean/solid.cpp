@@ -68,7 +68,7 @@ solid operator^(const solid& a, const solid& b) { return solid::join(a, '^', b);
 
 const boolean_result& solid::result() const {
     formula_->evaluated.call([&] {
-        std::vector<mesh_operand> operands;
+        std::vector<mesh_ref> operands;
         std::map<const prepared_mesh*, std::size_t> number;
         std::string text;
         // What is still to be written down, the next last: a formula or a character.

@@ -46,7 +46,9 @@ std::array<triangle3, 12> sides(const point3& min, const point3& max) {
 
 }  // namespace
 
-std::vector<std::uint32_t> faces_in_box(mesh_view mesh, const point3& min, const point3& max) {
+std::vector<std::uint32_t> faces_in_box(const mesh_ref& given, const point3& min,
+                                        const point3& max) {
+    const mesh_view mesh = given.view();
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (!std::isfinite(min[axis]) || !std::isfinite(max[axis]) || min[axis] > max[axis])
             throw std::invalid_argument(

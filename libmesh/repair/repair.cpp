@@ -470,7 +470,8 @@ class repairer {
 
 }  // namespace
 
-repair_result repair(mesh_view mesh, const repair_options& options) {
+repair_result repair(const mesh_ref& given, const repair_options& options) {
+    const mesh_view mesh = given.view();
     using detail::base::require_share;
     if (options.gap) require_share("repair", *options.gap, "the gap");
     require_share("repair", options.strays, "the share of strays");

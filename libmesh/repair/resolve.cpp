@@ -99,8 +99,9 @@ resolved_mesh by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& 
 
 }  // namespace
 
-resolve_result resolve_self_intersections(mesh_view mesh, resolve_mode mode,
+resolve_result resolve_self_intersections(const mesh_ref& given, resolve_mode mode,
                                           const resolve_options& options) {
+    const mesh_view mesh = given.view();
     using detail::base::require_limit;
     require_limit("resolve_self_intersections", options.max_loss, "the largest loss");
     require_limit("resolve_self_intersections", options.max_displacement,

@@ -72,7 +72,8 @@ std::string solid_defects::message() const {
     return text.empty() ? "none" : text;
 }
 
-solid_defects find_solid_defects(mesh_view given, const progress_callback& progress) {
+solid_defects find_solid_defects(const mesh_ref& of, const progress_callback& progress) {
+    const mesh_view given = of.view();
     solid_defects found;
     const mesh_defects elements = find_defects(given);
     found.nonfinite_vertices = elements.nonfinite_points.size();

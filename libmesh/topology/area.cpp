@@ -28,7 +28,8 @@ double area(mesh_view mesh) {
 
 namespace treeform {
 
-double surface_area(mesh_view mesh) {
+double surface_area(const mesh_ref& given) {
+    const mesh_view mesh = given.view();
     detail::base::check_faces("surface_area", mesh.points.size(), mesh.faces);
     return detail::topology::area(mesh);
 }

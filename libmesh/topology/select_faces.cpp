@@ -6,7 +6,8 @@
 
 namespace treeform {
 
-mesh select_faces(mesh_view mesh, std::span<const std::uint32_t> faces) {
+mesh select_faces(const mesh_ref& given, std::span<const std::uint32_t> faces) {
+    const mesh_view mesh = given.view();
     constexpr std::uint32_t unused = 0xffffffffU;
     std::vector<std::uint32_t> new_of_old(mesh.points.size(), unused);
     for (const std::uint32_t f : faces) {

@@ -52,7 +52,8 @@ void look_at(mesh_view mesh, std::size_t i, mesh_defects& found) {
 
 }  // namespace
 
-mesh_defects find_defects(mesh_view mesh) {
+mesh_defects find_defects(const mesh_ref& given) {
+    const mesh_view mesh = given.view();
     constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
     if (mesh.points.size() > most || mesh.faces.size() > most)
         throw std::invalid_argument("treeform::find_defects: more than 2^32 - 1 points or faces");

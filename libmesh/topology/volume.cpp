@@ -147,7 +147,8 @@ base::double_double six_volumes(mesh_view surface) {
 
 }  // namespace detail::topology
 
-double signed_volume(mesh_view mesh) {
+double signed_volume(const mesh_ref& given) {
+    const mesh_view mesh = given.view();
     using detail::base::double_double;
     using namespace detail::topology;
     detail::base::check_faces("signed_volume", mesh.points.size(), mesh.faces);

@@ -117,7 +117,8 @@ certificate checked(mesh_view made, precision of, detail::base::work_progress& p
 
 }  // namespace
 
-wrap_result wrap(mesh_view mesh, double size, const wrap_options& options) {
+wrap_result wrap(const mesh_ref& given, double size, const wrap_options& options) {
+    const mesh_view mesh = given.view();
     require_length(size, "the size");
     const double offset = options.offset.value_or(usual_share * size);
     require_length(offset, "the offset");

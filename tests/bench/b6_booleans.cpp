@@ -85,7 +85,7 @@ contest contest_of(const two_solids& solids, const std::string& suffix,
         .name = solids.name + suffix,
         .size = [solids] { return solids.a()->faces.size() + solids.b()->faces.size(); },
         .long_runs = 3};
-    const auto evaluate = [make](const mesh_operand& a, const mesh_operand& b) {
+    const auto evaluate = [make](const mesh_ref& a, const mesh_ref& b) {
         return boolean({a, b}, make());
     };
     // Meshes as they come, and prepared ones that have been asked about before.

@@ -67,7 +67,7 @@ TEST_CASE("truth: every boolean of every pair of files has the volume of the exa
             const tf::boolean_result result = tf::boolean(operands, {q.formula, 3});
             if (are_sound) {
                 const tf::boolean_result quick = tf::boolean(
-                    {tf::mesh_operand(prepared[0]), tf::mesh_operand(prepared[1])}, {q.formula, 2});
+                    {tf::mesh_ref(prepared[0]), tf::mesh_ref(prepared[1])}, {q.formula, 2});
                 CHECK(quick.mesh == result.mesh);
                 CHECK(quick.face_source == result.face_source);
                 CHECK(quick.vertex_source == result.vertex_source);

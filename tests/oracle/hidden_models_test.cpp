@@ -128,7 +128,7 @@ void check_chain(const std::vector<tf::mesh>& chain, test::random& source, chain
     }
     std::vector<tf::prepared_mesh> prepared;
     for (const tf::mesh& mesh : chain) prepared.push_back(tf::prepared_mesh::borrow(mesh));
-    const std::vector<tf::mesh_operand> operands(prepared.begin(), prepared.end());
+    const std::vector<tf::mesh_ref> operands(prepared.begin(), prepared.end());
     check_same_bytes(result, tf::boolean(operands, expression, {.inside = rule}));
 
     test::exact_numbers numbers;

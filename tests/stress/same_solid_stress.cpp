@@ -196,7 +196,7 @@ void check_again(const question& asked, const tf::boolean_result& result) {
     std::vector<tf::prepared_mesh> prepared;
     for (const tf::mesh& operand : asked.operands)
         prepared.push_back(tf::prepared_mesh::borrow(operand));
-    const std::vector<tf::mesh_operand> operands(prepared.begin(), prepared.end());
+    const std::vector<tf::mesh_ref> operands(prepared.begin(), prepared.end());
     check_same_bytes(result, tf::boolean(operands, asked.expression(), asked.options));
 }
 

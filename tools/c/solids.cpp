@@ -31,8 +31,8 @@ tf::boolean_options options_of(const treeform_boolean_options* options) {
     return how;
 }
 
-std::vector<tf::mesh_operand> operands_of(const treeform_mesh* const* operands, std::size_t count) {
-    std::vector<tf::mesh_operand> result;
+std::vector<tf::mesh_ref> operands_of(const treeform_mesh* const* operands, std::size_t count) {
+    std::vector<tf::mesh_ref> result;
     for (const treeform_mesh* one : glue::array(operands, count, "operands"))
         if (glue::need(one, "an operand").one_use)
             result.emplace_back(one->prepared->view());
@@ -75,7 +75,7 @@ treeform_code give_solid(tf::boolean_result from, treeform_boolean_result** out)
     return code;
 }
 
-using binary = tf::boolean_result (*)(const tf::mesh_operand&, const tf::mesh_operand&,
+using binary = tf::boolean_result (*)(const tf::mesh_ref&, const tf::mesh_ref&,
                                       const tf::boolean_options&);
 
 treeform_code combine(binary operation, const treeform_mesh* a, const treeform_mesh* b,

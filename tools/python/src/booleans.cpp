@@ -18,8 +18,8 @@
 namespace binding {
 namespace {
 
-std::vector<tf::mesh_operand> operands_of(const held_meshes& meshes) {
-    std::vector<tf::mesh_operand> all;
+std::vector<tf::mesh_ref> operands_of(const held_meshes& meshes) {
+    std::vector<tf::mesh_ref> all;
     for (const held_mesh* one : meshes)
         one->keep() ? all.emplace_back(one->prepared()) : all.emplace_back(one->view());
     return all;
@@ -137,7 +137,7 @@ py::dict boolean(const held_meshes& meshes, const std::string& operation,
     attributes.keep_apart(options);
     const std::vector<std::uint32_t> groups = attributes.face_groups();
     options.face_groups = groups;
-    const std::vector<tf::mesh_operand> operands = operands_of(meshes);
+    const std::vector<tf::mesh_ref> operands = operands_of(meshes);
     return as_dict(run([&](const tf::progress_callback& report) {
                        options.progress = report;
                        return tf::boolean(operands, expression, options);

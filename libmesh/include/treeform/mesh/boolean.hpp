@@ -5,13 +5,12 @@
 #include <treeform/mesh/boolean_expression.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -24,22 +23,6 @@ enum class fill_rule : std::uint8_t {
     nonzero,  ///< any number of times except 0
     odd,      ///< an odd number of times
     positive  ///< once or more
-};
-
-/// An operand of a set operation: refers to a mesh or a prepared mesh.
-class mesh_operand {
-  public:
-    mesh_operand(mesh_view mesh) : view_(mesh) {}    // NOLINT: meant to be implicit
-    mesh_operand(const mesh& mesh) : view_(mesh) {}  // NOLINT
-    mesh_operand(const prepared_mesh& mesh)          // NOLINT
-        : view_(mesh.view()), prepared_(&mesh) {}
-
-    [[nodiscard]] mesh_view view() const { return view_; }
-    [[nodiscard]] const prepared_mesh* prepared() const { return prepared_; }
-
-  private:
-    mesh_view view_;
-    const prepared_mesh* prepared_ = nullptr;
 };
 
 struct boolean_options {
@@ -156,30 +139,22 @@ struct TREEFORM_API boolean_result {
 ///         that meet in few places, that of finding these (prepared meshes: once) and of a copy. With
 ///         a `gap`, O(P) more for the P pairs of faces whose boxes are that near
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API boolean_result boolean(std::span<const mesh_view> operands,
+[[nodiscard]] TREEFORM_API boolean_result boolean(const mesh_refs& operands,
                                                   const boolean_expression& expression,
                                                   const boolean_options& options = {});
-
-/// The same for meshes and prepared meshes: `boolean({a, b, c}, {"(a-b)*c", 3})`.
-[[nodiscard]] TREEFORM_API boolean_result boolean(std::span<const mesh_operand> operands,
-                                                  const boolean_expression& expression,
+/// The same by a formula: `boolean({a, b, c}, "(a-b)*c")`. See `boolean_expression`.
+[[nodiscard]] TREEFORM_API boolean_result boolean(const mesh_refs& operands, const char* formula,
                                                   const boolean_options& options = {});
-[[nodiscard]] inline boolean_result boolean(std::initializer_list<mesh_operand> operands,
-                                            const boolean_expression& expression,
-                                            const boolean_options& options = {}) {
-    return boolean(std::span(operands.begin(), operands.size()), expression, options);
-}
 
 /// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
 /// exactly one of them (symmetric_difference). For everything else, see `boolean`.
-[[nodiscard]] TREEFORM_API boolean_result unite(const mesh_operand& a, const mesh_operand& b,
+[[nodiscard]] TREEFORM_API boolean_result unite(const mesh_ref& a, const mesh_ref& b,
                                                 const boolean_options& options = {});
-[[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_operand& a, const mesh_operand& b,
+[[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_ref& a, const mesh_ref& b,
                                                        const boolean_options& options = {});
-[[nodiscard]] TREEFORM_API boolean_result subtract(const mesh_operand& a, const mesh_operand& b,
+[[nodiscard]] TREEFORM_API boolean_result subtract(const mesh_ref& a, const mesh_ref& b,
                                                    const boolean_options& options = {});
-[[nodiscard]] TREEFORM_API boolean_result symmetric_difference(const mesh_operand& a,
-                                                               const mesh_operand& b,
+[[nodiscard]] TREEFORM_API boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,
                                                                const boolean_options& options = {});
 
 /// An open surface cut by solids: the pieces of operand `sheet` for which `expression` is true. A
@@ -195,8 +170,7 @@ struct TREEFORM_API boolean_result {
 ///         `min_volume` or `gap`
 /// \cost   faces of solids that do not reach into the box of a face of the sheet are not looked at
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API boolean_result clip(std::span<const mesh_view> operands,
-                                               std::uint32_t sheet,
+[[nodiscard]] TREEFORM_API boolean_result clip(const mesh_refs& operands, std::uint32_t sheet,
                                                const boolean_expression& expression,
                                                const boolean_options& options = {});
 
@@ -207,7 +181,7 @@ struct TREEFORM_API boolean_result {
 ///
 /// \throws std::invalid_argument as `boolean`, and for `min_volume` or `gap`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API boolean_result split(std::span<const mesh_view> operands,
+[[nodiscard]] TREEFORM_API boolean_result split(const mesh_refs& operands,
                                                 const boolean_options& options = {});
 
 /// Whether a mesh bounds a solid, as an operand of `boolean` has to. The certificate is ok, or says
@@ -216,7 +190,7 @@ struct TREEFORM_API boolean_result {
 ///
 /// \throws std::invalid_argument as `boolean`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API certificate check_solid(mesh_view mesh,
+[[nodiscard]] TREEFORM_API certificate check_solid(const mesh_ref& mesh,
                                                    const progress_callback& progress = {});
 
 }  // namespace treeform

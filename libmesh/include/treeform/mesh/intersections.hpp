@@ -86,7 +86,7 @@ struct mesh_positions {
 ///         naming the lowest face with a corner out of range
 /// \cost   O(F) time
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> faces_in_box(mesh_view mesh,
+[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> faces_in_box(const mesh_ref& mesh,
                                                                    const point3& min,
                                                                    const point3& max);
 

@@ -64,6 +64,7 @@ class mesh_refs {
             mesh_refs(const Many& meshes TREEFORM_LIFETIMEBOUND)  // NOLINT
         : refs_(std::ranges::begin(meshes), std::ranges::end(meshes)) {}
 
+    [[nodiscard]] std::span<const mesh_ref> all() const { return refs_; }
     [[nodiscard]] std::size_t size() const { return refs_.size(); }
     [[nodiscard]] bool empty() const { return refs_.empty(); }
     [[nodiscard]] const mesh_ref& operator[](std::size_t i) const { return refs_[i]; }

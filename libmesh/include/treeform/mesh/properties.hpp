@@ -4,6 +4,7 @@
 /// its flat and cylindrical regions.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -34,7 +35,7 @@ struct mesh_defects {
 /// \throws std::invalid_argument for more than 2^32 - 1 points or faces
 /// \cost   O(V + F) time, memory for what is found
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh_defects find_defects(mesh_view mesh);
+[[nodiscard]] TREEFORM_API mesh_defects find_defects(const mesh_ref& mesh);
 
 /// Counts over the faces with three different corner numbers. Faces that repeat a corner have no
 /// edges here and are counted separately. Faces with collinear corners, and duplicates, are counted
@@ -91,7 +92,7 @@ struct topology_counts {
 /// \same   on any number of threads
 /// \source Dekker, A Floating-Point Technique for Extending the Available Precision, Numer. Math.
 ///         18 (1971)
-[[nodiscard]] TREEFORM_API double signed_volume(mesh_view mesh);
+[[nodiscard]] TREEFORM_API double signed_volume(const mesh_ref& mesh);
 
 /// The sum of the areas of all faces, in square units; rounded as sums of doubles are.
 ///
@@ -99,7 +100,7 @@ struct topology_counts {
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(F)
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API double surface_area(mesh_view mesh);
+[[nodiscard]] TREEFORM_API double surface_area(const mesh_ref& mesh);
 
 /// Of a solid of density 1.
 struct mass_properties {
@@ -132,7 +133,8 @@ struct mass_properties {
 ///         corner out of range
 /// \cost   O(V + F) time
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh select_faces(mesh_view mesh, std::span<const std::uint32_t> faces);
+[[nodiscard]] TREEFORM_API mesh select_faces(const mesh_ref& mesh,
+                                             std::span<const std::uint32_t> faces);
 
 /// Whether faces are compared in their order, each from its first corner on.
 enum class face_order : std::uint8_t { kept, any };

@@ -7,6 +7,7 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -97,8 +98,9 @@ struct TREEFORM_API resolve_result {
 ///         a component is inward; for `remove`, one `self_intersections` a round, and for a hole of n
 ///         vertices O(n^3) when n <= 200, else O(n^2)
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API resolve_result resolve_self_intersections(
-    mesh_view mesh, resolve_mode mode = resolve_mode::outer, const resolve_options& options = {});
+[[nodiscard]] TREEFORM_API resolve_result
+resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mode::outer,
+                           const resolve_options& options = {});
 
 /// What is inside, for `repair`.
 enum class repair_rule : std::uint8_t {
@@ -214,7 +216,8 @@ struct TREEFORM_API repair_result {
 /// \cost   O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
 ///         n edges O(n^3) up to 100, then O(n^2)
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API repair_result repair(mesh_view mesh, const repair_options& options = {});
+[[nodiscard]] TREEFORM_API repair_result repair(const mesh_ref& mesh,
+                                                const repair_options& options = {});
 
 /// What keeps a mesh from being a solid. Points with equal coordinates are one.
 struct TREEFORM_API solid_defects {
@@ -244,7 +247,7 @@ struct TREEFORM_API solid_defects {
 /// \throws std::invalid_argument as `self_intersections`, but not for corners
 /// \cost   O(V log V + F log F), and as `self_intersections`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API solid_defects find_solid_defects(mesh_view mesh,
+[[nodiscard]] TREEFORM_API solid_defects find_solid_defects(const mesh_ref& mesh,
                                                             const progress_callback& progress = {});
 
 }  // namespace treeform

@@ -6,6 +6,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -68,7 +69,7 @@ struct TREEFORM_API wrap_result {
 /// \source Portaneri, Rouxel-Labbe, Hemmer, Cohen-Steiner and Alliez, Alpha Wrapping with an Offset,
 ///         ACM TOG 41 (2022). Tetrahedra are cut out by their circumspheres only where that keeps
 ///         all of them oriented (`orient3d`), so that rounded circumspheres do no harm.
-[[nodiscard]] TREEFORM_API wrap_result wrap(mesh_view mesh, double size,
+[[nodiscard]] TREEFORM_API wrap_result wrap(const mesh_ref& mesh, double size,
                                             const wrap_options& options = {});
 
 }  // namespace treeform
