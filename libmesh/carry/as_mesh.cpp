@@ -4,6 +4,7 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
@@ -78,6 +79,8 @@ std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh) {
     mesh.faces.resize(kept);
     return number_before;
 }
+
+usable_mesh read_mesh(const std::filesystem::path& path) { return as_mesh(read(path)); }
 
 usable_mesh as_mesh(mesh_file file) {
     detail::base::check_faces("as_mesh", file.mesh.points.size(), file.mesh.faces);

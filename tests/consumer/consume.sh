@@ -5,7 +5,7 @@ set -euo pipefail
 project=$SOURCE/tests/consumer/project
 installed=$WORK/${2-static}
 # Programs of one source, as the documents show them. They read models of data/.
-programs=(detect resolve boolean_of_three weld_cloud slide nearest_of_own_struct)
+programs=(detect resolve boolean_of_three weld_cloud slide any_mesh nearest_of_own_struct)
 
 # Installs a build tree, then moves the installation, since a package must not know where it lies.
 install_and_move() { # build tree, kind

@@ -72,7 +72,7 @@ tf::triangle3 triangle(const double* data, const char* name) {
 }
 
 /// `value` of all points being finite, which the library takes for granted.
-double of_finite(const treeform_mesh* mesh, double (*value)(tf::mesh_view)) {
+double of_finite(const treeform_mesh* mesh, double (*value)(const tf::mesh_ref&)) {
     const tf::mesh_view view = glue::view(mesh);
     const double result = value(view);
     if (!std::isfinite(result))

@@ -363,7 +363,7 @@ TEST_CASE("boolean: open operands are named with the place") {
     }
     CHECK(tf::check_solid(open).open_count == 3);
     CHECK(tf::check_solid(box(1, 1, 1)).open.empty());
-    CHECK(tf::check_solid({}).open.empty());
+    CHECK(tf::check_solid(tf::mesh{}).open.empty());
 }
 
 TEST_CASE("boolean: open edges are counted as the operand has them, and by what is wrong there") {

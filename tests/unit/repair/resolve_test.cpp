@@ -213,7 +213,7 @@ TEST_CASE("repair: nothing to repair, nothing changed; on any number of threads"
     const tf::mesh ball = test::ball(2, 1.0);
     for (const mode m : {mode::split, mode::outer, mode::remove}) {
         CHECK(tf::resolve_self_intersections(ball, m).mesh == ball);
-        CHECK(tf::resolve_self_intersections({}, m).certificate);
+        CHECK(tf::resolve_self_intersections(tf::mesh{}, m).certificate);
         const auto all = tf::resolve_self_intersections(two_balls(), m);
         for (const unsigned threads : {1U, 2U, 8U}) {
             const tf::thread_scope scope(threads);

@@ -222,7 +222,7 @@ TEST_CASE("round: flat octahedra that all but lie on each other are united") {
     std::vector<tf::mesh> solids{octahedron(-0x1.f3d4af7028161p-21), second};
     for (tf::mesh& solid : solids) {
         const tf::mesh_view view = solid;
-        tf::boolean_result alone = tf::boolean({&view, 1}, tf::boolean_expression::union_of(1));
+        tf::boolean_result alone = tf::boolean({view}, tf::boolean_expression::union_of(1));
         REQUIRE(alone.certificate);
         solid = std::move(alone.mesh);
     }

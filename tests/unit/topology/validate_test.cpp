@@ -27,7 +27,7 @@ bool degenerate(const tf::point3& a, const tf::point3& b, const tf::point3& c) {
 }  // namespace
 
 TEST_CASE("validate: a clean mesh and an empty one have no defects") {
-    CHECK(tf::find_defects({}) == tf::mesh_defects{});
+    CHECK(tf::find_defects(tf::mesh{}) == tf::mesh_defects{});
     CHECK(tf::find_defects(test::grid(10)) == tf::mesh_defects{});
 }
 

@@ -8,6 +8,7 @@
 #include <treeform/tree/detail/export.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,6 +50,9 @@ struct usable_mesh {
 /// \cost   O(V + F)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API usable_mesh as_mesh(mesh_file file);
+
+/// The mesh of a file: `as_mesh(read(path))`.
+[[nodiscard]] TREEFORM_API usable_mesh read_mesh(const std::filesystem::path& path);
 
 struct part_options {
     /// Whether points with equal coordinates are one vertex.

@@ -23,6 +23,8 @@ class TREEFORM_API solid {
     ///         an operand of `boolean` has to; std::invalid_argument as `boolean`
     /// \cost   as `check_solid`
     explicit solid(treeform::mesh&& owned);
+    /// The same for a copy.
+    explicit solid(const treeform::mesh& mesh) : solid(treeform::mesh(mesh)) {}
     /// The same for a mesh that is shared with other code.
     explicit solid(std::shared_ptr<const prepared_mesh> shared);
 
