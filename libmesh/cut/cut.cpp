@@ -92,14 +92,12 @@ void look_through(cut_piece& piece, const cut_piece& whole, std::uint32_t first_
 
 /// The mesh as the solid that it winds around, or without caps as a surface that meets itself
 /// nowhere.
-cut_piece sound_whole(const mesh_operand& mesh, const cut_options& options,
+cut_piece sound_whole(const mesh_ref& mesh, const cut_options& options,
                       progress_callback progress) {
     const boolean_options how{.max_displacement = options.max_displacement,
                               .keep_cuts = options.keep_cuts,
                               .progress = std::move(progress)};
-    const mesh_view view = mesh.view();
-    boolean_result made =
-        options.caps ? boolean({mesh}, {"a", 1}, how) : split(std::span(&view, 1), how);
+    boolean_result made = options.caps ? boolean(mesh, "a", how) : split(mesh, how);
     cut_piece whole;
     whole.mesh = std::move(made.mesh);
     whole.certificate = std::move(made.certificate);
@@ -123,7 +121,7 @@ void judge(cut_result& result, const work_progress& progress) {
     }
 }
 
-cut_result cut_of(const mesh_operand& mesh, const oriented_plane& plane,
+cut_result cut_of(const mesh_ref& mesh, const oriented_plane& plane,
                   std::span<const double> heights, const cut_options& options) {
     cut_result result;
     result.certificate.precision = options.precision;
@@ -152,19 +150,14 @@ treeform::mesh cut_piece::value() && {
     return std::move(mesh);
 }
 
-cut_result cut(mesh_view mesh, const oriented_plane& plane, std::span<const double> heights,
+cut_result cut(const mesh_ref& mesh, const oriented_plane& plane, std::span<const double> heights,
                const cut_options& options) {
     return cut_of(mesh, plane, heights, options);
 }
 
-cut_result cut(const prepared_mesh& mesh, const oriented_plane& plane,
-               std::span<const double> heights, const cut_options& options) {
-    return cut_of(mesh, plane, heights, options);
-}
-
-cut_result cut_to_fit(mesh_view mesh, const point3& size, const cut_options& options) {
+cut_result cut_to_fit(const mesh_ref& mesh, const point3& size, const cut_options& options) {
     constexpr double most_planes = 0x1p16;
-    const std::optional<box3> box = bounding_box(mesh.points);
+    const std::optional<box3> box = bounding_box(mesh.view().points);
     std::array<std::vector<double>, 3> heights;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double low = box ? box->min[axis] : 0.0, extent = box ? box->max[axis] - low : 0.0;
@@ -172,8 +165,7 @@ cut_result cut_to_fit(mesh_view mesh, const point3& size, const cut_options& opt
         if (!(size[axis] > 0.0) || !(count <= most_planes))
             throw std::invalid_argument(
                 "treeform::cut_to_fit: a size that is not positive, or for which there would be "
-                "more "
-                "than 2^16 planes");
+                "more than 2^16 planes");
         for (double i = 1.0; i < count; i += 1.0)
             heights[axis].push_back(low + extent * (i / count));
     }

@@ -100,7 +100,8 @@ void choose(std::vector<mesh_part>& parts, const components_options& options) {
 
 }  // namespace
 
-std::vector<mesh_part> components(mesh_view mesh, const components_options& options) {
+std::vector<mesh_part> components(const mesh_ref& given, const components_options& options) {
+    const mesh_view mesh = given.view();
     detail::base::check_faces("components", mesh.points.size(), mesh.faces);
     if (!(options.min_volume >= 0.0))
         throw std::invalid_argument("treeform::components: min_volume is negative or NaN");
@@ -123,7 +124,8 @@ std::vector<mesh_part> components(mesh_view mesh, const components_options& opti
     return parts;
 }
 
-mesh_part submesh(mesh_view mesh, std::span<const std::uint32_t> faces) {
+mesh_part submesh(const mesh_ref& given, std::span<const std::uint32_t> faces) {
+    const mesh_view mesh = given.view();
     mesh_part part;
     part.mesh = select_faces(mesh, faces);
     part.face_source.assign(faces.begin(), faces.end());
@@ -135,9 +137,10 @@ mesh_part submesh(mesh_view mesh, std::span<const std::uint32_t> faces) {
     return part;
 }
 
-mesh concatenate(std::span<const mesh_view> meshes) {
+mesh concatenate(const mesh_refs& meshes) {
     mesh all;
-    for (const mesh_view& one : meshes) {
+    for (const mesh_ref& given : meshes) {
+        const mesh_view one = given.view();
         if (all.points.size() + one.points.size() > 0xffffffffU ||
             all.faces.size() + one.faces.size() > 0xffffffffU)
             throw std::length_error("treeform::concatenate: more than 32 bits can number");
@@ -149,7 +152,8 @@ mesh concatenate(std::span<const mesh_view> meshes) {
     return all;
 }
 
-mesh transform_mesh(mesh_view mesh, const transform<3>& by) {
+mesh transform_mesh(const mesh_ref& given, const transform<3>& by) {
+    const mesh_view mesh = given.view();
     treeform::mesh made{{mesh.points.begin(), mesh.points.end()},
                         {mesh.faces.begin(), mesh.faces.end()}};
     for (point3& p : made.points) p = by(p);

@@ -166,16 +166,13 @@ void check_mesh(mesh_view mesh) {
 
 }  // namespace
 
-section_result section(mesh_view mesh, const oriented_plane& plane, std::span<const double> heights,
-                       const section_options& options) {
-    check_mesh(mesh);
-    return sections_of(mesh, detail::weld::join_faces(mesh), plane, heights, options);
-}
-
-section_result section(const prepared_mesh& mesh, const oriented_plane& plane,
+section_result section(const mesh_ref& mesh, const oriented_plane& plane,
                        std::span<const double> heights, const section_options& options) {
     check_mesh(mesh.view());
-    return sections_of(mesh.view(), detail::weld::join_faces(mesh), plane, heights, options);
+    return sections_of(mesh.view(),
+                       mesh.prepared() != nullptr ? detail::weld::join_faces(*mesh.prepared())
+                                                  : detail::weld::join_faces(mesh.view()),
+                       plane, heights, options);
 }
 
 point3 section_result::in_space(const section_layer& layer, const point2& p) const {

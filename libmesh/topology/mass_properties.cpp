@@ -33,7 +33,8 @@ void add_moments(const point3& a, const point3& b, const point3& c, moment_sums&
 
 }  // namespace
 
-std::optional<mass_properties> find_mass_properties(mesh_view mesh) {
+std::optional<mass_properties> find_mass_properties(const mesh_ref& given) {
+    const mesh_view mesh = given.view();
     detail::base::check_faces("find_mass_properties", mesh.points.size(), mesh.faces);
     const std::optional<box3> box = bounding_box(mesh.points);
     if (!box) return {};

@@ -62,7 +62,7 @@ TEST_CASE("components are compact meshes with the numbers of the whole") {
     REQUIRE(two.size() == 2);
     CHECK(two[0].volume + two[1].volume == 9.0);
     CHECK(tf::components(all, {.largest = 0}).empty());
-    CHECK(tf::components({}).empty());
+    CHECK(tf::components(tf::mesh{}).empty());
     CHECK_THROWS_AS((void)tf::components(all, {.min_volume = -1.0}), std::invalid_argument);
 }
 
@@ -137,5 +137,5 @@ TEST_CASE("mass properties are those of boxes and balls, wherever they are") {
     CHECK(back->volume == -one->volume);
     CHECK(back->center == one->center);
     CHECK(back->inertia[0][1] == -one->inertia[0][1]);
-    CHECK_FALSE(tf::find_mass_properties({}).has_value());
+    CHECK_FALSE(tf::find_mass_properties(tf::mesh{}).has_value());
 }

@@ -7,7 +7,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -81,19 +81,12 @@ struct cut_result {
 /// \cost   as `boolean` of the mesh with itself, and O(n log n) for the n faces that are cut; caps
 ///         of n points O(n^1.5)
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API cut_result cut(mesh_view mesh, const oriented_plane& plane,
-                                          std::span<const double> heights,
-                                          const cut_options& options = {});
-[[nodiscard]] TREEFORM_API cut_result cut(const prepared_mesh& mesh, const oriented_plane& plane,
+[[nodiscard]] TREEFORM_API cut_result cut(const mesh_ref& mesh, const oriented_plane& plane,
                                           std::span<const double> heights,
                                           const cut_options& options = {});
 
 /// Both halves: what is below the plane, and what is above.
-[[nodiscard]] inline cut_result cut(mesh_view mesh, const oriented_plane& plane,
-                                    const cut_options& options = {}) {
-    return cut(mesh, plane, std::array{0.0}, options);
-}
-[[nodiscard]] inline cut_result cut(const prepared_mesh& mesh, const oriented_plane& plane,
+[[nodiscard]] inline cut_result cut(const mesh_ref& mesh, const oriented_plane& plane,
                                     const cut_options& options = {}) {
     return cut(mesh, plane, std::array{0.0}, options);
 }
@@ -105,7 +98,7 @@ struct cut_result {
 ///
 /// \throws std::invalid_argument as `cut`, for a size that is not positive, or where there would be
 ///         more than 2^16 planes
-[[nodiscard]] TREEFORM_API cut_result cut_to_fit(mesh_view mesh, const point3& size,
+[[nodiscard]] TREEFORM_API cut_result cut_to_fit(const mesh_ref& mesh, const point3& size,
                                                  const cut_options& options = {});
 
 /// Faces of a mesh by themselves, with the points that they use.
@@ -134,20 +127,21 @@ struct components_options {
 /// \cost   O(V + F); for cavities, as `contains`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::vector<mesh_part> components(
-    mesh_view mesh, const components_options& options = {});
+    const mesh_ref& mesh, const components_options& options = {});
 
 /// The faces of these numbers, in this order, and the points that they use, in the order of `mesh`.
 ///
 /// \throws std::invalid_argument as `select_faces`
-[[nodiscard]] TREEFORM_API mesh_part submesh(mesh_view mesh, std::span<const std::uint32_t> faces);
+[[nodiscard]] TREEFORM_API mesh_part submesh(const mesh_ref& mesh,
+                                             std::span<const std::uint32_t> faces);
 
 /// Points and faces of all meshes, one after the other; nothing is joined.
 ///
 /// \throws std::length_error for more points or faces than 32 bits can number
-[[nodiscard]] TREEFORM_API mesh concatenate(std::span<const mesh_view> meshes);
+[[nodiscard]] TREEFORM_API mesh concatenate(const mesh_refs& meshes);
 
 /// The mesh with its points moved. Where `by` mirrors, faces are turned over, so that they look
 /// outward as before.
-[[nodiscard]] TREEFORM_API mesh transform_mesh(mesh_view mesh, const transform<3>& by);
+[[nodiscard]] TREEFORM_API mesh transform_mesh(const mesh_ref& mesh, const transform<3>& by);
 
 }  // namespace treeform

@@ -124,7 +124,8 @@ struct mass_properties {
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V + F)
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<mass_properties> find_mass_properties(mesh_view mesh);
+[[nodiscard]] TREEFORM_API std::optional<mass_properties> find_mass_properties(
+    const mesh_ref& mesh);
 
 /// A mesh of the given faces, in the order of `faces`, and of the points that they use, in the
 /// order of `mesh`.

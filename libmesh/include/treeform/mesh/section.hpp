@@ -7,7 +7,7 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -114,20 +114,12 @@ struct section_options {
 ///         plane or height that is not finite, or a normal that is zero
 /// \cost   O(V log K + F + S log L) for K planes and L loops in one of S sides
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API section_result section(mesh_view mesh, const oriented_plane& plane,
-                                                  std::span<const double> heights,
-                                                  const section_options& options = {});
-[[nodiscard]] TREEFORM_API section_result section(const prepared_mesh& mesh,
-                                                  const oriented_plane& plane,
+[[nodiscard]] TREEFORM_API section_result section(const mesh_ref& mesh, const oriented_plane& plane,
                                                   std::span<const double> heights,
                                                   const section_options& options = {});
 
 /// The section by `plane` itself.
-[[nodiscard]] inline section_result section(mesh_view mesh, const oriented_plane& plane,
-                                            const section_options& options = {}) {
-    return section(mesh, plane, std::array{0.0}, options);
-}
-[[nodiscard]] inline section_result section(const prepared_mesh& mesh, const oriented_plane& plane,
+[[nodiscard]] inline section_result section(const mesh_ref& mesh, const oriented_plane& plane,
                                             const section_options& options = {}) {
     return section(mesh, plane, std::array{0.0}, options);
 }
