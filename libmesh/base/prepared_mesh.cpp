@@ -1,7 +1,5 @@
 #include <libmesh/base/point_faces.hpp>
 #include <libmesh/base/prepared_slots.hpp>
-#include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -29,8 +27,6 @@ prepared_mesh::prepared_mesh(mesh&& owned) : prepared_mesh() {
     state_->owned = std::move(owned);
     view_ = state_->owned;
 }
-
-prepared_mesh::prepared_mesh(usable_mesh&& owned) : prepared_mesh(std::move(owned.mesh)) {}
 
 prepared_mesh prepared_mesh::borrow(mesh_view view) {
     prepared_mesh result;
@@ -63,8 +59,6 @@ prepared_mesh& prepared_mesh::operator=(prepared_mesh&& other) noexcept {
     state_ = std::move(other.state_);
     return *this;
 }
-
-mesh_ref::mesh_ref(const usable_mesh& mesh) : view_(mesh.mesh) {}
 
 std::uint64_t prepared_mesh::indexes_built() const { return state_->built.load(); }
 

@@ -2,7 +2,6 @@
 /// \file
 /// Meshes that were given in any form, as prepared meshes.
 
-#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -79,6 +80,10 @@ std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh) {
     mesh.faces.resize(kept);
     return number_before;
 }
+
+prepared_mesh::prepared_mesh(usable_mesh&& owned) : prepared_mesh(std::move(owned.mesh)) {}
+
+mesh_ref::mesh_ref(const usable_mesh& mesh) : view_(mesh.mesh) {}
 
 usable_mesh read_mesh(const std::filesystem::path& path) { return as_mesh(read(path)); }
 

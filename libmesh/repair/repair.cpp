@@ -472,10 +472,9 @@ class repairer {
 
 repair_result repair(const mesh_ref& given, const repair_options& options) {
     const mesh_view mesh = given.view();
-    using detail::base::require_share;
-    if (options.gap) require_share("repair", *options.gap, "the gap");
-    require_share("repair", options.strays, "the share of strays");
-    require_share("repair", options.max_loss, "the largest loss");
+    if (options.gap) detail::base::require_share("repair", *options.gap, "the gap");
+    detail::base::require_share("repair", options.strays, "the share of strays");
+    detail::base::require_share("repair", options.max_loss, "the largest loss");
     detail::base::require_limit("repair", options.max_displacement, "the largest displacement");
     detail::base::check_faces("repair", mesh.points.size(), mesh.faces);
     detail::base::check_finite_faces("repair", mesh);

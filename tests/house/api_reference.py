@@ -16,7 +16,7 @@ GROUPS = {
     "files": ("How do I read and write files?", "mesh",
               "read write mesh_file point_stream process_team"),
     "meshes": ("What is a mesh, and what does it carry?", "mesh",
-               "mesh as_mesh properties attributes carry prepared_mesh mesh_ref"),
+               "mesh as_mesh properties attributes carry prepared_mesh"),
     "meeting": ("Which faces meet?", "mesh",
                 "self_intersections intersections curves triangle predicates"),
     "solids": ("How do I make, mend and combine solids?", "mesh",

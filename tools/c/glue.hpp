@@ -6,7 +6,6 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/process_team.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -6,8 +6,8 @@
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>

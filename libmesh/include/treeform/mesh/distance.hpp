@@ -3,7 +3,7 @@
 /// Distances of two meshes, and of points from a mesh. No distance is squared.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/transform.hpp>
 

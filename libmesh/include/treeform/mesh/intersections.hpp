@@ -3,8 +3,8 @@
 /// Intersections of two meshes, and of a mesh with a box.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>

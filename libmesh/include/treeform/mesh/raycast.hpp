@@ -3,7 +3,7 @@
 /// Which faces rays hit, exactly.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/detail/export.hpp>
 

@@ -5,9 +5,7 @@
 ///     tf::mesh solid = tf::repair(mesh).value();
 
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -33,8 +31,7 @@ struct resolve_options {
     /// For `split` and `outer`: as in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
     bool keep_cuts = false;  ///< for `outer`: as in `boolean_options`; `split` keeps all cuts
-    /// For `remove`: delete faces that only touch (`pair_kind::touching`), too. Otherwise they
-    /// stay.
+    /// For `remove`: delete faces that only touch (`pair_kind::touching`), too; else they stay.
     bool touching = false;
     /// For `remove`: give up after making or widening holes this often.
     int removal_rounds = 16;

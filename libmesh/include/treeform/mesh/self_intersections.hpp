@@ -6,8 +6,8 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/process_team.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>

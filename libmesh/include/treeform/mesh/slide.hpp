@@ -3,8 +3,8 @@
 /// Moves a mesh against others: slide, drop, mate (by nearest points, planes or axes), separate.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/mesh_ref.hpp>
 #include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
