@@ -13,7 +13,7 @@ for document in README.md libtree/README.md libmesh/README.md; do
 done
 status=0
 for program in tests/consumer/project/*.cpp; do
-    case $(basename "$program") in main.cpp | other.cpp) continue ;; esac
+    case $(basename "$program") in main.cpp | other.cpp | any_mesh.cpp) continue ;; esac
     shown=0
     for block in "$blocks"/*.cpp; do cmp -s "$program" "$block" && shown=1; done
     ((shown)) || { echo "shown in no document: $program"; status=1; }

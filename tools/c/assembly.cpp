@@ -66,8 +66,7 @@ treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
         how.progress = glue::progress(o);
         const tf::mesh_refs row = glue::refs(parts, count, "parts");
         auto made = glue::make<treeform_clashes>();
-        const tf::clash_result& found =
-            made->keep(tf::clash(row, how));
+        const tf::clash_result& found = made->keep(tf::clash(row, how));
         if (found.cancelled) throw glue::cancelled{};
         std::vector<treeform_part_clash> pairs;
         for (const tf::part_clash& one : found.pairs) pairs.push_back(clash_of(*made, one));

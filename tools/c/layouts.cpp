@@ -171,8 +171,7 @@ treeform_code treeform_pack(const treeform_mesh* const* parts, size_t count,
         glue::start(packing);
         const tf::mesh_refs row = glue::refs(parts, count, "parts");
         auto made = glue::make<treeform_packing>();
-        const tf::packing& found =
-            made->keep(tf::pack(row, options_of(options)));
+        const tf::packing& found = made->keep(tf::pack(row, options_of(options)));
         if (found.certificate.status == tf::status::cancelled) throw glue::cancelled{};
         fill(*made, found);
         const bool all_placed = found.not_placed.empty();

@@ -243,8 +243,7 @@ treeform_code treeform_deviation(const treeform_mesh* a, const treeform_mesh* co
         how.both_ways = o.both_ways != 0;
         how.progress = glue::progress(o);
         const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
-        auto found = tf::deviation(*glue::need(a, "a").prepared,
-                                   row, how);
+        auto found = tf::deviation(*glue::need(a, "a").prepared, row, how);
         if (!found) return;
         if (found->cancelled) throw glue::cancelled{};
         auto made = glue::make<treeform_deviation_result>();

@@ -11,7 +11,6 @@ namespace tf = treeform;
 
 namespace {
 
-
 /// What a placement keeps besides what is handed out.
 struct kept_placement {
     tf::placement at;
@@ -160,44 +159,49 @@ treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* c
                              size_t fixed_count, const double direction[3],
                              const treeform_place_options* options,
                              treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
-        return tf::slide(m, f, glue::point(direction, "direction"),
-                         options_of<tf::slide_options>(options));
-    });
+    return place_among(moving, fixed, fixed_count, placement,
+                       [&](const auto& m, const tf::mesh_refs& f) {
+                           return tf::slide(m, f, glue::point(direction, "direction"),
+                                            options_of<tf::slide_options>(options));
+                       });
 }
 
 treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                             size_t fixed_count, const double* direction,
                             const treeform_place_options* options, treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
-        auto how = options_of<tf::drop_options>(options);
-        if (direction) how.direction = glue::point(direction, "direction");
-        return f.empty() ? tf::drop(m, how) : tf::drop(m, f, how);
-    });
+    return place_among(moving, fixed, fixed_count, placement,
+                       [&](const auto& m, const tf::mesh_refs& f) {
+                           auto how = options_of<tf::drop_options>(options);
+                           if (direction) how.direction = glue::point(direction, "direction");
+                           return f.empty() ? tf::drop(m, how) : tf::drop(m, f, how);
+                       });
 }
 
 treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                             size_t fixed_count, const treeform_place_options* options,
                             treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
-        return tf::mate(m, f, options_of<tf::mate_options>(options));
-    });
+    return place_among(moving, fixed, fixed_count, placement,
+                       [&](const auto& m, const tf::mesh_refs& f) {
+                           return tf::mate(m, f, options_of<tf::mate_options>(options));
+                       });
 }
 
 treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                                 size_t fixed_count, const treeform_place_options* options,
                                 treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
-        return tf::separate(m, f, options_of<tf::separate_options>(options));
-    });
+    return place_among(moving, fixed, fixed_count, placement,
+                       [&](const auto& m, const tf::mesh_refs& f) {
+                           return tf::separate(m, f, options_of<tf::separate_options>(options));
+                       });
 }
 
 treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                                      size_t fixed_count, const treeform_place_options* options,
                                      treeform_placement** placement) {
-    return place_among(moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
-        return tf::measure_among(m, f, options_of<tf::measure_among_options>(options));
-    });
+    return place_among(
+        moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
+            return tf::measure_among(m, f, options_of<tf::measure_among_options>(options));
+        });
 }
 
 treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* const* fixed,
@@ -208,8 +212,7 @@ treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* co
         const tf::prepared_mesh& m = *glue::need(moving, "moving").prepared;
         const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
         tf::turn_result turned =
-            tf::turn(m, row,
-                     {glue::point(origin, "origin"), glue::point(direction, "direction")},
+            tf::turn(m, row, {glue::point(origin, "origin"), glue::point(direction, "direction")},
                      options_of<tf::turn_options>(options));
         auto made = answer_of(std::move(turned.at));
         made->value.angle = turned.angle;
@@ -228,9 +231,9 @@ treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform
         glue::start(placement);
         const tf::prepared_mesh& m = *glue::need(moving, "moving").prepared;
         const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
-        tf::feature_mating mated = tf::mate_features(
-            m, row, feature_of(of_moving, "of_moving"),
-            feature_of(of_fixed, "of_fixed"), options_of<tf::feature_mate_options>(options));
+        tf::feature_mating mated = tf::mate_features(m, row, feature_of(of_moving, "of_moving"),
+                                                     feature_of(of_fixed, "of_fixed"),
+                                                     options_of<tf::feature_mate_options>(options));
         auto made = answer_of(std::move(mated.at));
         made->value.angle = mated.turn_angle;
         made->value.offset = mated.offset;

@@ -172,8 +172,7 @@ TEST_CASE("clouds: what has been slid or separated penetrates nothing as written
             CHECK(std::abs(slid.travel / std::hypot(0.1, 1.0) - time) < 1e-5);
         }
         const tf::mesh within = random_cloud(source, 40, 0.4, {0.5, 0.1, 0.2});
-        const auto out =
-            tf::separate(tf::prepared_mesh::cloud(std::vector(within.points)), fixed);
+        const auto out = tf::separate(tf::prepared_mesh::cloud(std::vector(within.points)), fixed);
         REQUIRE(out);
         CHECK(out.end == tf::placement_end::moved_apart);
         CHECK(relation_by_points(cloud(out.points), solid) != mesh_relation::penetrating);
