@@ -156,16 +156,18 @@ cut_result cut(const mesh_ref& mesh, const oriented_plane& plane, std::span<cons
 }
 
 cut_result cut_to_fit(const mesh_ref& mesh, const point3& size, const cut_options& options) {
-    constexpr double most_planes = 0x1p16;
+    constexpr double most_planes = 0x1p16, most_pieces = 0x1p20;
     const std::optional<box3> box = bounding_box(mesh.view().points);
     std::array<std::vector<double>, 3> heights;
+    double most = 1.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double low = box ? box->min[axis] : 0.0, extent = box ? box->max[axis] - low : 0.0;
         const double count = std::ceil(extent / size[axis]);
-        if (!(size[axis] > 0.0) || !(count <= most_planes))
+        most *= std::max(count, 1.0);
+        if (!(size[axis] > 0.0) || !(count <= most_planes) || most > most_pieces)
             throw std::invalid_argument(
                 "treeform::cut_to_fit: a size that is not positive, or for which there would be "
-                "more than 2^16 planes");
+                "more than 2^16 planes across an axis or 2^20 pieces");
         for (double i = 1.0; i < count; i += 1.0)
             heights[axis].push_back(low + extent * (i / count));
     }

@@ -4,6 +4,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -13,12 +14,13 @@ namespace {
 using detail::base::double_double;
 
 /// Of tetrahedra from one point to faces: 6 times the volume, 24 times the first moments, 120 times
-/// the second ones (xx, yy, zz, yz, zx, xy).
-using moment_sums = std::array<double_double, 10>;
+/// the second ones (xx, yy, zz, yz, zx, xy); 6 times the volumes without their signs.
+using moment_sums = std::array<double_double, 11>;
 
 void add_moments(const point3& a, const point3& b, const point3& c, moment_sums& sums) {
     const double_double volume = detail::base::determinant(a, b, c);
     sums[0] = sums[0] + volume;
+    sums[10] = sums[10] + double_double{std::abs(volume.high), 0.0};
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
         const double first = a[i] + b[i] + c[i];
@@ -57,7 +59,10 @@ std::optional<mass_properties> find_mass_properties(const mesh_ref& given) {
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = all[i] + part[i];
     mass_properties made;
     made.volume = all[0].high / 6.0;
-    if (made.volume == 0.0) return {};
+    // First moments are off by 2^-50 of what is summed: the center by 2^-10 of the box at most.
+    constexpr double least_share = 0x1p-40;
+    if (!(std::abs(all[0].high) > least_share * all[10].high) || !std::isfinite(made.volume))
+        return {};
     point3 off;
     for (std::size_t i = 0; i < 3; ++i) {
         off[i] = all[1 + i].high / 24.0 / made.volume;

@@ -114,6 +114,34 @@ class Cut(ToolTest):
         self.assertEqual(first["inertia"][2][2], 16 * 32 / 12)
         self.assertTrue(first["solid"] and not second["solid"])
         self.assertEqual(second["defects"], "open at 3 edges")
+        self.assertTrue(second["area"] > 0 and second["volume"] is None)  # it ends: around nothing
+        self.assertTrue(second["center"] is None and second["inertia"] is None)
+        report = self.report("parts", "open.obj", "-n", status=0)
+        self.assertIsNone(report["files"][0]["pieces"][0]["volume"])
+        write(self.path("huge.obj"), ([[1e200 * x for x in p] for p in points], faces))
+        run = self.run_tool("info", "huge.obj", status=0)
+        self.assertNotIn("nan", run.text)
+        self.assertIn("beyond what a number can hold", run.err)
+
+    def test_planes_that_meet_nothing_are_told(self):
+        part = self.put_box()
+        for arguments in (["section", part, "--height", "7"], ["section", part, "--layers", "5"],
+                          ["half", part, "--height", "7"], ["pieces", part, "--height", "0.5,7"]):
+            run = self.run_tool(*arguments, "-n", status=0)
+            self.assertIn("the mesh is between heights 0 and 1\n", run.err, msg=arguments)
+        run = self.run_tool("half", part, "--height", "7", "--keep", "above", "-n", status=0)
+        self.assertIn("to be written: the mesh is between heights 0 and 1\n", run.err)
+        for arguments in (["half", part, "--height", "7", "--keep", "below"],
+                          ["pieces", part, "--height", "0.5,0.5"]):
+            self.assertEqual(self.run_tool(*arguments, "-n", status=0).err, "", msg=arguments)
+
+    def test_moves_of_many_pieces_are_one_warning(self):
+        part = self.put_box()
+        run = self.run_tool("pieces", part, "--bed", "0.3,0.3,0.3", "-o", "p.3mf", status=0)
+        self.assertEqual(run.err.count("points moved"), 1)
+        run = self.run_tool("pieces", part, "--bed", "1,1", "--caps", "c", "-o", "p%d.ply",
+                            status=0)
+        self.assertEqual(len(run.err.splitlines()), len(set(run.err.splitlines())))
 
     def test_threads_change_no_byte(self):
         part = self.put_box()
@@ -139,7 +167,7 @@ class Cut(ToolTest):
         for arguments, words in [
                 (["cut", part], "no mode"), (["half", part, "-n"], "give --height or --at"),
                 (["half", part, "--height", "1,2", "-n"], "one --height"),
-                (["half", part, "--height", "x", "-n"], "--height"),
+                (["half", part, "--height", "x", "-n"], "--height x: expected a number"),
                 (["half", part, "--height", "0.5", "-o", "a.stl"], "a_%d.stl"),
                 (["half", part, "--height", "0.5"], "nothing to give back"),
                 (["half", part, "--height", "0.5", "--bed", "1,1", "-n"], "--bed is not for half"),
@@ -148,7 +176,7 @@ class Cut(ToolTest):
                 (["half", part, "--height", "1", "--output-dir", "d"], "--keep below or above"),
                 (["section", part, "-n"], "where?"),
                 (["section", part, "--height", "1", "-o", "a.stl"], "svg, dxf, obj or json"),
-                (["section", part, "--layers", "0", "-n"], "--layers"),
+                (["section", part, "--layers", "0", "-n"], "a thickness above 0"),
                 (["section", part, "--layers", "1", "--height", "1", "-n"], "exclude"),
                 (["section", part, "--height", "1", "--precision", "float", "-n"], "is not for"),
                 (["pieces", part, "-n"], "give --bed or --height"),
@@ -161,6 +189,7 @@ class Cut(ToolTest):
             run = self.run_tool(*arguments, status=2)
             self.assertIn(words, run.err, msg=arguments)
         for arguments in (["pieces", part, "--bed", "1e-6,1", "-n"],
+                          ["pieces", part, "--bed", "1e-3,1e-3,1e-3", "-n"],
                           ["section", part, "--layers", "1e-9", "-n"]):
             self.run_tool(*arguments, status=2)
         self.run_tool("info", "missing.stl", status=3)

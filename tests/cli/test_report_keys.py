@@ -242,7 +242,8 @@ class Reports(PlaceTest):
                 (["section", "part.obj", "--layers", "0.25", "-o", "layers.svg"], 0),
                 (["section", "slit.obj", "nan.obj", "--height", "0.5,2", "-n"], 0),
                 (["parts", "part.obj", "-o", "parts.obj"], 0),
-                (["info", "part.obj", "flat.obj", "missing.obj"], 3)]:
+                (["parts", "slit.obj", "-n"], 0),
+                (["info", "part.obj", "flat.obj", "huge.obj", "missing.obj"], 3)]:
             yield arguments, status
 
     def place(self):

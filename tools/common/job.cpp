@@ -167,12 +167,15 @@ void job::call_ended(bool cancelled) {
 }
 
 void job::warn(const std::string& code, const std::string& text) {
+    json remark{{"code", code}, {"text", text}};
+    const json& said = entry["warnings"];  // perhaps the same, of another piece
+    if (std::find(said.begin(), said.end(), remark) != said.end()) return;
     const auto& inputs = options.inputs;  // one of which the text may be about
     const bool named = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
         return text.starts_with(name_of_input(input) + ": ");
     });
     out.warning(named ? text : name + ": " + text);
-    entry["warnings"].push_back({{"code", code}, {"text", text}});
+    entry["warnings"].push_back(std::move(remark));
 }
 
 void job::warn(const std::vector<tf::io_warning>& remarks, const std::string& whose) {

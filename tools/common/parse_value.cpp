@@ -52,7 +52,8 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
         rest.remove_prefix(1);
     }
     if (values.size() != count || !rest.empty())
-        refuse(option, text, std::to_string(count) + " numbers, separated by commas");
+        refuse(option, text,
+               count == 1 ? "a number" : std::to_string(count) + " numbers, separated by commas");
     return values;
 }
 

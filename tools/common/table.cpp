@@ -14,6 +14,7 @@ namespace {
 using row = std::vector<std::string>;
 
 std::string in_words(const json& number) {
+    if (number.is_boolean()) return number.get<bool>() ? "yes" : "no";
     if (number.is_number_float()) return brief(number.get<double>());
     return number.is_number() ? grouped(number.get<std::uint64_t>()) : "-";
 }

@@ -3,11 +3,15 @@
 #include "tools/common/console.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
 
 namespace tools {
 namespace {
@@ -27,7 +31,48 @@ const char* word_for(const cut_settings& s, std::size_t count) {
     return count == 1 ? " piece" : " pieces";
 }
 
+std::string volume_in_words(const std::optional<double>& volume) {
+    return volume ? "volume " + brief(*volume) : "open";
+}
+
+/// "the mesh is between heights 0 and 1", along the normal.
+std::string heights_in_words(const cut_settings& s, const cut_input& input) {
+    const tf::point3 n = tf::frame_of(s.plane).normal, at = s.plane.at;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& corners : input.file.mesh.faces)
+        for (const std::uint32_t corner : corners) {
+            const tf::point3& p = input.file.mesh.points[corner];
+            const double height = n.x * (p.x - at.x) + n.y * (p.y - at.y) + n.z * (p.z - at.z);
+            low = std::min(low, height);
+            high = std::max(high, height);
+        }
+    return "the mesh is between heights " + brief(low) + " and " + brief(high);
+}
+
+/// Pieces that are empty, so that they are not among those `made`.
+void warn_of_missing(job& work, const cut_settings& s, const cut_input& input, std::size_t made) {
+    const std::string nothing = "nothing is there to be written: ";
+    const bool half_kept = s.mode == cut_mode::half && s.keep != kept_half::both;
+    if (made == 0 && !half_kept) {
+        const bool parts = s.mode == cut_mode::parts;
+        work.warn("no-pieces",
+                  nothing + (parts ? "no part is so large" : "the faces enclose nothing"));
+    } else if (made == 0) {
+        work.warn("no-pieces", nothing + heights_in_words(s, input));
+    } else if (s.mode != cut_mode::parts && !s.bed && !half_kept) {
+        const std::size_t asked = std::set<double>(s.heights.begin(), s.heights.end()).size() + 1;
+        if (made < asked)
+            work.warn("no-cut", counted(asked - made, "piece is", "pieces are") +
+                                    " empty: " + heights_in_words(s, input));
+    }
+}
+
 }  // namespace
+
+std::optional<double> volume_of(const tf::mesh& mesh) {
+    if (tf::find_open_edge(tf::join_equal_points(mesh))) return {};
+    return tf::signed_volume(mesh);
+}
 
 double diagonal_of(const cut_input& input) {
     const auto box = tf::bounding_box(input.file.mesh.points);
@@ -49,7 +94,8 @@ void enter_blank_report(job& work, const cut_settings& s, const cut_input& input
     for (const char* key : {"layers", "pieces", "info", "output"}) entry[key] = nullptr;
 }
 
-void say_section(job& work, const tf::section_result& made) {
+void say_section(job& work, const cut_settings& s, const cut_input& input,
+                 const tf::section_result& made) {
     json layers = json::array();
     std::uint64_t open = 0;
     double area = 0.0, length = 0.0;
@@ -72,6 +118,8 @@ void say_section(job& work, const tf::section_result& made) {
     work.out.result(work.name + ": " + text);
     const auto unsure = std::ranges::count_if(
         made.loops, [](const tf::section_loop& loop) { return !loop.oriented; });
+    if (made.loops.empty())
+        work.warn("no-loops", "nothing is in the planes: " + heights_in_words(s, input));
     if (open > 0)
         work.warn("open-loops", counted(open, "polyline is", "polylines are") +
                                     " open, for the surface ends there; tf-repair closes it");
@@ -81,29 +129,36 @@ void say_section(job& work, const tf::section_result& made) {
                       " along faces that disagree in their orientation; tf-repair turns them");
 }
 
-void say_pieces(job& work, const cut_settings& s, const std::vector<cut_off>& pieces) {
+void say_pieces(job& work, const cut_settings& s, const cut_input& input,
+                const std::vector<cut_off>& pieces) {
     constexpr std::size_t most_in_words = 4;
     json list = json::array();
     std::string text;
     double volume = 0.0;
+    std::size_t open = 0;
     for (const cut_off& piece : pieces) {
         const auto caps = piece.cap.size() - static_cast<std::size_t>(std::ranges::count(
                                                  piece.cap, tf::operand_element::none));
         list.push_back({{"vertices", piece.mesh.points.size()},
                         {"faces", piece.mesh.faces.size()},
                         {"cap_faces", or_null(s.mode != cut_mode::parts, caps)},
-                        {"volume", piece.volume},
+                        {"volume", or_null(piece.volume.has_value(), piece.volume.value_or(0.0))},
                         {"area", piece.area},
                         {"certified",
                          or_null(s.mode != cut_mode::parts, static_cast<bool>(piece.certificate))},
                         {"file", nullptr}});
-        volume += piece.volume;
+        volume += piece.volume.value_or(0.0);
+        open += piece.volume ? 0 : 1;
         text += (text.empty() ? ": " : "; ") + counted(piece.mesh.faces.size(), "face", "faces") +
-                ", volume " + brief(piece.volume);
+                ", " + volume_in_words(piece.volume);
     }
     work.entry["pieces"] = std::move(list);
-    if (pieces.size() > most_in_words) text = ", volume " + brief(volume) + " in all";
+    if (pieces.size() > most_in_words) {
+        text = open < pieces.size() ? ", volume " + brief(volume) + " in all" : std::string();
+        if (open > 0) text += ", " + grouped(open) + " open";
+    }
     work.out.result(work.name + ": " + grouped(pieces.size()) + word_for(s, pieces.size()) + text);
+    warn_of_missing(work, s, input, pieces.size());
 }
 
 void say_info(job& work, const cut_input& input) {
@@ -114,8 +169,10 @@ void say_info(job& work, const cut_input& input) {
     work.call_ended(defects.cancelled);
     defects.unusable_faces += input.left_out;
     const auto box = tf::bounding_box(mesh.points);
-    const auto mass = tf::find_mass_properties(mesh);
     const tf::mesh joined = tf::join_equal_points(mesh);
+    std::optional<double> volume;
+    if (!tf::find_open_edge(joined)) volume = tf::signed_volume(mesh);
+    const auto mass = volume ? tf::find_mass_properties(mesh) : std::nullopt;
     const std::uint64_t parts =
         tf::count_topology(joined.points.size(), joined.faces).components_by_point;
     const double area = tf::surface_area(mesh);
@@ -124,15 +181,19 @@ void say_info(job& work, const cut_input& input) {
                           {"defects", defects.message()},
                           {"components", parts},
                           {"area", area},
-                          {"volume", mass ? mass->volume : 0.0},
+                          {"volume", or_null(volume.has_value(), volume.value_or(0.0))},
                           {"center", mass ? json(mass->center) : json(nullptr)},
                           {"inertia", mass ? json(mass->inertia) : json(nullptr)}};
     std::string text = counted(mesh.faces.size(), "face", "faces");
     if (box) text += ", " + size_in_words(*box);
     text += defects.any() ? ", no solid: " + defects.message() : std::string(", solid");
-    text += "; " + counted(parts, "component", "components") + ", area " + brief(area);
-    if (mass) text += ", volume " + brief(mass->volume) + ", center " + in_words(mass->center);
+    text += "; " + counted(parts, "component", "components");
+    if (std::isfinite(area)) text += ", area " + brief(area);
+    if (volume && std::isfinite(*volume)) text += ", volume " + brief(*volume);
+    if (mass) text += ", center " + in_words(mass->center);
     work.out.result(work.name + ": " + text);
+    if (!std::isfinite(area) || (volume && !std::isfinite(*volume)))
+        work.warn("too-large", "area or volume are beyond what a number can hold");
 }
 
 }  // namespace tools

@@ -52,6 +52,9 @@ struct cut_input {
     [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
 };
 
+/// As `signed_volume`; none of an open surface, of which it would depend on the origin.
+[[nodiscard]] std::optional<double> volume_of(const tf::mesh& mesh);
+
 /// Of the box around it.
 [[nodiscard]] double diagonal_of(const cut_input& input);
 
@@ -61,7 +64,7 @@ struct cut_off {
     std::vector<std::uint32_t> face_source{};
     std::vector<std::uint32_t> vertex_source{};
     std::vector<std::uint32_t> cap{};  ///< as `cut_piece::cap`; empty of parts
-    double volume = 0.0;
+    std::optional<double> volume{};    ///< none of an open surface
     double area = 0.0;
     tf::certificate certificate{};
 };
@@ -70,8 +73,10 @@ struct cut_off {
 void enter_blank_report(job& work, const cut_settings& s, const cut_input& input);
 
 /// Enters and says what there is.
-void say_section(job& work, const tf::section_result& made);
-void say_pieces(job& work, const cut_settings& s, const std::vector<cut_off>& pieces);
+void say_section(job& work, const cut_settings& s, const cut_input& input,
+                 const tf::section_result& made);
+void say_pieces(job& work, const cut_settings& s, const cut_input& input,
+                const std::vector<cut_off>& pieces);
 void say_info(job& work, const cut_input& input);
 
 /// Writes pieces, each to a file of its own, or all to one. \throws failure

@@ -181,10 +181,10 @@ void check_mode(const command_line& line, cut_settings& s) {
     const bool placed = line.given("--at") || line.given("--height");
     if (s.mode == half && !placed) refuse("half: where? give --height or --at");
     if (s.mode == half && s.heights.size() > 1) refuse("half: one --height; pieces takes several");
+    if (line.given("--layers") && s.layers <= 0.0)
+        refuse("--layers: a thickness above 0 is needed");
     if (s.mode == section && !placed && s.layers == 0.0)
         refuse("section: where? give --height, --at or --layers");
-    if (s.layers < 0.0 || (line.given("--layers") && s.layers == 0.0))
-        refuse("--layers: a thickness above 0 is needed");
     if (line.given("--layers") && line.given("--height"))
         refuse("--layers and --height exclude each other");
     if (s.mode == pieces && !placed && !s.bed) refuse("pieces: where? give --bed or --height");
@@ -260,7 +260,7 @@ exit_status make_section(tools::job& work, const cut_input& input, cut_settings 
         made = tf::section(input.file.mesh, s.plane, s.heights, {work.progress("section")});
     }
     work.call_ended(made.status == tf::status::cancelled);
-    tools::say_section(work, made);
+    tools::say_section(work, s, input, made);
     tools::write_page(work, input, "section", true, {}, &made);
     if (s.output.empty() || work.options.dry_run) return tools::done;
     const auto timing = work.time("write");
@@ -283,7 +283,7 @@ std::vector<cut_off> parts_of(const cut_input& input, const cut_settings& s) {
         one.mesh = std::move(part.mesh);
         one.face_source = std::move(part.face_source);
         one.vertex_source = std::move(part.vertex_source);
-        one.volume = part.volume;
+        one.volume = tools::volume_of(one.mesh);
         one.area = part.area;
         one.certificate.precision = input.file.stored_as;
     }
@@ -299,7 +299,7 @@ std::vector<cut_off> pieces_of(tf::cut_result&& made, const cut_settings& s) {
         tf::cut_piece& piece = made.pieces[i];
         if (piece.mesh.faces.empty()) continue;
         cut_off& one = pieces.emplace_back();
-        one.volume = tf::signed_volume(piece.mesh);
+        one.volume = s.open ? tools::volume_of(piece.mesh) : tf::signed_volume(piece.mesh);
         one.area = tf::surface_area(piece.mesh);
         one.mesh = std::move(piece.mesh);
         one.face_source = std::move(piece.face_source);
@@ -358,19 +358,20 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
             return tools::found;
         }
         pieces = pieces_of(std::move(made), s);
-        for (const cut_off& piece : pieces) {
+        const auto furthest = std::ranges::max_element(
+            pieces, {}, [](const cut_off& piece) { return piece.certificate.max_displacement; });
+        if (furthest != pieces.end()) {
             const std::string too_far =
                 tools::move_objection(work.entry, s.rails, tools::diagonal_of(input),
-                                      piece.certificate, piece.mesh.points);
+                                      furthest->certificate, furthest->mesh.points);
             if (!too_far.empty()) {
                 work.out.result(work.name + ": not written: " + too_far);
                 return tools::found;
             }
-            tools::warn_of_moves(work, piece.mesh.points, piece.certificate);
+            tools::warn_of_moves(work, furthest->mesh.points, furthest->certificate);
         }
     }
-    tools::say_pieces(work, s, pieces);
-    if (pieces.empty()) work.warn("no-pieces", "nothing is there to be written");
+    tools::say_pieces(work, s, input, pieces);
     tools::write_page(work, input, s.mode_text, true, pieces, nullptr);
     if (!pieces.empty()) tools::write_pieces(work, s, input, pieces);
     return tools::done;
@@ -386,6 +387,7 @@ int main(int argc, char** argv) {
     common_options options;
     options.suffix = "-cut";
     options.table = {{"faces", "/faces"},
+                     {"solid", "/info/solid", false},
                      {"components", "/info/components"},
                      {"area", "/info/area"},
                      {"volume", "/info/volume"}};

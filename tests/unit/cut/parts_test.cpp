@@ -10,6 +10,7 @@
 #include <support/solids.hpp>
 #include <support/soups.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -138,4 +139,15 @@ TEST_CASE("mass properties are those of boxes and balls, wherever they are") {
     CHECK(back->center == one->center);
     CHECK(back->inertia[0][1] == -one->inertia[0][1]);
     CHECK_FALSE(tf::find_mass_properties(tf::mesh{}).has_value());
+    // Boxes that cancel each other, but for rounding: no volume, and no center out of noise.
+    tf::mesh turned = test::moved(test::box(0.1, 0.7, 0.3), {0.2, 0.1, 0.3});
+    const tf::mesh ahead = turned;
+    for (tf::face& f : turned.faces) std::swap(f[1], f[2]);
+    std::ranges::rotate(turned.faces, turned.faces.begin() + 5);
+    turned.points[0].x += 0x1p-54;
+    CHECK_FALSE(tf::find_mass_properties(test::together(ahead, turned)).has_value());
+    CHECK_FALSE(tf::find_mass_properties(test::box(1e200, 1e200, 1e200)).has_value());
+    const auto thin = tf::find_mass_properties(test::box(1, 1, 1e-9));
+    REQUIRE(thin.has_value());
+    CHECK(thin->center == tf::point3{0.5, 0.5, 0.5e-9});
 }

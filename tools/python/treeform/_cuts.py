@@ -330,7 +330,7 @@ class MassProperties(Result):
 
 def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
     """Volume, center of mass and inertia of what a closed mesh encloses, rounded once from twice
-    the precision; None where the volume is 0.
+    the precision; None where the volume is 0, or noise beside what cancels in it.
 
     >>> import treeform
     >>> cube = treeform.mass_properties(treeform.read("data/cube.stl"))

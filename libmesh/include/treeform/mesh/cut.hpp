@@ -97,7 +97,7 @@ struct cut_result {
 /// y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
 ///
 /// \throws std::invalid_argument as `cut`, for a size that is not positive, or where there would be
-///         more than 2^16 planes
+///         more than 2^16 planes across an axis, or might be more than 2^20 pieces
 [[nodiscard]] TREEFORM_API cut_result cut_to_fit(const mesh_ref& mesh, const point3& size,
                                                  const cut_options& options = {});
 

@@ -113,8 +113,8 @@ struct mass_properties {
 
 /// Volume, center of mass and inertia of what a closed mesh encloses; all with the opposite sign,
 /// but for the center, where it is inside out. A region that the surface winds around several times
-/// counts that often. None where the volume is 0, as of an empty mesh; of an open one, they mean
-/// little.
+/// counts that often. None where the volume is 0, as of an empty mesh, or so small beside what cancels
+/// in its sum that the center would be noise, or not finite; of an open one, they mean little.
 ///
 /// Coordinates are first taken from the middle of the box, which rounds them by at most 2^-53 of
 /// its diagonal; sums are then made in twice the precision of double, of products that are off by

@@ -24,8 +24,8 @@ typedef struct treeform_mass_properties {
     double inertia[9];  ///< 3 by 3, about the center, by axes x, y and z
 } treeform_mass_properties;
 
-/// Volume, center of mass and inertia of what a closed mesh encloses. Where the volume is 0, the
-/// others are NaN. O(F).
+/// Volume, center of mass and inertia of what a closed mesh encloses. Where the volume is 0, or
+/// noise beside what cancels in it, it is 0 and the others are NaN. O(F).
 TREEFORM_C_API treeform_code treeform_find_mass_properties(const treeform_mesh* mesh,
                                                            treeform_mass_properties* properties);
 
