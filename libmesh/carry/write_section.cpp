@@ -39,9 +39,14 @@ class section_writer {
         if (section_.points.empty()) low = high = {};
         const double width = high.x - low.x, height = high.y - low.y;
         out_.put("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"");
-        put_numbers(out_, std::array{low.x, -high.y, width, height}, ' ');
+        // A stroke wider than the loops: they are whole, and a straight line has a height.
+        const double stroke = std::max(width, height) / 1000;
+        put_numbers(
+            out_,
+            std::array{low.x - stroke, -high.y - stroke, width + 2 * stroke, height + 2 * stroke},
+            ' ');
         out_.put("\" stroke=\"black\" stroke-width=\"");
-        out_.number(std::max(width, height) / 1000);
+        out_.number(stroke);
         out_.put("\" fill-rule=\"evenodd\">\n");
         for (std::size_t i = 0; i < section_.layers.size(); ++i) {
             const section_layer& layer = section_.layers[i];

@@ -11,8 +11,6 @@ using detail::place::placing;
 
 using many = std::span<const prepared_mesh>;
 
-many one(const prepared_mesh& mesh) { return {&mesh, 1}; }
-
 /// What `drop` is except for its direction; `bed` is the one that there is without fixed meshes.
 slide_options slide_of(const drop_options& o, const std::optional<double>& bed) {
     return {.clearance = o.clearance,

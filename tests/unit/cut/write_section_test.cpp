@@ -36,7 +36,8 @@ tf::section_result cut_tetrahedron(bool open) {
 TEST_CASE("sections are written as SVG, DXF, OBJ and JSON") {
     const tf::section_result closed = cut_tetrahedron(false);
     CHECK(written(closed, "a.svg") ==
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 -1 1 1\" stroke=\"black\" "
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-0.001 -1.001 1.002 1.002\" "
+          "stroke=\"black\" "
           "stroke-width=\"0.001\" fill-rule=\"evenodd\">\n"
           "<g id=\"layer0\" data-height=\"1\">\n"
           "<path fill=\"silver\" d=\"M0 0L1 0L0 -1Z\"/>\n</g>\n"
