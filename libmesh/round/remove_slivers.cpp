@@ -141,7 +141,9 @@ class sliver_removal {
 
     [[nodiscard]] bool is_thin(const face& f) const {
         for (std::size_t i = 0; i < 3; ++i)
-            if (height(f[i], f[(i + 1) % 3], f[(i + 2) % 3]) < limits_.thin) return true;
+            if (distance(f[i], f[(i + 1) % 3]) < limits_.thin ||
+                height(f[i], f[(i + 1) % 3], f[(i + 2) % 3]) < limits_.thin)
+                return true;
         return collinear(at(f[0]), at(f[1]), at(f[2]));
     }
 

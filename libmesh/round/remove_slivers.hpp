@@ -14,8 +14,9 @@ namespace treeform::detail::round {
 
 struct sliver_limits {
     double reach = 0.0;  ///< what is no further apart than this may be joined
-    double thin = 0.0;   ///< faces of less height are as bad as faces that meet
-    bool solid = true;   ///< the faces bound a solid: what covers each other back to back goes
+    double thin =
+        0.0;  ///< faces with less height, or a shorter edge, are as bad as faces that meet
+    bool solid = true;  ///< the faces bound a solid: what covers each other back to back goes
     std::span<const std::uint8_t> fixed{};  ///< [F] 1 for faces that are to stay; or empty
     /// About as many pairs of faces are held against each other.
     std::uint64_t looks = std::numeric_limits<std::uint64_t>::max();

@@ -94,6 +94,28 @@ TEST_CASE("slivers: thin faces that are listed go where that leaves fewer") {
     CHECK(all_meeting(tf::mesh{.points = mesh.points, .faces = left.faces}).empty());
 }
 
+TEST_CASE("slivers: needles go, of which two corners all but coincide") {
+    // The corner of face 0 gets a twin next to it, on the way to the middle of the opposite edge.
+    tf::mesh mesh = test::box(1, 1, 1);
+    const auto [a, b, c] = mesh.faces[0];
+    const tf::point3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
+    tf::point3 twin;
+    for (std::size_t k = 0; k < 3; ++k) twin[k] = p[k] + 0x1p-45 * (q[k] + r[k] - 2 * p[k]);
+    const auto made = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back(twin);
+    mesh.faces[0] = {made, b, c};
+    mesh.faces.push_back({a, b, made});
+    mesh.faces.push_back({made, c, a});
+    REQUIRE(tf::self_intersections(mesh).pairs.empty());
+    std::vector<tf::face_pair> listed;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) listed.push_back({f, f});
+    const slivers_removed left =
+        remove_slivers(mesh, listed, {.reach = 1e-9, .thin = 1e-10, .solid = true});
+    CHECK(left.faces.size() == 12);
+    CHECK(left.changes == 1);
+    CHECK(tf::self_intersections(tf::mesh{mesh.points, left.faces}).pairs.empty());
+}
+
 TEST_CASE("slivers: thick faces that meet stay for others to cut") {
     const tf::mesh mesh =
         test::together(test::box(1, 1, 1), test::moved(test::box(1, 1, 1), {0.5, 0.25, 0.25}));
