@@ -1,6 +1,7 @@
 // To be preloaded, or linked (`fail_allocations`): allocations fail from the TREEFORM_FAIL_AT-th on, counted from 1, or that one alone
 // where TREEFORM_FAIL_ONCE is set. At the end, their number goes to the file TREEFORM_COUNT_TO.
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -39,10 +40,14 @@ std::atomic<bool> once{false};
     close(file);
 }
 
+/// While a library is opened, as TBB opens its allocator when it is first used: glibc itself faults
+/// where memory runs out then.
+[[gnu::tls_model("initial-exec")]] thread_local bool is_opening = false;
+
 bool fails() {
     const long number = ++count;
     const long at = fail_at;
-    if (at == 0 || (once ? number != at : number < at)) return false;
+    if (at == 0 || is_opening || (once ? number != at : number < at)) return false;
     errno = ENOMEM;
     return true;
 }
@@ -56,6 +61,14 @@ void fail_allocations(long n, int alone) {
     fail_at = 0;
     once = alone != 0;
     fail_at = n > 0 ? count + n : 0;
+}
+
+void* dlopen(const char* path, int mode) {
+    is_opening = true;
+    const auto open = reinterpret_cast<void* (*)(const char*, int)>(dlsym(RTLD_NEXT, "dlopen"));
+    void* const library = open(path, mode);
+    is_opening = false;
+    return library;
 }
 
 void* malloc(std::size_t size) { return fails() ? nullptr : __libc_malloc(size); }
