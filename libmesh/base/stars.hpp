@@ -23,6 +23,23 @@ namespace treeform::detail::base {
     return std::min(point_count, most);
 }
 
+/// For each point, the faces with three different corners of which it is one, but not the highest:
+/// those with edges from it to higher points. Every edge is at its lower end, once.
+/// \cost as `fill_stars`
+template <class Index>
+[[nodiscard]] faces_by_point<Index> faces_at_lower_ends(std::size_t point_count,
+                                                        std::span<const face> faces) {
+    return fill_stars<Index>(nameable_points(point_count), faces.size(),
+                             [&](std::size_t i, const auto& visit) {
+                                 if (!has_three_corners(faces[i])) return;
+                                 const auto& [a, b, c] = faces[i];
+                                 const std::uint32_t low = std::min(std::min(a, b), c);
+                                 const std::uint32_t high = std::max(std::max(a, b), c);
+                                 visit(low);
+                                 visit(a ^ b ^ c ^ low ^ high);
+                             });
+}
+
 /// For each point, the numbers of the faces with three different corners that have it as one.
 ///
 /// \pre  every corner is less than `point_count`

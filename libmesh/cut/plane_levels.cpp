@@ -87,7 +87,7 @@ class level_finder {
     }
 
   private:
-    /// Exact along an axis, but for its scale.
+    /// Exact along an axis, up to a scale.
     [[nodiscard]] reckoned height(const point3& p) const {
         if (axis_ < 0) return along(levels_.normal, p);
         const auto i = static_cast<std::size_t>(axis_);

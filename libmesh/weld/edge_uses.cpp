@@ -40,16 +40,7 @@ edge_uses::edge_uses(std::size_t point_count, std::span<const face> faces,
           })) {}
 
 std::uint64_t count_nonmanifold_edges(std::size_t point_count, std::span<const face> faces) {
-    // Faces at their two lower corners, where their edges begin.
-    const auto at = base::fill_stars<std::size_t>(
-        base::nameable_points(point_count), faces.size(), [&](std::size_t i, const auto& visit) {
-            if (!base::has_three_corners(faces[i])) return;
-            const auto& [a, b, c] = faces[i];
-            const std::uint32_t low = std::min(std::min(a, b), c);
-            const std::uint32_t high = std::max(std::max(a, b), c);
-            visit(low);
-            visit(a ^ b ^ c ^ low ^ high);
-        });
+    const auto at = base::faces_at_lower_ends<std::size_t>(point_count, faces);
     constexpr std::size_t star_grain = std::size_t{1} << 10, few = 2;
     std::vector<std::uint64_t> found(chunk_count(at.end.size(), star_grain), 0);
     for_chunks(at.end.size(), star_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {

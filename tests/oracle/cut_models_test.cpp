@@ -4,25 +4,19 @@
 ///
 /// TREEFORM_STRESS_COUNT is the number of planes for each model (default 6).
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/read.hpp>
-#include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
-#include <support/models.hpp>
 #include <support/random.hpp>
+#include <support/real_solids.hpp>
 #include <support/settings.hpp>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <filesystem>
-#include <string>
 
 namespace {
 
@@ -48,17 +42,7 @@ tf::oriented_plane plane_in(const tf::mesh& mesh, test::random& source) {
 TEST_CASE("real solids fall apart into certified pieces that add up") {
     NEEDS_MODELS();
     std::uint64_t cuts = 0, models = 0;
-    for (const std::string& file : test::files_with_truth(test::models_folder())) {
-        CAPTURE(file);
-        const std::filesystem::path path = test::models_folder() / file;
-        if (std::filesystem::file_size(path) > 2'000'000) continue;
-        tf::mesh mesh;
-        try {
-            mesh = tf::as_mesh(tf::read(path)).mesh;
-        } catch (const std::exception&) {
-            continue;
-        }
-        if (mesh.faces.empty() || tf::find_solid_defects(mesh).any()) continue;
+    test::for_each_solid(2'000'000, [&](const tf::mesh& mesh) {
         test::random source(++models);
         const double volume = tf::signed_volume(mesh), area = tf::surface_area(mesh);
         const tf::prepared_mesh prepared = tf::prepared_mesh::borrow(mesh);
@@ -79,7 +63,7 @@ TEST_CASE("real solids fall apart into certified pieces that add up") {
             CHECK(section.layers[0].area >= -1e-12 * area);
             ++cuts;
         }
-    }
+    });
     CHECK(models > 20);
     MESSAGE(cuts << " cuts of " << models << " models");
 }

@@ -7,8 +7,6 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/read.hpp>
-#include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/tf.hpp>
 
@@ -16,8 +14,8 @@
 #include <CGAL/Polygon_mesh_slicer.h>
 #include <CGAL/Surface_mesh.h>
 #include <doctest/doctest.h>
-#include <support/models.hpp>
 #include <support/random.hpp>
+#include <support/real_solids.hpp>
 #include <support/settings.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
@@ -136,18 +134,6 @@ TEST_CASE("sections of solids are those of CGAL") {
 TEST_CASE("sections of real solids are those of CGAL") {
     NEEDS_MODELS();
     std::size_t tried = 0;
-    for (const std::string& file : test::files_with_truth(test::models_folder())) {
-        CAPTURE(file);
-        const std::filesystem::path path = test::models_folder() / file;
-        if (std::filesystem::file_size(path) > 4'000'000) continue;
-        tf::mesh mesh;
-        try {
-            mesh = tf::as_mesh(tf::read(path)).mesh;
-        } catch (const std::exception&) {
-            continue;
-        }
-        if (mesh.faces.empty() || tf::find_solid_defects(mesh).any()) continue;
-        check_sections(mesh, ++tried);
-    }
+    test::for_each_solid(4'000'000, [&](const tf::mesh& mesh) { check_sections(mesh, ++tried); });
     CHECK(tried > 20);
 }

@@ -36,7 +36,7 @@ std::string volume_in_words(const std::optional<double>& volume) {
 }
 
 /// "the mesh is between heights 0 and 1", along the normal.
-std::string heights_in_words(const cut_settings& s, const cut_input& input) {
+std::string heights_in_words(const cut_settings& s, const usable_input& input) {
     const tf::point3 n = tf::frame_of(s.plane).normal, at = s.plane.at;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const auto& corners : input.file.mesh.faces)
@@ -50,7 +50,8 @@ std::string heights_in_words(const cut_settings& s, const cut_input& input) {
 }
 
 /// Pieces that are empty, so that they are not among those `made`.
-void warn_of_missing(job& work, const cut_settings& s, const cut_input& input, std::size_t made) {
+void warn_of_missing(job& work, const cut_settings& s, const usable_input& input,
+                     std::size_t made) {
     const std::string nothing = "nothing is there to be written: ";
     const bool half_kept = s.mode == cut_mode::half && s.keep != kept_half::both;
     if (made == 0 && !half_kept) {
@@ -74,12 +75,12 @@ std::optional<double> volume_of(const tf::mesh& mesh) {
     return tf::signed_volume(mesh);
 }
 
-double diagonal_of(const cut_input& input) {
+double diagonal_of(const usable_input& input) {
     const auto box = tf::bounding_box(input.file.mesh.points);
     return box ? tf::diagonal(*box) : 0.0;
 }
 
-void enter_blank_report(job& work, const cut_settings& s, const cut_input& input) {
+void enter_blank_report(job& work, const cut_settings& s, const usable_input& input) {
     json& entry = work.entry;
     entry["mode"] = cut_modes[static_cast<std::size_t>(s.mode)];
     entry["vertices"] = input.file.mesh.points.size();
@@ -94,7 +95,7 @@ void enter_blank_report(job& work, const cut_settings& s, const cut_input& input
     for (const char* key : {"layers", "pieces", "info", "output"}) entry[key] = nullptr;
 }
 
-void say_section(job& work, const cut_settings& s, const cut_input& input,
+void say_section(job& work, const cut_settings& s, const usable_input& input,
                  const tf::section_result& made) {
     json layers = json::array();
     std::uint64_t open = 0;
@@ -129,7 +130,7 @@ void say_section(job& work, const cut_settings& s, const cut_input& input,
                       " along faces that disagree in their orientation; tf-repair turns them");
 }
 
-void say_pieces(job& work, const cut_settings& s, const cut_input& input,
+void say_pieces(job& work, const cut_settings& s, const usable_input& input,
                 const std::vector<cut_off>& pieces) {
     constexpr std::size_t most_in_words = 4;
     json list = json::array();
@@ -161,7 +162,7 @@ void say_pieces(job& work, const cut_settings& s, const cut_input& input,
     warn_of_missing(work, s, input, pieces.size());
 }
 
-void say_info(job& work, const cut_input& input) {
+void say_info(job& work, const usable_input& input) {
     const tf::mesh& mesh = input.file.mesh;
     const auto timing = work.time("check");
     tf::solid_defects defects =

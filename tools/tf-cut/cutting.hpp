@@ -5,6 +5,7 @@
 #include "tools/common/parse_value.hpp"
 #include "tools/common/rails.hpp"
 #include "tools/common/run.hpp"
+#include "tools/common/usable_input.hpp"
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -43,20 +44,11 @@ struct cut_settings {
     std::filesystem::path output{};
 };
 
-/// A file, and its triangles that can be computed with.
-struct cut_input {
-    tf::mesh_file file{};
-    std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
-    std::uint64_t left_out = 0;                     ///< triangles with a corner that is not finite
-
-    [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
-};
-
 /// As `signed_volume`; none of an open surface, of which it would depend on the origin.
 [[nodiscard]] std::optional<double> volume_of(const tf::mesh& mesh);
 
 /// Of the box around it.
-[[nodiscard]] double diagonal_of(const cut_input& input);
+[[nodiscard]] double diagonal_of(const usable_input& input);
 
 /// A piece or part.
 struct cut_off {
@@ -70,17 +62,17 @@ struct cut_off {
 };
 
 /// Keys of a report for which nothing has been done yet.
-void enter_blank_report(job& work, const cut_settings& s, const cut_input& input);
+void enter_blank_report(job& work, const cut_settings& s, const usable_input& input);
 
 /// Enters and says what there is.
-void say_section(job& work, const cut_settings& s, const cut_input& input,
+void say_section(job& work, const cut_settings& s, const usable_input& input,
                  const tf::section_result& made);
-void say_pieces(job& work, const cut_settings& s, const cut_input& input,
+void say_pieces(job& work, const cut_settings& s, const usable_input& input,
                 const std::vector<cut_off>& pieces);
-void say_info(job& work, const cut_input& input);
+void say_info(job& work, const usable_input& input);
 
 /// Writes pieces, each to a file of its own, or all to one. \throws failure
-void write_pieces(job& work, const cut_settings& s, const cut_input& input,
+void write_pieces(job& work, const cut_settings& s, const usable_input& input,
                   std::vector<cut_off>& pieces);
 
 /// That pieces can be written so: --output with "%d", or a format with objects. \throws failure
@@ -88,7 +80,7 @@ void write_pieces(job& work, const cut_settings& s, const cut_input& input,
 void check_pieces_path(const common_options& options, std::size_t pieces);
 
 /// Page and picture, where they are asked for.
-void write_page(job& work, const cut_input& input, const std::string& verdict, bool good,
+void write_page(job& work, const usable_input& input, const std::string& verdict, bool good,
                 const std::vector<cut_off>& pieces, const tf::section_result* section);
 
 }  // namespace tools

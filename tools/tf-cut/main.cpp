@@ -1,7 +1,6 @@
 /// \file
 /// tf-cut: sections, halves and pieces of meshes by planes; their parts; what they are.
 
-#include "tools/common/arrangeable.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/console.hpp"
@@ -22,12 +21,12 @@ namespace {
 
 using tools::command_line;
 using tools::common_options;
-using tools::cut_input;
 using tools::cut_mode;
 using tools::cut_off;
 using tools::cut_settings;
 using tools::exit_status;
 using tools::refuse;
+using tools::usable_input;
 
 const std::vector<std::string> of_planes{"--normal", "--at", "--height"};
 const std::vector<std::string> of_one{"--in-place", "--output-dir", "--suffix"};
@@ -220,22 +219,6 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
     tools::require_output(line, options);
 }
 
-cut_input read_mesh(tools::job& work) {
-    cut_input input;
-    input.file = work.read();
-    const auto timing = work.time("prepare");
-    tf::mesh& mesh = input.file.mesh;
-    const std::size_t triangles = mesh.faces.size();
-    input.triangle_of_face = tf::drop_unusable_faces(mesh);
-    input.left_out = triangles - mesh.faces.size();
-    work.warn_of_non_finite(input.left_out, "face", "faces");
-    if (mesh.faces.empty())
-        throw tools::failure(tools::bad_input, "no-triangles",
-                             work.name + ": no triangle with finite coordinates");
-    tools::check_arrangeable(work.name, mesh);
-    return input;
-}
-
 /// What `make` returns; where its arguments do not suit the mesh, the option is to blame.
 template <class Make>
 auto suitable(const char* option, const Make& make) {
@@ -247,7 +230,7 @@ auto suitable(const char* option, const Make& make) {
     }
 }
 
-exit_status make_section(tools::job& work, const cut_input& input, cut_settings s) {
+exit_status make_section(tools::job& work, const usable_input& input, cut_settings s) {
     if (s.layers > 0.0) {
         s.heights = suitable("--layers", [&] {
             return tf::layer_heights(input.file.mesh.points, s.plane, s.layers);
@@ -274,7 +257,7 @@ exit_status make_section(tools::job& work, const cut_input& input, cut_settings 
     return tools::done;
 }
 
-std::vector<cut_off> parts_of(const cut_input& input, const cut_settings& s) {
+std::vector<cut_off> parts_of(const usable_input& input, const cut_settings& s) {
     tf::components_options options{.min_volume = s.min_volume};
     if (s.largest > 0) options.largest = s.largest;
     std::vector<cut_off> parts;
@@ -310,7 +293,7 @@ std::vector<cut_off> pieces_of(tf::cut_result&& made, const cut_settings& s) {
     return pieces;
 }
 
-tf::cut_result cut(tools::job& work, const cut_input& input, const cut_settings& s) {
+tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settings& s) {
     const auto timing = work.time("cut");
     std::optional<tools::written_form> form;
     if (const auto output = tools::mesh_output(work.options, work.path))
@@ -332,7 +315,7 @@ tf::cut_result cut(tools::job& work, const cut_input& input, const cut_settings&
 
 exit_status look_at(tools::job& work, const cut_settings& s) {
     tools::check_outputs(work, {}, {s.output});
-    const cut_input input = read_mesh(work);
+    const usable_input input = tools::read_usable(work);
     tools::enter_blank_report(work, s, input);
     if (s.mode == cut_mode::section) return make_section(work, input, s);
     if (s.mode == cut_mode::info) {

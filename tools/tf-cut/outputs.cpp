@@ -28,7 +28,7 @@ bool has_objects(const std::string& format) {
 }
 
 /// The file of what was made, with the attributes of the input.
-tf::mesh_file carried(const cut_settings& s, const cut_input& input, cut_off&& piece) {
+tf::mesh_file carried(const cut_settings& s, const usable_input& input, cut_off&& piece) {
     tf::mesh_file file = file_of(std::move(piece.mesh), piece.certificate);
     tf::carry(file, input.source(), piece.face_source, piece.vertex_source);
     if (!s.caps.empty()) {
@@ -72,7 +72,7 @@ void check_pieces_path(const common_options& o, std::size_t pieces) {
            example.string() + ", or write 3mf, obj or glb");
 }
 
-void write_pieces(job& work, const cut_settings& s, const cut_input& input,
+void write_pieces(job& work, const cut_settings& s, const usable_input& input,
                   std::vector<cut_off>& pieces) {
     const common_options& o = work.options;
     const auto output = mesh_output(o, work.path);

@@ -55,7 +55,7 @@ void add_section(scene& shown, const tf::section_result& section) {
 
 }  // namespace
 
-void write_page(job& work, const cut_input& input, const std::string& verdict, bool good,
+void write_page(job& work, const usable_input& input, const std::string& verdict, bool good,
                 const std::vector<cut_off>& pieces, const tf::section_result* section) {
     if (!work.options.shows()) return;
     const auto timing = work.time("write");

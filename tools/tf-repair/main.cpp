@@ -1,7 +1,6 @@
 /// \file
 /// tf-repair: makes solids of dirty meshes.
 
-#include "tools/common/arrangeable.hpp"
 #include "tools/common/command_line.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/curve_file.hpp"
@@ -162,18 +161,8 @@ void check_request(const command_line& line, request& r, common_options& options
 }
 
 tools::dirty_mesh read_mesh(tools::job& work) {
-    tools::dirty_mesh input;
-    input.file = work.read();
-    const auto timing = work.time("prepare");
-    tf::mesh& mesh = input.file.mesh;
-    const std::size_t triangles = mesh.faces.size();
-    input.triangle_of_face = tf::drop_unusable_faces(mesh);
-    input.left_out = triangles - mesh.faces.size();
-    work.warn_of_non_finite(input.left_out, "face", "faces");
-    if (mesh.faces.empty())
-        throw tools::failure(tools::bad_input, "no-triangles",
-                             work.name + ": no triangle with finite coordinates");
-    tools::check_arrangeable(work.name, mesh);
+    tools::dirty_mesh input{tools::read_usable(work)};
+    const tf::mesh& mesh = input.file.mesh;
     if (const auto box = tf::bounding_box(mesh.points)) input.diagonal = tf::diagonal(*box);
     input.volume = tf::signed_volume(mesh);
     return input;

@@ -4,6 +4,7 @@
 
 #include "tools/common/rails.hpp"
 #include "tools/common/run.hpp"
+#include "tools/common/usable_input.hpp"
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/repair.hpp>
@@ -33,15 +34,9 @@ struct repair_settings {
     std::filesystem::path curves{};
 };
 
-/// A file, and its triangles that can be computed with.
-struct dirty_mesh {
-    tf::mesh_file file{};
-    std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
-    std::uint64_t left_out = 0;                     ///< triangles with a corner that is not finite
+struct dirty_mesh : usable_input {
     double diagonal = 0.0;
     double volume = 0.0;  ///< signed, of what it is
-
-    [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
 };
 
 /// "repair" of a report for which nothing has been done yet.

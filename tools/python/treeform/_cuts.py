@@ -54,7 +54,7 @@ class Section(Result):
 
     heights: (K,) of the layers.
     origins: (K, 3) a point of each plane.
-    areas: (K,) the area inside; of a solid, exact but for rounding.
+    areas: (K,) the area inside; of a solid, rounded.
     lengths: (K,) of all loops.
     open_counts: (K,) how many polylines are open; none of a solid.
     frame: (3, 3) the axes x and y of `points`, and the normal, each of length 1.

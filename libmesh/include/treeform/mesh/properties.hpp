@@ -111,8 +111,8 @@ struct mass_properties {
     friend bool operator==(const mass_properties&, const mass_properties&) = default;
 };
 
-/// Volume, center of mass and inertia of what a closed mesh encloses; all with the opposite sign,
-/// but for the center, where it is inside out. A region that the surface winds around several times
+/// Volume, center of mass and inertia of what a closed mesh encloses. Where it is inside out, volume
+/// and inertia have the opposite sign. A region that the surface winds around several times
 /// counts that often. None where the volume is 0, as of an empty mesh, or so small beside what cancels
 /// in its sum that the center would be noise, or not finite; of an open one, they mean little.
 ///
