@@ -4,12 +4,11 @@
 #include "bench/models.hpp"
 #include "bench/peers/cgal_corefinement.hpp"
 #include "bench/peers/versions.hpp"
+#include "bench/subdivide.hpp"
 #include "bench/workload.hpp"
 #include <libmesh/base/build_face_tree.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
-
-#include <cmath>
 
 namespace treeform::bench {
 namespace {
@@ -19,22 +18,6 @@ struct two_solids {
     std::function<shared_mesh()> a;
     std::function<shared_mesh()> b;
 };
-
-/// About the center of its box, about the box's shortest axis.
-mesh turned(mesh m, double angle) {
-    const box3 box = bounding_box(m.points).value();
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (box.max[k] - box.min[k] < box.max[axis] - box.min[axis]) axis = k;
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const double cu = 0.5 * (box.min[u] + box.max[u]), cv = 0.5 * (box.min[v] + box.max[v]);
-    for (point3& p : m.points) {
-        const double x = p[u] - cu, y = p[v] - cv;
-        p[u] = cu + (std::cos(angle) * x - std::sin(angle) * y);
-        p[v] = cv + (std::sin(angle) * x + std::cos(angle) * y);
-    }
-    return m;
-}
 
 mesh moved(mesh m, double by_diagonals) {
     const box3 box = bounding_box(m.points).value();

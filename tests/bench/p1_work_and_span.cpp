@@ -8,6 +8,7 @@
 #include "bench/models.hpp"
 #include "bench/span_places.hpp"
 #include "bench/span_recorder.hpp"
+#include "bench/subdivide.hpp"
 #include <libmesh/base/build_face_tree.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
@@ -33,23 +34,6 @@
 
 namespace treeform::bench {
 namespace {
-
-/// About the center of its box, about the box's shortest axis.
-mesh turned_by_degrees(mesh m, double degrees) {
-    const box3 box = bounding_box(m.points).value();
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (box.max[k] - box.min[k] < box.max[axis] - box.min[axis]) axis = k;
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const double cu = 0.5 * (box.min[u] + box.max[u]), cv = 0.5 * (box.min[v] + box.max[v]);
-    const double angle = degrees / 45.0 * std::atan(1.0);
-    for (point3& p : m.points) {
-        const double x = p[u] - cu, y = p[v] - cv;
-        p[u] = cu + (std::cos(angle) * x - std::sin(angle) * y);
-        p[v] = cv + (std::sin(angle) * x + std::cos(angle) * y);
-    }
-    return m;
-}
 
 /// Each face cut into four at the middles of its edges: what meets meets still, in more faces.
 mesh quartered(const mesh& m) {
@@ -79,7 +63,7 @@ struct two_meshes {
 two_meshes with_turned(const setting& setting, const std::string& name, double degrees,
                        const std::function<mesh()>& make) {
     const shared_mesh a = cached(setting, name, make);
-    return {a, std::make_shared<mesh>(turned_by_degrees(*a, degrees))};
+    return {a, std::make_shared<mesh>(turned(*a, degrees / 45.0 * std::atan(1.0)))};
 }
 
 /// A scan that meets itself nowhere, and its like.

@@ -174,4 +174,19 @@ mesh refined(const mesh& base, std::size_t triangles, std::uint64_t seed) {
     return result;
 }
 
+mesh turned(mesh m, double angle) {
+    const box3 box = bounding_box(m.points).value();
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (box.max[k] - box.min[k] < box.max[axis] - box.min[axis]) axis = k;
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const double cu = 0.5 * (box.min[u] + box.max[u]), cv = 0.5 * (box.min[v] + box.max[v]);
+    for (point3& p : m.points) {
+        const double x = p[u] - cu, y = p[v] - cv;
+        p[u] = cu + (std::cos(angle) * x - std::sin(angle) * y);
+        p[v] = cv + (std::sin(angle) * x + std::cos(angle) * y);
+    }
+    return m;
+}
+
 }  // namespace treeform::bench

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Making a larger model of a given one.
+/// Making another model of a given one: larger, or turned.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
@@ -21,5 +21,8 @@ namespace treeform::bench {
 /// \throws std::runtime_error when faces of the result meet even so
 /// \same   on any machine, for a seed
 [[nodiscard]] tf::mesh refined(const tf::mesh& base, std::size_t triangles, std::uint64_t seed);
+
+/// About the center of its box, by an angle in radians about the box's shortest axis.
+[[nodiscard]] tf::mesh turned(tf::mesh m, double angle);
 
 }  // namespace treeform::bench
