@@ -2,7 +2,7 @@
 #include <libmesh/arrange/planar_box.hpp>
 #include <libmesh/arrange/planar_triangulation.hpp>
 #include <libmesh/geometry/features.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 
 #include <algorithm>
 #include <cmath>

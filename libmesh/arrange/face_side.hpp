@@ -3,7 +3,7 @@
 /// Sides of faces, which name also how faces lie at an edge.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 
 #include <cstdint>
 

@@ -148,7 +148,7 @@ clash_result clash(const mesh_refs& given_parts, const clash_options& options) {
     });
     clash_result result;
     if (work.cancelled()) {
-        result.cancelled = true;
+        result.status = treeform::status::cancelled;
         return result;
     }
     for (auto& one : found) {

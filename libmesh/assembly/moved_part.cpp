@@ -94,8 +94,8 @@ part_standing moved_part::as_moved(const moved_part& other) const {
     const tree<3> tree_a = build_face_tree(mesh_view{a, of_a.mesh().faces}),
                   tree_b = build_face_tree(mesh_view{b, of_b.mesh().faces});
     const auto how = place::relation_of(
-        place::shape(of_a.whose(), a, tree_a, of_a.vertices(), mirrors(move_)),
-        place::shape(of_b.whose(), b, tree_b, of_b.vertices(), mirrors(other.move_)));
+        place::shape(of_a.whose(), a, tree_a, of_a.vertices(), move_.mirrors()),
+        place::shape(of_b.whose(), b, tree_b, of_b.vertices(), other.move_.mirrors()));
     return {how.relation == mesh_relation::penetrating ? standing::penetrating
             : how.relation == mesh_relation::touching  ? standing::touching
                                                        : standing::separate};

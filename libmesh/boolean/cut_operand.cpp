@@ -109,7 +109,7 @@ known_pairs find_pairs(const prepared_mesh& mesh, const progress_callback& progr
     self_intersection_result met = intersect::pairs_by_tree(
         mesh.view(), build_face_tree(mesh),
         {.vertices = vertex_identity::by_index, .progress = progress}, most);
-    if (met.cancelled) throw stopped{};
+    if (met.status == treeform::status::cancelled) throw stopped{};
     if (met.pairs.size() > most) return {{}, false};
     return {std::move(met.pairs), true};
 }

@@ -9,7 +9,7 @@
 #include <libmesh/boolean/merged_faces.hpp>
 #include <libmesh/boolean/region_triangles.hpp>
 #include <libmesh/weld/edge_uses.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 

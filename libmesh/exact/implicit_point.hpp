@@ -16,7 +16,7 @@
 ///         (2020); their balls: the error analyzes in libmesh/exact/implicit_point.cpp
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 #include <array>

@@ -128,12 +128,12 @@ class way_out_search {
                     box_a_.max[k] + offset[k] < box_b_.min[k];
         if (apart) return true;
         mesh_intersection_options options;
-        options.move_a = translation<3>(offset);
+        options.move_a = transform<3>::translation(offset);
         options.first_only = true;
         options.kinds = pair_kind::crossing;
         const auto found = detail::intersect::mesh_intersections(a_.mesh(), a_.faces(), b_.mesh(),
                                                                  b_.faces(), options, &effort_);
-        if (!found.pairs.empty() || found.cancelled) return false;
+        if (!found.pairs.empty() || found.status == treeform::status::cancelled) return false;
         return !any_inside(parts_a_, offset, b_, box_b_) &&
                !any_inside(parts_b_, scaled(offset, -1.0), a_, box_a_);
     }
@@ -145,7 +145,7 @@ class way_out_search {
         if (!seems_out(offset)) return false;
         const double out = length_ * (1.0 - 0x1p-30);
         impact_options options;
-        options.move_a = translation<3>(offset);
+        options.move_a = transform<3>::translation(offset);
         options.latest = out;
         options.limit = 1;
         const impact back = detail::place::impact_of(a_.mesh(), a_.faces(), b_.mesh(), b_.faces(),

@@ -144,7 +144,7 @@ class clearing {
     /// The nearest pair at the offset within the clearance, over all parts.
     [[nodiscard]] std::optional<closest_points_result> nearest(const point3& offset) const {
         std::optional<closest_points_result> best;
-        const transformed<3> there(tree_, translation<3>(offset));
+        const transformed<3> there(tree_, transform<3>::translation(offset));
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             if (!boxes_within(i, offset)) continue;
             const double radius = best ? best->distance : options_.clearance;
@@ -173,13 +173,14 @@ class clearing {
         // What penetrates with its faces is found without a tree for the place.
         const std::vector<point3> points = points_at(offset);
         const mesh_view there{points, a_.faces};
-        mesh_intersection_options crossing{.move_a = translation<3>(offset), .first_only = true};
+        mesh_intersection_options crossing{.move_a = transform<3>::translation(offset),
+                                           .first_only = true};
         crossing.progress = asking_;
         crossing.kinds = pair_kind::crossing;
         for (const std::size_t i : close) {
             const auto found = intersect::mesh_intersections(
                 a_, tree_, parts_[i].mesh(), parts_[i].faces(), crossing, options_.effort);
-            if (!found.pairs.empty() || found.cancelled) return false;
+            if (!found.pairs.empty() || found.status == treeform::status::cancelled) return false;
         }
         const tree<3> faces = build_face_tree(there);
         for (const std::size_t i : close) {

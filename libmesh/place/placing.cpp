@@ -1,3 +1,4 @@
+#include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/length_of.hpp>
@@ -89,7 +90,7 @@ placement placing::finished() {
     certificate& known = result_.certificate;
     if (placed())
         known.max_displacement =
-            max_displacement(whose_.view().points, result_.matrix, result_.points);
+            detail::max_displacement(whose_.view().points, result_.matrix, result_.points);
     switch (result_.end) {
         case placement_end::no_coordinates:
             known.status = status::not_certified;
@@ -285,7 +286,7 @@ void placing::separate() {
         const box3 there = *box_of_faces({result_.points, whose_.view().faces});
         if (!among_.others_around(there, options_.clearance, parts)) return;
         reach =
-            std::max({2.0 * reach, result_.travel + options_.clearance, diagonal(*box_) * 0x1p-6});
+            std::max({2.0 * reach, result_.travel + options_.clearance, box_->diagonal() * 0x1p-6});
         forget_place();
     }
 }
@@ -337,7 +338,7 @@ void placing::look_at_place() {
         if (!among_.empty()) {
             const box3 box = *box_of_faces(there);
             result_.nearest =
-                among_.nearest(at, box, radius(diagonal(box) * 0x1p-10), work_.part(0.85, 1.0));
+                among_.nearest(at, box, radius(box.diagonal() * 0x1p-10), work_.part(0.85, 1.0));
             over();
         }
         result_.at_place = standing_of(result_.nearest);

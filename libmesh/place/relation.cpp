@@ -1,12 +1,12 @@
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/facing.hpp>
 #include <libmesh/place/point_sides.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct pair_searches {
                                                  const mesh_intersection_options& options) {
         auto found = detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(),
                                                            options, effort);
-        stopped = stopped || found.cancelled;
+        stopped = stopped || found.status == treeform::status::cancelled;
         return found;
     }
 };

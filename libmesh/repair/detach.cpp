@@ -103,7 +103,7 @@ class detacher {
     [[nodiscard]] int most_doublings() const {
         int most = least_doublings;
         const auto box = bounding_box(solid_.points);
-        while (box && std::ldexp(step_, most) < farthest * diagonal(*box)) ++most;
+        while (box && std::ldexp(step_, most) < farthest * box->diagonal()) ++most;
         while (most > 0 && steps(most - 1) > limit_) --most;
         return most;
     }

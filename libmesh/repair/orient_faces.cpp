@@ -1,5 +1,6 @@
 #include <libmesh/repair/edge_parts.hpp>
 #include <libmesh/repair/orient_faces.hpp>
+#include <libmesh/topology/select_faces.hpp>
 #include <libmesh/weld/edge_uses.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/point_location.hpp>

@@ -212,8 +212,9 @@ class remover {
         const auto found =
             self_intersections(now(), {.vertices = vertex_identity::by_index,
                                        .progress = base::part_of(options_.progress, done, done_)});
-        if (found.cancelled) result_.certificate.status = status::cancelled;
-        if (found.cancelled) return false;
+        if (found.status == treeform::status::cancelled)
+            result_.certificate.status = status::cancelled;
+        if (found.status == treeform::status::cancelled) return false;
         for (const std::uint32_t f : find_defects(now()).degenerate_faces) complain(f, f);
         for (const face_pair& pair : found.pairs)
             if (!is_let_be(pair)) complain(pair.a, pair.b);

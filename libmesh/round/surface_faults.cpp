@@ -41,7 +41,7 @@ surface_faults all_faults(mesh_view surface, const surface_check& check) {
     surface_faults result;
     self_intersection_result found = self_intersections(
         surface, {.vertices = vertex_identity::by_index, .progress = check.progress});
-    result.cancelled = found.cancelled;
+    result.cancelled = found.status == treeform::status::cancelled;
     if (result.cancelled) return result;
     result.pairs = std::move(found.pairs);
     result.degenerate = find_defects(surface).degenerate_faces;
@@ -149,7 +149,7 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
         [&] {
             if (check.solid) edges.emplace(surface, near);
         });
-    result.cancelled = found.cancelled;
+    result.cancelled = found.status == treeform::status::cancelled;
     if (result.cancelled) return result;
     for (const face_pair& pair : found.pairs)
         result.pairs.push_back({near[pair.a], near[pair.b], pair.kind});

@@ -74,7 +74,7 @@ class mean_point {
 
 packed_points::packed_points(const mesh_file& header) {
     std::size_t bytes = 3 * sizeof(double);
-    if (const element* const vertices = find_element(header.attributes, "vertex"))
+    if (const element* const vertices = header.attributes.find("vertex"))
         for (std::size_t c = 0; c < vertices->columns.size(); ++c) {
             const column& from = vertices->columns[c];
             if (from.role != column_role::data || from.list_length) continue;

@@ -14,7 +14,7 @@ constexpr std::uint64_t held_bytes = std::uint64_t{1} << 22;
 point_block block_like(const mesh_file& header, std::size_t points) {
     point_block block;
     block.points.resize(points);
-    if (const element* const vertices = find_element(header.attributes, "vertex"))
+    if (const element* const vertices = header.attributes.find("vertex"))
         block.properties = *vertices;
     io::resize_columns(block.properties, points);
     return block;
@@ -53,7 +53,7 @@ void leading_points::take_off(point_block& block) {
     std::vector<std::uint32_t> rest(block.points.size() - some);
     std::iota(rest.begin(), rest.end(), some);
     block.points.erase(block.points.begin(), block.points.begin() + some);
-    block.properties = gather(block.properties, rest);
+    block.properties = block.properties.gathered(rest);
 }
 
 void leading_points::give(const std::function<void(const point_block&)>& write) {

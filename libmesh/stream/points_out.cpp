@@ -28,7 +28,7 @@ void points_out::write(const point_block& block, const std::vector<std::uint32_t
     if (rows.empty()) return;
     some_.points.clear();
     for (const std::uint32_t row : rows) some_.points.push_back(block.points[row]);
-    some_.properties = gather(block.properties, rows);
+    some_.properties = block.properties.gathered(rows);
     if (leading_) leading_->take_off(some_);
     writer_.write(some_);
 }

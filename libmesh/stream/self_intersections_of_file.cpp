@@ -114,7 +114,7 @@ stream_search_result self_intersections_of_file(const fs::path& input,
         if (!all.leads()) return result;
         result = search.finish();
     } catch (const detail::stream::cancelled&) {
-        result.found.cancelled = true;
+        result.found.status = treeform::status::cancelled;
         return result;
     }
     folder.remove();

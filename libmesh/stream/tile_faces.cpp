@@ -245,7 +245,7 @@ void tile_faces::carry(const row_block& from, row_block& to) {
     to.first_corner.assign(1, 0);
     look_up(from.corners);
     for (std::uint32_t f = 0; f < from.rows.rows; ++f) carry_face(from, f, to);
-    to.rows = gather(from.rows, rows_);
+    to.rows = from.rows.gathered(rows_);
 }
 
 void tile_faces::look_up(std::span<const std::uint32_t> corners) {
@@ -314,7 +314,7 @@ void tile_faces::renumber(row_block& block) {
     const std::uint64_t points = steps_.survey().points;
     for (column& c : block.rows.columns)
         if (weld::numbers_points(c))
-            weld::renumber(c, 0, value_count(c), points,
+            weld::renumber(c, 0, c.size(), points,
                            [&](std::uint64_t old) { return number_of(old); });
 }
 

@@ -35,7 +35,7 @@ class output_look {
     explicit output_look(std::function<void(points_view)> take = {}) : take_(std::move(take)) {}
     /// `axes` are the coordinates whose types `head` has to be asked for.
     output_look(const mesh_file& head, const std::array<bool, 3>& axes) : axes_(axes) {
-        if (const element* e = find_element(head.attributes, "vertex")) vertices_ = *e;
+        if (const element* e = head.attributes.find("vertex")) vertices_ = *e;
     }
 
     /// Whether more points can tell more of the types.
@@ -44,7 +44,7 @@ class output_look {
     void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
         point_block some;
         for (const std::uint32_t row : rows) some.points.push_back(block.points[row]);
-        some.properties = gather(block.properties, rows);
+        some.properties = block.properties.gathered(rows);
         write(some);
     }
     void write(const point_block& block) {
@@ -72,7 +72,7 @@ class output_look {
     [[nodiscard]] std::optional<precision> tell_types(mesh_file& head) const {
         if (axes_ == std::array<bool, 3>{}) return std::nullopt;
         const precision as = head.stored_as;
-        element& e = obtain_element(head.attributes, "vertex", 0);
+        element& e = head.attributes.obtain("vertex", 0);
         for (column& c : e.columns)
             if (io::is_axis(c) && outgrown_[io::axis_number(c.role)])
                 c.type = head.stored_as == precision::float32 ? scalar_type::float32
@@ -134,7 +134,7 @@ class giving_back {
   private:
     /// Whether each of a team writes what it is told of.
     [[nodiscard]] bool may_divide() const {
-        const element* const vertices = find_element(head_.attributes, "vertex");
+        const element* const vertices = head_.attributes.find("vertex");
         const bool has_lists =
             vertices != nullptr && std::ranges::any_of(vertices->columns, [](const column& c) {
                 return c.list_length.has_value();
@@ -186,12 +186,11 @@ class giving_back {
         if (faces_ != nullptr) faces_->tell(head_, drops_nothing());
         if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
         if (!asked_.label.empty())
-            written_.label_replaced =
-                set_column(obtain_element(head_.attributes, "vertex", 0),
-                           {.name = asked_.label, .type = scalar_type::uint32});
+            written_.label_replaced = head_.attributes.obtain("vertex", 0)
+                                          .set({.name = asked_.label, .type = scalar_type::uint32});
         if (asked_.withhold)
-            set_column(obtain_element(head_.attributes, "vertex", 0),
-                       {.name = "withheld", .type = scalar_type::uint8});
+            head_.attributes.obtain("vertex", 0)
+                .set({.name = "withheld", .type = scalar_type::uint8});
     }
 
     /// Of the header only the points and what they have.
@@ -201,7 +200,7 @@ class giving_back {
         head.stored_as = head_.stored_as;
         head.las = head_.las;
         head.ranges = head_.ranges;
-        if (const element* vertices = find_element(head_.attributes, "vertex"))
+        if (const element* vertices = head_.attributes.find("vertex"))
             head.attributes.elements.push_back(*vertices);
         return head;
     }
@@ -255,7 +254,7 @@ class giving_back {
     [[nodiscard]] std::array<bool, 3> axes_asked(const std::optional<weld_stream_outputs::file>& to,
                                                  const mesh_file& head, bool means) const {
         std::array<bool, 3> asked{};
-        const element* const vertices = find_element(head.attributes, "vertex");
+        const element* const vertices = head.attributes.find("vertex");
         if (!to || vertices == nullptr) return asked;
         const write_options options = points_out::options_of(*to);
         const io::known_format& format = io::find_format(to->path, options);
@@ -274,7 +273,7 @@ class giving_back {
 
     [[nodiscard]] bool las_is_asked() const {
         const auto may_extend = [](const mesh_file& head) {
-            const element* const vertices = find_element(head.attributes, "vertex");
+            const element* const vertices = head.attributes.find("vertex");
             return vertices != nullptr && !io::is_extended(*head.las) &&
                    std::ranges::any_of(vertices->columns, [](const column& c) {
                        return c.name == "classification" || c.name == "return_number" ||
@@ -370,15 +369,15 @@ class giving_back {
         block.properties.rows = block.points.size();
         if (!asked_.label.empty()) {
             const std::vector<std::uint32_t> groups(groups_.begin(), groups_.end());
-            set_column(block.properties, make_column<std::uint32_t>(asked_.label, groups));
+            block.properties.set(column::of<std::uint32_t>(asked_.label, groups));
         }
         if (!asked_.withhold) return;
         std::vector<std::uint8_t> flags(block.points.size());
-        const column* const before = find_column(block.properties, "withheld");
+        const column* const before = block.properties.find("withheld");
         for (std::size_t i = 0; i < flags.size(); ++i)
-            flags[i] = before != nullptr && !before->list_length && number_at(*before, i) != 0.0;
+            flags[i] = before != nullptr && !before->list_length && before->number(i) != 0.0;
         for (const std::uint32_t row : gone_) flags[row] = 1;
-        set_column(block.properties, make_column<std::uint8_t>("withheld", flags));
+        block.properties.set(column::of<std::uint8_t>("withheld", flags));
     }
 
     /// The groups of the points of a block.

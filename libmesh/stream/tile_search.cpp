@@ -130,7 +130,8 @@ tile_search::tile_search(pacer& pace, const work_folder& folder, const team& of,
       all_(of),
       input_(std::move(input)),
       options_(std::move(options)) {
-    const std::uint64_t all = options_.memory == 0 ? default_memory() : options_.memory;
+    const std::uint64_t all =
+        options_.memory == 0 ? weld_stream_options::default_memory() : options_.memory;
     memory_ = all - std::min(base_bytes, all / 2);
 }
 
@@ -425,7 +426,7 @@ void tile_search::search_as(std::size_t tile) {
     };
     self_intersection_result all = self_intersections(
         m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
-    if (all.cancelled) throw cancelled{};
+    if (all.status == treeform::status::cancelled) throw cancelled{};
     survey_.found.tree_seconds += all.tree_seconds;  // of the tiles that this process searches
     survey_.found.pair_seconds += all.pair_seconds;
     const std::string pairs_name = work_folder::own_name(std::to_string(tile) + ".pairs");

@@ -104,7 +104,7 @@ std::size_t tile_steps::bytes_per_reader() const {
 
 void tile_steps::set_tolerance() {
     const std::optional<box3>& box = survey_.cloud.box;
-    const double share = task_.options.relative ? (box ? diagonal(*box) : 0.0) : 1.0;
+    const double share = task_.options.relative ? (box ? box->diagonal() : 0.0) : 1.0;
     tolerance_ = share * task_.options.tolerance;
     survey_.cloud.tolerance = tolerance_;
 }

@@ -71,7 +71,7 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
         throw std::invalid_argument(
             "treeform::weld_stream: the tolerance must be finite and not negative");
     inputs = named(std::move(inputs));
-    if (options.memory == 0) options.memory = default_memory();
+    if (options.memory == 0) options.memory = weld_stream_options::default_memory();
     const std::uint64_t memory = options.memory;
     options.memory = detail::stream::left_for_points(memory);
     if (options.folder.empty()) options.folder = inputs.paths.front().string() + ".tiles";
@@ -94,8 +94,8 @@ void check_soup(const mesh_file& header, const weld_stream_options& o) {
 bool have_same_values(const mesh_file& a, const mesh_file& b,
                       const std::vector<weld_condition>& conditions) {
     const auto type_in = [](const mesh_file& header, const std::string& name) {
-        const element* const vertices = find_element(header.attributes, "vertex");
-        const column* const found = vertices == nullptr ? nullptr : find_column(*vertices, name);
+        const element* const vertices = header.attributes.find("vertex");
+        const column* const found = vertices == nullptr ? nullptr : vertices->find(name);
         return found == nullptr || found->role != column_role::data ? std::nullopt
                                                                     : std::optional(found->type);
     };
@@ -327,18 +327,18 @@ weld_stream_result weld_stream(const fs::path& input, const fs::path& output,
     return weld_stream(cloud_inputs{.paths = {input}}, outputs, options);
 }
 
-std::uint64_t default_memory() {
+std::uint64_t weld_stream_options::default_memory() {
     const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
 }
 
-std::uint64_t memory_to_weld(const mesh_file& header, std::uint64_t points) {
+std::uint64_t weld_stream_options::memory_to_weld(const mesh_file& header, std::uint64_t points) {
     std::uint64_t properties = 0;
-    if (const element* vertices = find_element(header.attributes, "vertex"))
+    if (const element* vertices = header.attributes.find("vertex"))
         for (const column& c : vertices->columns)
             if (c.role == column_role::data) properties += size_of(c.type);
     const std::uint64_t of_points = points * (sizeof(point3) + 2 * properties + 48);
-    const element* const faces = find_element(header.attributes, "face");
+    const element* const faces = header.attributes.find("face");
     if (faces == nullptr) return of_points;
     std::uint64_t of_face = 2 * sizeof(face) + 40;
     for (const column& c : faces->columns)
@@ -346,9 +346,9 @@ std::uint64_t memory_to_weld(const mesh_file& header, std::uint64_t points) {
     return of_points + faces->rows * of_face;
 }
 
-std::uint64_t memory_to_stream(const mesh_file& header, std::uint64_t points) {
+std::uint64_t weld_stream_options::memory_to_stream(const mesh_file& header, std::uint64_t points) {
     std::uint64_t row = sizeof(point3);
-    if (const element* vertices = find_element(header.attributes, "vertex"))
+    if (const element* vertices = header.attributes.find("vertex"))
         for (const column& c : vertices->columns) row += size_of(c.type);
     constexpr std::uint64_t samples_and_buffers = std::uint64_t{6} << 20;
     const std::uint64_t blocks = 4 * row * detail::stream::points_a_block;

@@ -3,7 +3,7 @@
 /// What merging points did to their places and to the normals of faces.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 
 #include <cstdint>
 #include <span>

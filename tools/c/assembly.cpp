@@ -67,7 +67,7 @@ treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
         const tf::mesh_refs row = glue::refs(parts, count, "parts");
         auto made = glue::make<treeform_clashes>();
         const tf::clash_result& found = made->keep(tf::clash(row, how));
-        if (found.cancelled) throw glue::cancelled{};
+        if (found.status == tf::status::cancelled) throw glue::cancelled{};
         std::vector<treeform_part_clash> pairs;
         for (const tf::part_clash& one : found.pairs) pairs.push_back(clash_of(*made, one));
         treeform_clashes& c = made->value;
@@ -120,7 +120,7 @@ treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t cou
         const std::span where(reinterpret_cast<const tf::transform<3>*>(poses), pose_count * count);
         const tf::mesh_refs row = glue::refs(parts, count, "parts");
         const tf::pose_result found = tf::check_poses(row, where, how);
-        if (found.cancelled) throw glue::cancelled{};
+        if (found.status == tf::status::cancelled) throw glue::cancelled{};
         auto made = glue::make<treeform_poses_result>();
         std::vector<std::size_t> begin{0};
         std::vector<tf::pose_clash> all;

@@ -16,7 +16,7 @@ namespace {
 
 template <class Result>
 void give_pairs(Result from, treeform_pairs** out) {
-    if (from.cancelled) throw glue::cancelled{};
+    if (from.status == tf::status::cancelled) throw glue::cancelled{};
     auto made = glue::make<treeform_pairs>();
     glue::fill(made->value, made->keep(std::move(from)));
     glue::give(std::move(made), out);
@@ -237,7 +237,6 @@ treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* par
             if (looked_at.triangle(f) >= to.mesh.faces.size())
                 throw std::invalid_argument("the part is not of this file");
         const auto found = pairs_of(faces, pairs, count);
-        tf::color_marks(to, looked_at,
-                        tf::mark_faces(faces, found, tf::group_pairs(looked_at.mesh, found)));
+        tf::face_marks(faces, found, tf::group_pairs(looked_at.mesh, found)).color(to, looked_at);
     });
 }

@@ -1,4 +1,5 @@
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -158,7 +159,7 @@ treeform_code treeform_join_equal_points(const treeform_mesh* mesh, treeform_mad
         const tf::mesh_view view = glue::view(mesh);
         tf::equal_points found = tf::find_equal_points(view.points);
         const tf::point_groups groups{std::move(found.new_of_old), std::move(found.first_of_new)};
-        give_made(tf::join_groups(view, groups), groups.group_of_point, made);
+        give_made(groups.joined(view), groups.group_of_point, made);
     });
 }
 
@@ -180,7 +181,7 @@ treeform_code treeform_select_faces(const treeform_mesh* mesh, const uint32_t* f
                                     treeform_made_mesh** made) {
     return glue::guard([&] {
         glue::start(made);
-        give_made(tf::select_faces(glue::view(mesh), glue::array(faces, count, "faces")), {}, made);
+        give_made(tf::submesh(glue::view(mesh), glue::array(faces, count, "faces")).mesh, {}, made);
     });
 }
 
@@ -235,7 +236,7 @@ treeform_code treeform_rounding_effects(const treeform_mesh* mesh, const double*
         if (o.always_compare != 0 && !found.compared) {
             const tf::rounding_defects defects =
                 tf::find_rounding_defects(view, after, glue::progress(o));
-            if (defects.cancelled) throw glue::cancelled{};
+            if (defects.status == tf::status::cancelled) throw glue::cancelled{};
             r.compared = 1;
             r.collapsed = defects.collapsed;
             r.meeting = defects.meeting;

@@ -245,7 +245,7 @@ treeform_code treeform_deviation(const treeform_mesh* a, const treeform_mesh* co
         const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
         auto found = tf::deviation(*glue::need(a, "a").prepared, row, how);
         if (!found) return;
-        if (found->cancelled) throw glue::cancelled{};
+        if (found->status == tf::status::cancelled) throw glue::cancelled{};
         auto made = glue::make<treeform_deviation_result>();
         fill(made->value, made->keep(std::move(*found)));
         glue::give(std::move(made), result);

@@ -1,5 +1,6 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -261,9 +262,11 @@ treeform_code treeform_feature_at_point(const treeform_mesh* mesh, treeform_feat
                                         treeform_features** features) {
     return glue::guard([&] {
         glue::start(features);
-        give_feature(tf::feature_at(glue::view(mesh), kind_of(kind), finite(point, "point"),
-                                    features_of(options)),
-                     features);
+        const tf::mesh_view view = glue::view(mesh);
+        const auto at = tf::closest_point(view, finite(point, "point"));
+        give_feature(
+            at ? tf::feature_at(view, kind_of(kind), at->face, features_of(options)) : std::nullopt,
+            features);
     });
 }
 

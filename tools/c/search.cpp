@@ -31,7 +31,7 @@ tf::stream_search_options options_of(const treeform_search_file_options* options
 }
 
 void give_found(tf::stream_search_result from, treeform_search_result** out) {
-    if (from.found.cancelled) throw glue::cancelled{};
+    if (from.found.status == tf::status::cancelled) throw glue::cancelled{};
     auto made = glue::make<treeform_search_result>();
     const tf::stream_search_result& kept = made->keep(std::move(from));
     treeform_search_result& r = made->value;

@@ -158,7 +158,7 @@ tf::repair_scope scope_of(treeform_repair_scope scope) {
 }
 
 void give_defects(const tf::solid_defects& found, treeform_solid_defects** out) {
-    if (found.cancelled) throw glue::cancelled{};
+    if (found.status == tf::status::cancelled) throw glue::cancelled{};
     auto made = glue::make<treeform_solid_defects>();
     treeform_solid_defects& d = made->value;
     d.any = found.any();

@@ -79,7 +79,7 @@ treeform_code treeform_weld(const treeform_mesh* mesh, const treeform_weld_optio
         if (glue::need(mesh, "mesh").prepared->is_cloud()) {
             const auto& kept = made->keep(tf::weld(glue::view(mesh).points, how));
             fill_from(r, kept);
-            r.mesh = glue::arrays({kept.points, {}});
+            r.mesh = glue::arrays({kept.mesh.points, {}});
         } else {
             const auto& kept =
                 made->keep(glue::asked(mesh, [&](const auto& m) { return tf::weld(m, how); }));
@@ -154,6 +154,6 @@ treeform_code treeform_withhold(treeform_file* file, const treeform_weld_result*
             if (group >= w.group_count)
                 throw std::invalid_argument("group " + std::to_string(group) +
                                             " of the weld is not there");
-        tf::withhold(to, from);
+        from.withhold(to);
     });
 }

@@ -157,12 +157,12 @@ const char* const epilogue =
 std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_settings& s,
                                      const std::vector<tools::solid>& solids) {
     const bool of_properties = !s.no_attributes && tools::wants_mesh(work.options);
-    return tf::face_groups(tools::sources_of(solids), of_properties, s.source_given);
+    return tools::sources_of(solids).face_groups(of_properties, s.source_given);
 }
 
 bool keeps_cuts(const boolean_settings& s, const std::vector<tools::solid>& solids) {
     return s.keep_cuts ||
-           (!s.simplify && !s.no_attributes && tf::has_vertex_values(tools::sources_of(solids)));
+           (!s.simplify && !s.no_attributes && tools::sources_of(solids).has_vertex_values());
 }
 
 tf::boolean_result ask(tools::job& work, const boolean_settings& s,

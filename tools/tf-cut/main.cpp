@@ -303,7 +303,7 @@ tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settin
     const tf::cut_options options{
         .precision = tools::written_precision(work.options, form, {&files, 1}),
         .caps = !s.open,
-        .keep_cuts = tf::merging_mixes_values({&source, 1}),
+        .keep_cuts = tf::carry_sources(source).merging_mixes_values(),
         .progress = work.progress("cut")};
     tf::cut_result made = suitable(s.bed ? "--bed" : "--height", [&] {
         return s.bed ? tf::cut_to_fit(input.file.mesh, *s.bed, options)

@@ -163,7 +163,7 @@ void check_request(const command_line& line, request& r, common_options& options
 tools::dirty_mesh read_mesh(tools::job& work) {
     tools::dirty_mesh input{tools::read_usable(work)};
     const tf::mesh& mesh = input.file.mesh;
-    if (const auto box = tf::bounding_box(mesh.points)) input.diagonal = tf::diagonal(*box);
+    if (const auto box = tf::bounding_box(mesh.points)) input.diagonal = box->diagonal();
     input.volume = tf::signed_volume(mesh);
     return input;
 }
@@ -173,7 +173,7 @@ exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
     tf::solid_defects found =
         tf::find_solid_defects(input.source(), tf::repair_scope::each_part, work.progress("check"));
     found.unusable_faces += input.left_out;
-    work.call_ended(found.cancelled);
+    work.call_ended(found.status == tf::status::cancelled);
     tools::say_defects(work, input, found);
     tools::write_page(work, input, found.message(), !found.any());
     return found.any() ? tools::found : tools::done;

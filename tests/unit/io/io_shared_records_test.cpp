@@ -51,8 +51,7 @@ std::string read_shared(const fs::path& path, std::uint64_t first, const io::rec
         for (std::size_t i = 0; i < block.points.size(); ++i) {
             for (std::size_t k = 0; k < 3; ++k) all += ' ' + std::to_string(block.points[i][k]);
             for (const tf::column& c : block.properties.columns)
-                if (c.role == tf::column_role::data)
-                    all += ' ' + std::to_string(tf::number_at(c, i));
+                if (c.role == tf::column_role::data) all += ' ' + std::to_string(c.number(i));
         }
     for (const tf::io_warning& w : reader.header().warnings) all += w.text;
     return all;

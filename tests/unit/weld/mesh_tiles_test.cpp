@@ -54,10 +54,10 @@ tf::mesh_file soup(std::uint32_t n) {
             number.push_back(static_cast<std::uint16_t>(number.size()));
         }
     file.stored_faces = number.size();
-    tf::element& vertices = tf::obtain_element(file.attributes, "vertex", file.mesh.points.size());
-    tf::set_column(vertices, tf::make_column<std::uint8_t>("red", red));
-    tf::element& faces = tf::obtain_element(file.attributes, "face", number.size());
-    tf::set_column(faces, tf::make_column<std::uint16_t>("number", number));
+    tf::element& vertices = file.attributes.obtain("vertex", file.mesh.points.size());
+    vertices.set(tf::column::of<std::uint8_t>("red", red));
+    tf::element& faces = file.attributes.obtain("face", number.size());
+    faces.set(tf::column::of<std::uint16_t>("number", number));
     return file;
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("mesh tiles: what is not written in tiles, and who does not") {
     tf::write(in, soup(5));
     const tf::cloud_outline outline = tf::outline({.paths = {in}});
     CHECK(outline.has_rows);
-    CHECK(tf::find_element(outline.header.attributes, "face")->rows == 25);
+    CHECK(outline.header.attributes.find("face")->rows == 25);
     CHECK_THROWS_AS(static_cast<void>(tf::outline({.paths = {in, in}})), tf::io_error);
     CHECK_THROWS_AS(tf::weld_stream(in, here.path / "out.xyz", {}), tf::io_error);
     CHECK_FALSE(fs::exists(here.path / "out.xyz"));
@@ -167,8 +167,8 @@ tf::mesh_file triangles() {
     file.stored_faces = file.mesh.faces.size();
     std::vector<std::int32_t> ends;
     for (std::int32_t i = 0; i < 300; ++i) ends.push_back(i);
-    tf::element& edges = tf::obtain_element(file.attributes, "edge", ends.size());
-    tf::set_column(edges, tf::make_column<std::int32_t>("vertex1", ends));
+    tf::element& edges = file.attributes.obtain("edge", ends.size());
+    edges.set(tf::column::of<std::int32_t>("vertex1", ends));
     return file;
 }
 

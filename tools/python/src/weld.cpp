@@ -129,7 +129,7 @@ py::dict weld_cloud(const points_array& points, const file_data* data,
     const tf::points_view all = points_of(points);
     tf::weld_options options = settings.options;
     options.label = rows_of<std::uint32_t>(settings.label);
-    tf::cloud_weld_result result = run([&](const tf::progress_callback& report) {
+    tf::weld_result result = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return kept ? tf::weld(all, kept->file().attributes, options) : tf::weld(all, options);
     });
