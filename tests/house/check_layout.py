@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """check_layout.py [SOURCE | --self-test]: what CONTRIBUTING.md says of where things lie, and how large.
 
-
 Prints a line for each file that breaks a rule, with the rule, and fails if there is one. Reads the
 sources as clang-format leaves them."""
 
