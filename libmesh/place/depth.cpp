@@ -100,8 +100,8 @@ class way_out_search {
         for (point3& p : points) p = plus(p, offset);
         const mesh_view there{points, a_.mesh().faces};
         const tree<3> faces = build_face_tree(there);
-        const auto how = detail::place::relation_of(shape(a_.whose(), points, faces, a_.vertices()),
-                                                    b_, {}, &effort_);
+        const auto how = detail::place::relation_of(
+            shape(a_.prepared(), points, faces, a_.vertices()), b_, {}, &effort_);
         return how.status == status::ok && how.relation != mesh_relation::penetrating;
     }
 

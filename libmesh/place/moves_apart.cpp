@@ -183,8 +183,9 @@ class clearing {
         }
         const tree<3> faces = build_face_tree(there);
         for (const std::size_t i : close) {
-            const auto how = relation_of(shape(shape_.whose(), points, faces, parts_[i].vertices()),
-                                         parts_[i], asking_, options_.effort);
+            const auto how =
+                relation_of(shape(shape_.prepared(), points, faces, parts_[i].vertices()),
+                            parts_[i], asking_, options_.effort);
             if (how.relation == mesh_relation::penetrating || how.status == status::cancelled)
                 return false;
         }
@@ -235,7 +236,7 @@ class clearing {
         const mesh_view there{points, a_.faces};
         const tree<3> faces = build_face_tree(there);
         const auto back =
-            sweep_among(shape(shape_.whose(), points, faces), parts_, scaled(direction, -1.0),
+            sweep_among(shape(shape_.prepared(), points, faces), parts_, scaled(direction, -1.0),
                         {.clearance = options_.clearance,
                          .latest = time - occupied,
                          .limit = 1,

@@ -49,7 +49,7 @@ void check(const placing_options& o) {
 
 placing::placing(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
                  const placing_options& options)
-    : whose_(moving),
+    : prepared_(moving),
       moving_(moving, options.vertices),
       among_(fixed, options.vertices),
       options_(options),
@@ -89,7 +89,7 @@ placement placing::finished() {
     certificate& known = result_.certificate;
     if (placed())
         known.max_displacement =
-            max_displacement(whose_.view().points, result_.matrix, result_.points);
+            max_displacement(prepared_.view().points, result_.matrix, result_.points);
     switch (result_.end) {
         case placement_end::no_coordinates:
             known.status = status::not_certified;
@@ -167,7 +167,7 @@ void placing::settle(const chosen_parts& known, const point3& motion, double tim
                                  .effort = effort,
                                  .progress = work_.part(0.6, 0.85)};
     if (result_.bed && end != placement_end::stays && !forward) options.floor = result_.bed;
-    auto settled = settle_among(whose_, parts.parts, motion, time, options);
+    auto settled = settle_among(prepared_, parts.parts, motion, time, options);
     over();
     result_.statistics.backed_off = settled.backed_off;
     if (!settled.good) {
@@ -282,7 +282,7 @@ void placing::separate() {
         leave(parts, effort);
         result_.effort = effort.so_far();
         if (!placed()) return;
-        const box3 there = *box_of_faces({result_.points, whose_.view().faces});
+        const box3 there = *box_of_faces({result_.points, prepared_.view().faces});
         if (!among_.others_around(there, options_.clearance, parts)) return;
         reach =
             std::max({2.0 * reach, result_.travel + options_.clearance, diagonal(*box_) * 0x1p-6});
@@ -319,7 +319,7 @@ void placing::forget_place() {
     result_.on_bed = false;
     result_.contacts.clear();
     result_.contact_count = 0;
-    result_.points.assign(whose_.view().points.begin(), whose_.view().points.end());
+    result_.points.assign(prepared_.view().points.begin(), prepared_.view().points.end());
     result_.matrix = {};
     result_.direction = {};
     result_.travel = 0.0;
@@ -327,12 +327,12 @@ void placing::forget_place() {
 
 /// What is true at the place, in the coordinates that are written.
 void placing::look_at_place() {
-    const mesh_view here = whose_.view();
+    const mesh_view here = prepared_.view();
     const mesh_view there{result_.points, here.faces};
     const bool moved = !std::equal(here.points.begin(), here.points.end(), result_.points.begin());
     std::optional<tree<3>> own;
     if (moved && !among_.empty()) own = build_face_tree(there);
-    const shape at = own ? shape(whose_, result_.points, *own, options_.vertices) : moving_;
+    const shape at = own ? shape(prepared_, result_.points, *own, options_.vertices) : moving_;
     if (moved) {
         if (!among_.empty()) {
             const box3 box = *box_of_faces(there);

@@ -21,7 +21,7 @@ class settling {
   public:
     settling(const prepared_mesh& a, std::span<const shape> parts, const point3& motion,
              const settle_among_options& options)
-        : whose_(a),
+        : prepared_(a),
           a_(a.view()),
           parts_(parts),
           motion_(motion),
@@ -102,7 +102,7 @@ class settling {
             const auto go_on = [&](double) { return work_.step(0.0, 0.9, tries_, 4.0); };
             if (!go_on(0.0)) return;
             if (!faces) faces = build_face_tree(there);
-            const shape moved(whose_, one.points, *faces, part.vertices());
+            const shape moved(prepared_, one.points, *faces, part.vertices());
             const auto judged = relation_of(moved, part, go_on, options_.effort);
             if (judged.status == status::cancelled) {
                 one.good = false;
@@ -126,7 +126,7 @@ class settling {
         return pair && pair->distance < options_.clearance;
     }
 
-    const prepared_mesh& whose_;
+    const prepared_mesh& prepared_;
     mesh_view a_;
     std::span<const shape> parts_;
     point3 motion_;
