@@ -4,7 +4,7 @@
 #include <libmesh/place/mate_motion.hpp>
 #include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/placing.hpp>
-#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/rounding.hpp>
 
@@ -160,14 +160,14 @@ void placing::settle(const chosen_parts& known, const point3& motion, double tim
     const bool forward = effort != nullptr;  // out of something
     const chosen_parts parts =
         known.parts.empty() ? among_.on_the_way(*box_, motion, time, options_.clearance) : known;
-    settle_among_options options{.precision = options_.precision,
-                                 .clearance = options_.clearance,
-                                 .forward = forward,
-                                 .close_in = close_in,
-                                 .effort = effort,
-                                 .progress = work_.part(0.6, 0.85)};
+    snap_options options{.precision = options_.precision,
+                         .clearance = options_.clearance,
+                         .forward = forward,
+                         .close_in = close_in,
+                         .effort = effort,
+                         .progress = work_.part(0.6, 0.85)};
     if (result_.bed && end != placement_end::stays && !forward) options.floor = result_.bed;
-    auto settled = settle_among(prepared_, parts.parts, motion, time, options);
+    auto settled = snap_to_representable(prepared_, parts.parts, motion, time, options);
     over();
     result_.statistics.backed_off = settled.backed_off;
     if (!settled.good) {

@@ -3,7 +3,7 @@
 /// stop.
 
 #include <libmesh/place/moves_apart.hpp>
-#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/convex_hull.hpp>
@@ -100,8 +100,8 @@ struct operations {
              }},
             {"settle among",
              [=, this](const auto& p) {
-                 return cancelled(tf::detail::place::settle_among(above, parts, downwards, 3.0,
-                                                                  {.progress = p}));
+                 return cancelled(tf::detail::place::snap_to_representable(above, parts, downwards,
+                                                                           3.0, {.progress = p}));
              }},
             {"moves apart",
              [=, this](const auto& p) {
