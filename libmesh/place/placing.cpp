@@ -2,8 +2,8 @@
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/length_of.hpp>
 #include <libmesh/place/mate_motion.hpp>
-#include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/placing.hpp>
+#include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/rounding.hpp>
@@ -293,16 +293,16 @@ void placing::separate() {
 /// To the first place that can be written at which the mesh is clear of these.
 void placing::leave(const chosen_parts& parts, base::effort& effort) {
     effort.hold(0.5);  // for the judgments
-    const moves_apart found = find_moves_apart(moving_, parts.parts,
-                                               {.clearance = options_.clearance,
-                                                .normals = options_.normals,
-                                                .face_pairs = options_.face_pairs,
-                                                .effort = &effort,
-                                                .progress = work_.part(0.2, 0.6)});
+    const separations found = search_separations(moving_, parts.parts,
+                                                       {.clearance = options_.clearance,
+                                                        .normals = options_.normals,
+                                                        .face_pairs = options_.face_pairs,
+                                                        .effort = &effort,
+                                                        .progress = work_.part(0.2, 0.6)});
     over();
     effort.hold(0.0);
     bool tried = false;
-    for (const move_apart& move : found.moves) {
+    for (const separation& move : found.moves) {
         if (move.time > longest_) break;
         tried = true;
         settle(parts, move.direction, move.time, placement_end::moved_apart, false, &effort);

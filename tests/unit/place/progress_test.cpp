@@ -2,7 +2,7 @@
 /// What every operation that finds a place says of its progress, and how it hears that it should
 /// stop.
 
-#include <libmesh/place/moves_apart.hpp>
+#include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/align.hpp>
@@ -106,7 +106,7 @@ struct operations {
             {"moves apart",
              [=, this](const auto& p) {
                  return cancelled(
-                     tf::detail::place::find_moves_apart(shape(inside), parts, {.progress = p}));
+                     tf::detail::place::search_separations(shape(inside), parts, {.progress = p}));
              }},
             {"slide",
              [=, this](const auto& p) {

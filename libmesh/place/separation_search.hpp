@@ -22,13 +22,13 @@ struct apart_options {
 };
 
 /// A translation by `time` times `direction`.
-struct move_apart {
+struct separation {
     point3 direction{};  ///< of length 1, rounded
     double time = 0.0;   ///< its length
 };
 
-struct moves_apart {
-    std::vector<move_apart> moves{};                 ///< the shortest first
+struct separations {
+    std::vector<separation> moves{};                 ///< the shortest first
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: `moves` is empty
 };
 
@@ -54,8 +54,8 @@ struct moves_apart {
 /// \same   on any number of threads
 /// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
 ///         Computing the Intersection-Depth of Polyhedra, Algorithmica 9 (1993)
-[[nodiscard]] TREEFORM_API moves_apart find_moves_apart(const shape& a,
-                                                        std::span<const shape> parts,
-                                                        const apart_options& options = {});
+[[nodiscard]] TREEFORM_API separations search_separations(const shape& a,
+                                                                std::span<const shape> parts,
+                                                                const apart_options& options = {});
 
 }  // namespace treeform::detail::place

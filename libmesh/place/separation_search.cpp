@@ -4,8 +4,8 @@
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/facing.hpp>
-#include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
+#include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -65,8 +65,8 @@ class clearing {
         }
     }
 
-    [[nodiscard]] moves_apart moves() {
-        std::vector<move_apart> found;
+    [[nodiscard]] separations moves() {
+        std::vector<separation> found;
         const bool stays = a_.faces.empty() || !box_ || is_clear({});
         if (!stays && !work_.cancelled()) found = moves_out();
         work_.reach(1.0);
@@ -77,11 +77,11 @@ class clearing {
     }
 
   private:
-    [[nodiscard]] std::vector<move_apart> moves_out() {
-        std::vector<move_apart> found;
+    [[nodiscard]] std::vector<separation> moves_out() {
+        std::vector<separation> found;
         const auto pair = nearest({});
         const double lacking = pair ? options_.clearance - pair->distance : 0.0;
-        move_apart best{{}, infinity};
+        separation best{{}, infinity};
         const auto look = [&](const std::optional<point3>& direction) {
             ++looked_;
             if (!direction || !go_on()) return;
@@ -327,8 +327,8 @@ class clearing {
 
 }  // namespace
 
-moves_apart find_moves_apart(const shape& a, std::span<const shape> parts,
-                             const apart_options& options) {
+separations search_separations(const shape& a, std::span<const shape> parts,
+                                     const apart_options& options) {
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
         throw std::invalid_argument("treeform::separate: the clearance is negative or not finite");
     return clearing(a, parts, options).moves();
