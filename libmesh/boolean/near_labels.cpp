@@ -1,5 +1,5 @@
+#include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/arrange/patch_regions.hpp>
-#include <libmesh/arrange/way_out.hpp>
 #include <libmesh/arrange/winding_beside.hpp>
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_math.hpp>
@@ -41,16 +41,16 @@ class line_windings {
     /// On one side of face f of bundle k.
     [[nodiscard]] beside_face at(std::size_t k, std::uint32_t f) const {
         const triangle3 whole = base::triangle_of(operands_[k].view(), f);
-        return follow(arrange::find_way_out({whole[0], whole[1], whole[2]}, whole, box_));
+        return follow(arrange::find_escape_ray({whole[0], whole[1], whole[2]}, whole, box_));
     }
     /// On one side of a face of an arrangement of `local`.
     [[nodiscard]] beside_face at(mesh_view local, const mesh_arrangement& cut,
                                  std::uint32_t f) const {
-        return follow(arrange::find_way_out(local, cut, f, box_));
+        return follow(arrange::find_escape_ray(local, cut, f, box_));
     }
 
   private:
-    [[nodiscard]] beside_face follow(const arrange::way_out& out) const {
+    [[nodiscard]] beside_face follow(const arrange::escape_ray& out) const {
         const aabb<double, 3> way = arrange::way_along(out.line, out.ahead);
         beside_face found{(out.line.faces() > 0) == out.ahead};
         if (part_ != nullptr) {

@@ -37,7 +37,7 @@ sheet_labels::sheet_labels(const bundles& operands, const near_faces& near, mesh
     }
 }
 
-bool sheet_labels::keeps(const arrange::way_out& out, std::span<const covering_face> covers,
+bool sheet_labels::keeps(const arrange::escape_ray& out, std::span<const covering_face> covers,
                          const boolean_expression& expression, fill_rule rule) const {
     const std::size_t count = expression.operand_count();
     const bundle& solids = operands_[1];
@@ -74,7 +74,7 @@ chosen_surface sheet_labels::choose(const boolean_expression& expression, fill_r
     for_chunks(asked.size(), lines_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t f = asked[i];
-            kept[patches.patch[f]] = keeps(arrange::find_way_out(near_.local, cut_, f, box_),
+            kept[patches.patch[f]] = keeps(arrange::find_escape_ray(near_.local, cut_, f, box_),
                                            cut_.covers_of(f), expression, rule);
         }
     });
@@ -91,7 +91,7 @@ chosen_surface sheet_labels::choose(const boolean_expression& expression, fill_r
         for (std::size_t i = begin; i < end; ++i) {
             const triangle3 t = base::triangle_of(sheet, far_.faces()[i]);
             of_set[i] =
-                keeps(arrange::find_way_out({t[0], t[1], t[2]}, t, box_), {}, expression, rule)
+                keeps(arrange::find_escape_ray({t[0], t[1], t[2]}, t, box_), {}, expression, rule)
                     ? fate::kept
                     : fate::dropped;
         }

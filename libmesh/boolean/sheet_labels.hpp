@@ -2,8 +2,8 @@
 /// \file
 /// Which faces of a sheet an expression keeps among solids.
 
+#include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/arrange/way_out.hpp>
 #include <libmesh/boolean/far_faces.hpp>
 #include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/near_labels.hpp>
@@ -36,7 +36,7 @@ class sheet_labels {
   private:
     [[nodiscard]] bool is_of_sheet(std::uint32_t local) const { return local < near_.first_of_b; }
     /// \param covers of the face that `out` starts from
-    [[nodiscard]] bool keeps(const arrange::way_out& out, std::span<const covering_face> covers,
+    [[nodiscard]] bool keeps(const arrange::escape_ray& out, std::span<const covering_face> covers,
                              const boolean_expression& expression, fill_rule rule) const;
 
     const bundles& operands_;

@@ -85,7 +85,7 @@ class clearing {
         const auto look = [&](const std::optional<point3>& direction) {
             ++looked_;
             if (!direction || !go_on()) return;
-            const auto time = way_out(*direction, lacking, best.time);
+            const auto time = time_to_leave(*direction, lacking, best.time);
             if (!time) return;
             found.push_back({*direction, *time});
             if (*time < best.time) best = found.back();
@@ -212,8 +212,8 @@ class clearing {
     }
 
     /// The length of a free way back from the first free place along `direction`.
-    [[nodiscard]] std::optional<double> way_out(const point3& direction, double lacking,
-                                                double best) {
+    [[nodiscard]] std::optional<double> time_to_leave(const point3& direction, double lacking,
+                                                      double best) {
         std::vector<double> times;
         for (std::size_t i = 0; i < boxes_.size(); ++i)
             if (boxes_within(i, {})) times.push_back(beyond_box(boxes_[i], direction));
@@ -328,7 +328,7 @@ class clearing {
 }  // namespace
 
 separations search_separations(const shape& a, std::span<const shape> parts,
-                                     const apart_options& options) {
+                               const apart_options& options) {
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
         throw std::invalid_argument("treeform::separate: the clearance is negative or not finite");
     return clearing(a, parts, options).moves();
