@@ -6,7 +6,7 @@
 #include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/cut_operand.hpp>
 #include <libmesh/boolean/far_faces.hpp>
-#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
@@ -59,7 +59,7 @@ class bundled_operands {
 
 /// Faces where they meet, cut along each other.
 struct cut_faces {
-    near_faces near{};
+    interaction_zone near{};
     arrange_faces_result arranged{};
     std::array<std::optional<far_faces>, 2> far{};  ///< where asked for
 };
@@ -75,6 +75,7 @@ enum class cut_what : std::uint8_t {
                                  const progress_callback& progress);
 
 /// The same for all faces of both bundles that are not near.
-[[nodiscard]] buffer<fate> fates_of(const bundles& operands, const near_faces& near, fate of_rest);
+[[nodiscard]] buffer<fate> fates_of(const bundles& operands, const interaction_zone& near,
+                                    fate of_rest);
 
 }  // namespace treeform::detail::boolean

@@ -84,7 +84,7 @@ class line_windings {
     aabb<double, 3> box_{};
 };
 
-ids operands_of(const bundles& operands, const near_faces& near) {
+ids operands_of(const bundles& operands, const interaction_zone& near) {
     const std::size_t faces_of_a = operands[0].view().faces.size();
     ids result(near.face_of.size());
     for (std::size_t f = 0; f < result.size(); ++f)
@@ -113,7 +113,7 @@ arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
 
 }  // namespace
 
-near_labels::near_labels(const bundles& operands, const near_faces& near,
+near_labels::near_labels(const bundles& operands, const interaction_zone& near,
                          const mesh_arrangement& cut, std::array<far_faces, 2> far,
                          const active_part* part)
     : operands_(operands),

@@ -7,7 +7,7 @@
 #include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/active_places.hpp>
 #include <libmesh/boolean/far_faces.hpp>
-#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/region_graph.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
@@ -39,7 +39,7 @@ class near_labels {
     /// \cost  O(F' log F') for the F' faces of the arrangement, and O(log F) a line
     /// \same  on any number of threads
     /// \param part  that the operands are, or null where they are whole
-    near_labels(const bundles& operands, const near_faces& near, const mesh_arrangement& cut,
+    near_labels(const bundles& operands, const interaction_zone& near, const mesh_arrangement& cut,
                 std::array<far_faces, 2> far, const active_part* part = nullptr);
 
     /// \cost  a change of the expression for each patch, and O(F)

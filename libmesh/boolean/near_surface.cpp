@@ -42,7 +42,7 @@ constexpr std::size_t slack = 64;
 /// Puts together the faces that were cut and those that were not, of both bundles counted through.
 class assembly {
   public:
-    assembly(const bundles& operands, const near_faces& near, const buffer<fate>& fates)
+    assembly(const bundles& operands, const interaction_zone& near, const buffer<fate>& fates)
         : operands_(operands),
           near_(near),
           fates_(fates),
@@ -187,7 +187,7 @@ class assembly {
 
     const bundles& operands_;
     std::array<mesh_view, 2> meshes_{operands_[0].view(), operands_[1].view()};
-    const near_faces& near_;
+    const interaction_zone& near_;
     const buffer<fate>& fates_;
     std::array<std::size_t, 3> faces_;   ///< where those of each operand begin
     std::array<std::size_t, 3> points_;  ///< likewise
@@ -216,15 +216,16 @@ void spread(ids& of_piece, const ids& pieces, std::size_t count) {
 
 /// Takes in faces that stay, if `wanted(f)`: then they are near, too. They have no origin.
 template <class Wanted>
-void take_in(const bundles& operands, near_faces& near, buffer<fate>& fates, exact_surface& exact,
-             ids& source, ids& face_of_point, ids& origin_of_face, const Wanted& wanted) {
+void take_in(const bundles& operands, interaction_zone& near, buffer<fate>& fates,
+             exact_surface& exact, ids& source, ids& face_of_point, ids& origin_of_face,
+             const Wanted& wanted) {
     const std::array meshes{operands[0].view(), operands[1].view()};
     const std::size_t faces_of_a = meshes[0].faces.size(), points_of_a = meshes[0].points.size();
     ids number(points_of_a + meshes[1].points.size(), rounded_surface::none);
     for (std::uint32_t p = 0; p < near.point_of.size(); ++p) number[near.point_of[p]] = p;
     const std::size_t given = exact.given.size();
 
-    near_faces more;
+    interaction_zone more;
     more.point_of = std::move(near.point_of);
     std::vector<face>& faces = more.local.faces;
     std::vector<face> surface;
@@ -362,7 +363,7 @@ void keep_counts(const bundles& operands, const arrange_faces_result& arranged,
 }
 
 /// \param vertices [points of `rounded`] that they are in the result
-void name_cut_vertices(const bundles& operands, const near_faces& near,
+void name_cut_vertices(const bundles& operands, const interaction_zone& near,
                        const rounded_surface& rounded, const ids& vertices,
                        const ids& face_of_point, boolean_result& result) {
     const std::size_t given = near.point_of.size();
@@ -382,7 +383,7 @@ void name_cut_vertices(const bundles& operands, const near_faces& near,
 /// The chosen faces of what is near, and what is to be known of them when they are rounded.
 struct near_rounding {
     const bundles& operands;
-    near_faces& near;
+    interaction_zone& near;
     buffer<fate>& fates;
     const boolean_options& options;
     bool solid;
@@ -449,9 +450,9 @@ struct near_rounding {
 
 }  // namespace
 
-near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
-                       chosen_surface chosen, const boolean_options& options, bool solid,
-                       left_faces is_left) {
+near_result surface_of(const bundles& operands, interaction_zone& near,
+                       arrange_faces_result& arranged, chosen_surface chosen,
+                       const boolean_options& options, bool solid, left_faces is_left) {
     near_result made;
     boolean_result& result = made.result;
     near_rounding work{operands, near, chosen.fates, options, solid};

@@ -20,8 +20,8 @@ constexpr std::size_t lines_a_chunk = 16;
 
 }  // namespace
 
-sheet_labels::sheet_labels(const bundles& operands, const near_faces& near, mesh_arrangement& cut,
-                           const far_faces& far)
+sheet_labels::sheet_labels(const bundles& operands, const interaction_zone& near,
+                           mesh_arrangement& cut, const far_faces& far)
     : operands_(operands), near_(near), cut_(cut), far_(far), way_(cut.faces.size(), 0) {
     for (const bundle& operand : operands)
         if (!operand.view().faces.empty())

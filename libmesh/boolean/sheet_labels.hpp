@@ -5,7 +5,7 @@
 #include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/far_faces.hpp>
-#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tree/aabb.hpp>
@@ -23,7 +23,7 @@ class sheet_labels {
     /// \param cut the arrangement of `near.local`
     /// \param far of the sheet
     /// \pre   the second bundle is closed; what is referred to outlives this
-    sheet_labels(const bundles& operands, const near_faces& near, mesh_arrangement& cut,
+    sheet_labels(const bundles& operands, const interaction_zone& near, mesh_arrangement& cut,
                  const far_faces& far);
 
     /// A piece is in a solid when one of its sides is. Those that are kept are now first covered by
@@ -40,7 +40,7 @@ class sheet_labels {
                              const boolean_expression& expression, fill_rule rule) const;
 
     const bundles& operands_;
-    const near_faces& near_;
+    const interaction_zone& near_;
     const mesh_arrangement& cut_;
     const far_faces& far_;
     aabb<double, 3> box_{};

@@ -5,8 +5,8 @@
 
 #include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
-#include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
@@ -73,7 +73,7 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
     bundled.find_pairs({});
     const detail::bundles& all = bundled.all();
     detail::cut_faces cut = detail::cut_near(bundled, detail::cut_what::near_beside_far, {});
-    const detail::near_faces& near = cut.near;
+    const detail::interaction_zone& near = cut.near;
     const tf::arrange_faces_result& arranged = cut.arranged;
     const auto chosen =
         detail::near_labels(all, near, arranged.cut,
