@@ -1,6 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/halved_space.hpp>
-#include <libmesh/boolean/rough_corners.hpp>
+#include <libmesh/boolean/interval_triangle.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ bool reaches(const std::vector<node>& nodes, std::size_t at, const box3& box) {
 
 /// Whether corners may reach into a settled leaf below node `at`, which is `box`.
 bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
-                       const rough_corners& corners) {
+                       const interval_triangle& corners) {
     for (;;) {
         const node& n = nodes[at];
         if (n.axis == node::active) return false;
@@ -128,8 +128,8 @@ bool halved_space::leaves_active(const std::array<box3, 3>& corners) const {
 bool halved_space::reaches_active(const box3& part) const { return reaches(nodes, 0, part); }
 
 bool halved_space::is_within_active(std::span<const box3> corners) const {
-    const rough_corners rough(corners);
-    return !may_reach_settled(nodes, 0, box, rough);
+    const interval_triangle triangle(corners);
+    return !may_reach_settled(nodes, 0, box, triangle);
 }
 
 }  // namespace treeform::detail::boolean

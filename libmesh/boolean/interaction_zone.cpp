@@ -27,7 +27,7 @@ constexpr std::size_t pair_grain = std::size_t{1} << 8;
 
 void mark(std::uint8_t& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
 
-/// Marks the faces whose boxes overlap that of a face that meets another one, or of a rough point.
+/// Marks the faces whose boxes overlap that of a face that meets another one, or of a point without a fan.
 void mark_near(const bundles& operands, const std::vector<face_pair>& across,
                interaction_zone& result) {
     std::vector<aabb<double, 3>> reach;
@@ -47,7 +47,7 @@ void mark_near(const bundles& operands, const std::vector<face_pair>& across,
             [&](std::size_t f, std::size_t place) {
                 reach[first + place] = base::face_boxes(mesh.points)(mesh.faces[f]);
             });
-        for (const std::uint32_t p : operands[k].known->rough)
+        for (const std::uint32_t p : operands[k].known->without_fan)
             reach.emplace_back().include(mesh.points[p]);
     }
     const tree<3> around = build(reach, [](const aabb<double, 3>& box) { return box; });

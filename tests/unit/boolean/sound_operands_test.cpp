@@ -190,7 +190,7 @@ TEST_CASE("sound operands: a second question about prepared meshes builds nothin
     CHECK(tf::unite(a, b).certificate);
     const auto built = a.indexes_built() + b.indexes_built();
     CHECK(built ==
-          10);  // of each: rough points, tree, own pairs, clusters, triangles in leaf order
+          10);  // of each: points without a fan, tree, own pairs, clusters, triangles in leaf order
     CHECK(tf::subtract(a, b).certificate);
     CHECK(a.indexes_built() + b.indexes_built() == built);
 }
@@ -206,7 +206,7 @@ TEST_CASE("sound operands: progress can say stop while it is found out whether t
                          }});
     };
     CHECK(until(0.1).certificate.status == tf::status::cancelled);
-    CHECK(a.indexes_built() == 2);  // its rough points and its tree
+    CHECK(a.indexes_built() == 2);  // its points without a fan and its tree
     CHECK(until(0.5).certificate.status == tf::status::cancelled);
     CHECK(a.indexes_built() == 3);  // its own pairs, too
     CHECK(b.indexes_built() == 2);
