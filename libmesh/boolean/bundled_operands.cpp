@@ -48,7 +48,7 @@ bundled_operands::bundled_operands(std::span<const mesh_view> operands, std::uin
 }
 
 bundled_operands::bundled_operands(joined_operands&& joined,
-                                   std::unique_ptr<const active_part> part)
+                                   std::unique_ptr<const undecided_part> part)
     : part_(std::move(part)), once_(true) {
     take_joined(0, part_ ? part_->faces() : std::move(joined), true);
     take(1, cut_operand_of(own_[1]), own_[1]);

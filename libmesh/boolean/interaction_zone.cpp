@@ -27,7 +27,8 @@ constexpr std::size_t pair_grain = std::size_t{1} << 8;
 
 void mark(std::uint8_t& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
 
-/// Marks the faces whose boxes overlap that of a face that meets another one, or of a point without a fan.
+/// Marks the faces whose boxes overlap that of a face that meets another one, or of a point without
+/// a fan.
 void mark_near(const bundles& operands, const std::vector<face_pair>& across,
                interaction_zone& result) {
     std::vector<aabb<double, 3>> reach;

@@ -25,7 +25,7 @@ constexpr std::size_t labels_a_chunk = 64, ways_a_chunk = 2;
 /// How often operands wind around places beside their faces.
 class line_windings {
   public:
-    line_windings(const bundles& operands, const active_part* part)
+    line_windings(const bundles& operands, const undecided_part* part)
         : operands_(operands), part_(part) {
         if (part != nullptr) box_ = part->components().box();
         for (std::size_t k = 0; k < 2; ++k) {
@@ -79,7 +79,7 @@ class line_windings {
     }
 
     const bundles& operands_;
-    const active_part* part_;
+    const undecided_part* part_;
     std::array<const tree<3>*, 2> trees_{};
     aabb<double, 3> box_{};
 };
@@ -93,10 +93,10 @@ ids operands_of(const bundles& operands, const interaction_zone& near) {
     return result;
 }
 
-/// A face that is cut is near together with all at its edges, and so are all at an edge of other than
-/// two. So faces are missing only where a whole one ends, or out of active space.
+/// A face that is cut is near together with all at its edges, and so are all at an edge of other
+/// than two. So faces are missing only where a whole one ends, or out of undecided space.
 surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_face,
-                           const active_places& places) {
+                           const undecided_places& places) {
     return arrange::find_closed_patches(
         cut, operand_of_face,
         [&](const std::array<std::uint32_t, 2>& points, std::span<const arrange::face_side> sides) {
@@ -105,7 +105,7 @@ surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_fa
 }
 
 arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
-                                  const surface_patches& patches, const active_places& places) {
+                                  const surface_patches& patches, const undecided_places& places) {
     arrange::patch_regions joined(patches);
     joined.join_about_edges(local, cut, places.is_within());
     return joined.number();
@@ -115,7 +115,7 @@ arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
 
 near_labels::near_labels(const bundles& operands, const interaction_zone& near,
                          const mesh_arrangement& cut, std::array<far_faces, 2> far,
-                         const active_part* part)
+                         const undecided_part* part)
     : operands_(operands),
       cut_(cut),
       operand_of_face_(operands_of(operands, near)),

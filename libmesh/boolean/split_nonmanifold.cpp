@@ -69,8 +69,8 @@ class few_faces {
     mesh_arrangement cut_;
 };
 
-/// Of a surface of which the faces at all points without a fan are there: others have one fan, which need not
-/// be there.
+/// Of a surface of which the faces at all points without a fan are there: others have one fan,
+/// which need not be there.
 class separator {
   public:
     /// Marks points without a fan as it goes.

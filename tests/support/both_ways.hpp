@@ -1,9 +1,8 @@
 #pragma once
 /// \file
-/// The exact surface of a set operation, found in two ways: by cutting all faces, and by leaving out
-/// what is hidden, however little that is.
+/// The exact surface of a set operation, found in two ways: by cutting all faces, and by leaving
+/// out what is hidden, however little that is.
 
-#include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
@@ -11,6 +10,7 @@
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/boolean/undecided_part.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
@@ -54,7 +54,8 @@ struct surface_of_some {
     std::size_t uncut = 0;     ///< pairs of the other faces that were not looked at
 };
 
-/// As `boolean` does where operands hide each other, but always, and in boxes as small as `limits` says.
+/// As `boolean` does where operands hide each other, but always, and in boxes as small as `limits`
+/// says.
 /// \pre each operand bounds a solid
 inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
                                          const tf::boolean_expression& expression,
@@ -67,7 +68,7 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
     const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
     detail::surface_components components(joined.all, operand_of_face,
                                           detail::find_operand_edges(joined.all, operand_of_face));
-    detail::bundled_operands bundled({}, std::make_unique<const detail::active_part>(
+    detail::bundled_operands bundled({}, std::make_unique<const detail::undecided_part>(
                                              std::move(joined), std::move(components),
                                              detail::partial_expression(expression, rule), limits));
     bundled.find_pairs({});
