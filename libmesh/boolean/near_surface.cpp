@@ -229,7 +229,7 @@ void take_in(const bundles& operands, interaction_zone& near, buffer<fate>& fate
     more.point_of = std::move(near.point_of);
     std::vector<face>& faces = more.local.faces;
     std::vector<face> surface;
-    std::vector<std::uint8_t> sound;
+    std::vector<std::uint8_t> certified;
     ids surface_source, pieces, new_of_old(near.face_of.size());
     const auto take = [&](std::uint32_t f) {
         const std::size_t k = f < faces_of_a ? 0 : 1, first = k == 0 ? 0 : points_of_a;
@@ -245,7 +245,7 @@ void take_in(const bundles& operands, interaction_zone& near, buffer<fate>& fate
         }
         surface.push_back(fates[f] == fate::kept ? corners
                                                  : face{corners[0], corners[2], corners[1]});
-        sound.push_back(1);
+        certified.push_back(1);
         surface_source.push_back(static_cast<std::uint32_t>(faces.size()));
         faces.push_back(corners);
         more.face_of.push_back(f);
@@ -257,7 +257,7 @@ void take_in(const bundles& operands, interaction_zone& near, buffer<fate>& fate
             for (; piece < source.size() && source[piece] == old; ++piece) {
                 pieces.push_back(static_cast<std::uint32_t>(surface.size()));
                 surface.push_back(exact.faces[piece]);
-                sound.push_back(exact.sound[piece]);
+                certified.push_back(exact.certified[piece]);
                 surface_source.push_back(new_of_old[old]);
             }
             faces.push_back(near.local.faces[old++]);
@@ -272,7 +272,7 @@ void take_in(const bundles& operands, interaction_zone& near, buffer<fate>& fate
             if (p >= given) p += static_cast<std::uint32_t>(exact.given.size() - given);
     if (!origin_of_face.empty()) spread(origin_of_face, pieces, surface.size());
     exact.faces = std::move(surface);
-    exact.sound = std::move(sound);
+    exact.certified = std::move(certified);
     source = std::move(surface_source);
     for (std::uint32_t& f : face_of_point)
         if (f < new_of_old.size()) f = new_of_old[f];
@@ -338,10 +338,10 @@ class faces_left {
 /// The chosen faces, and the local face that each is of, in `source`, where those of `cut` were.
 exact_surface surface_of(mesh_arrangement& cut, std::vector<face>&& faces, ids& source) {
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed), std::move(faces)};
-    exact.sound.resize(source.size());
+    exact.certified.resize(source.size());
     for_chunks(source.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
-            exact.sound[f] = cut.whole[source[f]];
+            exact.certified[f] = cut.whole[source[f]];
             source[f] = cut.covers_of(source[f]).front().face;
         }
     });
@@ -414,9 +414,9 @@ struct near_rounding {
         for (std::uint32_t& f : origins.source) f = near.face_of[f];
     }
 
-    /// What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
-    /// rounding to nearest takes no coordinate out of a box of doubles. Nor is it to meet the box of
-    /// a face that was mended.
+    /// What was left out meets no box of what was cut, and so no piece of it either, rounded or
+    /// not: rounding to nearest takes no coordinate out of a box of doubles. Nor is it to meet the
+    /// box of a face that was mended.
     rounded_surface round() {
         double done = 0.7;
         const auto options_of = [&](double most, const winding_of_rest& rest) {

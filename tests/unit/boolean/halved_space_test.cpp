@@ -1,4 +1,5 @@
 #include <libmesh/boolean/halved_space.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
