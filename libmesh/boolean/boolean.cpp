@@ -45,7 +45,7 @@ using detail::boolean::bundles;
 using detail::boolean::cut_faces;
 using detail::boolean::cut_near;
 using detail::boolean::cut_what;
-using detail::boolean::fate;
+using detail::boolean::disposition;
 using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
 using detail::boolean::left_faces;
@@ -214,7 +214,7 @@ near_result split_of(std::span<const mesh_view> views, boolean_options options) 
     std::vector<std::uint32_t> pieces = detail::base::numbers_below(cut.arranged.cut.faces.size());
     detail::boolean::chosen_surface chosen{
         {cut.arranged.cut.faces, std::move(pieces)},
-        detail::boolean::fates_of(operands.all(), cut.near, fate::kept)};
+        detail::boolean::dispositions_of(operands.all(), cut.near, disposition::kept)};
     options.simplify = false;
     options.keep_cuts = true;
     near_result made = surface_of(operands.all(), cut, std::move(chosen), options, false, nullptr);
@@ -242,7 +242,7 @@ near_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
     counts = {count - 1, labels->dropped_area, labels->turned_area};
     detail::boolean::chosen_surface chosen{
         detail::round::faces_around(pieces, cells, labels->inside),
-        detail::boolean::fates_of(operands.all(), cut.near, fate::dropped)};
+        detail::boolean::dispositions_of(operands.all(), cut.near, disposition::dropped)};
     return surface_of(operands.all(), cut, std::move(chosen), options, true, is_left);
 }
 

@@ -107,11 +107,13 @@ cut_faces cut_near(const bundled_operands& operands, cut_what what,
     return result;
 }
 
-buffer<fate> fates_of(const bundles& operands, const interaction_zone& near, fate of_rest) {
-    buffer<fate> fates(operands[0].view().faces.size() + operands[1].view().faces.size());
-    std::fill_n(fates.data(), fates.size(), of_rest);
-    for (const std::uint32_t f : near.face_of) fates[f] = fate::cut;
-    return fates;
+buffer<disposition> dispositions_of(const bundles& operands, const interaction_zone& near,
+                                    disposition of_rest) {
+    buffer<disposition> dispositions(operands[0].view().faces.size() +
+                                     operands[1].view().faces.size());
+    std::fill_n(dispositions.data(), dispositions.size(), of_rest);
+    for (const std::uint32_t f : near.face_of) dispositions[f] = disposition::cut;
+    return dispositions;
 }
 
 }  // namespace treeform::detail::boolean

@@ -75,7 +75,8 @@ enum class cut_what : std::uint8_t {
                                  const progress_callback& progress);
 
 /// The same for all faces of both bundles that are not near.
-[[nodiscard]] buffer<fate> fates_of(const bundles& operands, const interaction_zone& near,
-                                    fate of_rest);
+[[nodiscard]] buffer<disposition> dispositions_of(const bundles& operands,
+                                                  const interaction_zone& near,
+                                                  disposition of_rest);
 
 }  // namespace treeform::detail::boolean

@@ -207,18 +207,20 @@ chosen_surface near_labels::choose(const boolean_expression& expression, fill_ru
     result.near = round::faces_around(cut_, cells, inside.regions);
 
     const std::array faces{operands_[0].view().faces.size(), operands_[1].view().faces.size()};
-    result.fates = buffer<fate>(faces[0] + faces[1]);
-    for_chunks(result.fates.size(), light_grain,
+    result.dispositions = buffer<disposition>(faces[0] + faces[1]);
+    for_chunks(result.dispositions.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {
-                   std::fill(result.fates.data() + begin, result.fates.data() + end, fate::cut);
+                   std::fill(result.dispositions.data() + begin, result.dispositions.data() + end,
+                             disposition::cut);
                });
     for (std::size_t k = 0; k < 2; ++k) {
-        std::vector<fate> of_set;
+        std::vector<disposition> of_set;
         for (const auto& [front, behind] : inside.sets[k])
-            of_set.push_back(front == behind ? fate::dropped
-                             : behind != 0   ? fate::kept
-                                             : fate::turned);
-        far_[k].write(std::span<const fate>(of_set), result.fates.data() + (k == 0 ? 0 : faces[0]));
+            of_set.push_back(front == behind ? disposition::dropped
+                             : behind != 0   ? disposition::kept
+                                             : disposition::turned);
+        far_[k].write(std::span<const disposition>(of_set),
+                      result.dispositions.data() + (k == 0 ? 0 : faces[0]));
     }
     return result;
 }

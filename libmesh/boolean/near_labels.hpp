@@ -20,12 +20,12 @@
 namespace treeform::detail::boolean {
 
 /// What becomes of a face that is not near.
-enum class fate : std::uint8_t { cut, dropped, kept, turned };
+enum class disposition : std::uint8_t { cut, dropped, kept, turned };
 
 struct chosen_surface {
     round::solid_faces near;  ///< of the arrangement of what is near
     /// Of all faces of both bundles, counted through; `cut` are those that are near.
-    buffer<fate> fates{};
+    buffer<disposition> dispositions{};
 };
 
 /// How often operands wind around both sides of all faces: patches between cuts are alike, and so

@@ -86,20 +86,21 @@ chosen_surface sheet_labels::choose(const boolean_expression& expression, fill_r
         chosen.near.face_of.push_back(f);
     }
     const mesh_view sheet = operands_[0].view();
-    std::vector<fate> of_set(far_.faces().size());
+    std::vector<disposition> of_set(far_.faces().size());
     for_chunks(of_set.size(), lines_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const triangle3 t = base::triangle_of(sheet, far_.faces()[i]);
             of_set[i] =
                 keeps(arrange::find_escape_ray({t[0], t[1], t[2]}, t, box_), {}, expression, rule)
-                    ? fate::kept
-                    : fate::dropped;
+                    ? disposition::kept
+                    : disposition::dropped;
         }
     });
-    chosen.fates = buffer<fate>(sheet.faces.size() + operands_[1].view().faces.size());
-    std::fill_n(chosen.fates.data(), chosen.fates.size(), fate::dropped);
-    far_.write(std::span<const fate>(of_set), chosen.fates.data());
-    for (const std::uint32_t f : near_.face_of) chosen.fates[f] = fate::cut;
+    chosen.dispositions =
+        buffer<disposition>(sheet.faces.size() + operands_[1].view().faces.size());
+    std::fill_n(chosen.dispositions.data(), chosen.dispositions.size(), disposition::dropped);
+    far_.write(std::span<const disposition>(of_set), chosen.dispositions.data());
+    for (const std::uint32_t f : near_.face_of) chosen.dispositions[f] = disposition::cut;
     return chosen;
 }
 

@@ -96,10 +96,10 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
     }
     const tf::mesh_view whole = all[0].view();
     for (std::size_t f = 0; f < whole.faces.size(); ++f) {
-        const detail::fate of = chosen.fates[f];
-        if (of != detail::fate::kept && of != detail::fate::turned) continue;
+        const detail::disposition of = chosen.dispositions[f];
+        if (of != detail::disposition::kept && of != detail::disposition::turned) continue;
         const tf::triangle3 t = triangle(whole, f);
-        const bool kept = of == detail::fate::kept;
+        const bool kept = of == detail::disposition::kept;
         add(result.chain, numbers, {t[0], kept ? t[1] : t[2], kept ? t[2] : t[1]}, t);
     }
     return result;

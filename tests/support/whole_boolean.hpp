@@ -62,7 +62,7 @@ inline tf::boolean_result whole_boolean(const std::vector<tf::mesh>& operands,
     }
     detail::boolean::chosen_surface chosen{
         detail::round::faces_around(arranged.cut, cells, inside),
-        detail::boolean::fates_of(bundles, near, detail::boolean::fate::dropped)};
+        detail::boolean::dispositions_of(bundles, near, detail::boolean::disposition::dropped)};
     tf::boolean_result result = std::move(
         detail::boolean::surface_of(bundles, near, arranged, std::move(chosen), options).result);
     auto manifold = detail::boolean::split_nonmanifold(std::move(result.mesh));
