@@ -108,8 +108,8 @@ void packed_points::unpack(numbers from, point_block& block, std::size_t point) 
     }
 }
 
-kept_rows::kept_rows(pacer& pace, const work_folder& folder, const team& all, const tile_task& task,
-                     tile_steps& steps, tiles_welded& w)
+kept_rows::kept_rows(cancellable_progress& pace, const work_folder& folder, const communicator& all,
+                     const tile_task& task, tile_steps& steps, tiles_welded& w)
     : folder_(folder),
       all_(all),
       keep_(task.options.keep),
@@ -126,7 +126,7 @@ kept_rows::kept_rows(pacer& pace, const work_folder& folder, const team& all, co
     w.max_displacement = all.most(longest_move(pace));
 }
 
-void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
+void kept_rows::gather(cancellable_progress& pace, tile_steps& steps, const tiles_welded& w) {
     tile_steps::leaders leaders(steps, all_, w);
     joined_points& source = steps.source();
     source.rewind(w.points);
@@ -148,7 +148,7 @@ void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
 }
 
 /// Of points of equal keys the first is kept, as by `kept_points`.
-void kept_rows::choose(pacer& pace) {
+void kept_rows::choose(cancellable_progress& pace) {
     row_writer rows(path(all_.rank()), piece);
     mean_point mean(packed_);
     std::vector<std::uint64_t> best;
@@ -203,7 +203,7 @@ void kept_rows::tell_givers() {
 void kept_rows::tell_first(const tiles_welded& w) {
     if (has_all_) return;
     next_.reset();
-    has_all_ = all_.leads();
+    has_all_ = all_.is_root();
     if (!has_all_) return;
     givers_ = w.kept;
     for (row_reader& from : changes_.received_by_all())
@@ -213,7 +213,7 @@ void kept_rows::tell_first(const tiles_welded& w) {
         }
 }
 
-double kept_rows::longest_move(pacer& pace) {
+double kept_rows::longest_move(cancellable_progress& pace) {
     weld::longest_move longest;
     rewind();
     std::uint64_t count = 0;

@@ -57,7 +57,7 @@ class output_look {
         single_ = single_ && fits_single(block.points);
         extended_ = extended_ || io::has_extended_values(block.properties);
     }
-    void share(const team& all) {
+    void share(const communicator& all) {
         single_ = all.sum(single_ ? 0 : 1) == 0;
         extended_ = all.sum(extended_ ? 1 : 0) > 0;
         for (bool& one : outgrown_) one = all.sum(one ? 1 : 0) > 0;
@@ -67,8 +67,9 @@ class output_look {
         if (!single_) head.stored_as = precision::float64;
         if (extended_) io::extend(*head.las);
     }
-    /// As `write` chooses types when it has all points: each axis its own. `point_writer` keeps to that
-    /// only where `stored_as` is float32, so that changes; what `write` would tell of is returned.
+    /// As `write` chooses types when it has all points: each axis its own. `point_writer` keeps to
+    /// that only where `stored_as` is float32, so that changes; what `write` would tell of is
+    /// returned.
     [[nodiscard]] std::optional<precision> tell_types(mesh_file& head) const {
         if (axes_ == std::array<bool, 3>{}) return std::nullopt;
         const precision as = head.stored_as;
@@ -98,7 +99,7 @@ class output_look {
 /// The last pass over the input.
 class giving_back {
   public:
-    giving_back(pacer& pace, const tile_task& task, const weld_stream_outputs& asked,
+    giving_back(cancellable_progress& pace, const tile_task& task, const weld_stream_outputs& asked,
                 tile_steps& steps, tiles_welded& welded, kept_rows* rows, tile_faces* faces,
                 const work_folder& work)
         : pace_(pace),
@@ -122,7 +123,7 @@ class giving_back {
 
     [[nodiscard]] weld_stream_written run() {
         const bool asked = asked_.welded || asked_.removed || wants_map();
-        if (!asked || (!is_divided_ && !all_.leads())) return {};
+        if (!asked || (!is_divided_ && !all_.is_root())) return {};
         add_columns();
         look_at_outputs();
         if (asked_.removed && !removed_head_.las && is_las(*asked_.removed)) look_at_removed();
@@ -132,7 +133,7 @@ class giving_back {
     }
 
   private:
-    /// Whether each of a team writes what it is told of.
+    /// Whether each rank writes what it is told of.
     [[nodiscard]] bool may_divide() const {
         const element* const vertices = find_element(head_.attributes, "vertex");
         const bool has_lists =
@@ -161,7 +162,7 @@ class giving_back {
 
     void open_files() {
         const std::uint64_t dropped = welded_.dropped;
-        const team* const parts = is_divided_ ? &all_ : nullptr;
+        const communicator* const parts = is_divided_ ? &all_ : nullptr;
         if (!asked_.map_path.empty()) map_.emplace(asked_.map_path, parts, part("map"));
         const std::uint64_t mine = welded_.points.size();
         if (asked_.removed) {
@@ -250,8 +251,8 @@ class giving_back {
         removed_as_ = removed.tell_types(removed_head_);
     }
 
-    /// Coordinates with declared types that points may have outgrown: by their digits in text, as means,
-    /// rounded to the steps of LAS, or in another file.
+    /// Coordinates with declared types that points may have outgrown: by their digits in text, as
+    /// means, rounded to the steps of LAS, or in another file.
     [[nodiscard]] std::array<bool, 3> axes_asked(const std::optional<weld_stream_outputs::file>& to,
                                                  const mesh_file& head, bool means) const {
         std::array<bool, 3> asked{};
@@ -293,7 +294,7 @@ class giving_back {
 
     /// The steps of LAS that hold the dropped points, where no other file has any.
     void look_at_removed() {
-        const team& all = is_divided_ ? all_ : lone_;
+        const communicator& all = is_divided_ ? all_ : lone_;
         output_look seen;
         const auto each = [&](const std::function<void(points_view)>& take) {
             seen = output_look(take);
@@ -387,10 +388,10 @@ class giving_back {
         for (std::size_t row = 0; row < count; ++row) groups_[row] = numbers_->of(first_ + row);
     }
 
-    pacer& pace_;
+    cancellable_progress& pace_;
     const tile_task& task_;
     const work_folder& work_;
-    const team& all_;
+    const communicator& all_;
     const weld_stream_outputs& asked_;
     const cloud_survey& survey_;
     tile_steps& steps_;
@@ -406,7 +407,7 @@ class giving_back {
     std::optional<points_out> result_{};
     std::optional<text_out> map_{};
     std::optional<new_numbers> numbers_{};
-    const team lone_{process_team{}};
+    const communicator lone_{process_team{}};
     bool is_divided_ = false;
     std::uint64_t first_ = 0;  ///< number of the block's first point
     std::uint64_t given_ = 0;
@@ -426,14 +427,14 @@ void remove_leftovers(const work_folder& folder) {
     }
 }
 
-weld_stream_written give_back(pacer& pace, const tile_task& task,
+weld_stream_written give_back(cancellable_progress& pace, const tile_task& task,
                               const weld_stream_outputs& outputs, tile_steps& steps,
                               tiles_welded& welded, kept_rows* rows, tile_faces* faces,
                               const work_folder& folder) {
     state_writer state;
     state.number(outputs.unfinished.size());
     for (const fs::path& path : outputs.unfinished) state.text(fs::absolute(path).string());
-    if (steps.all().leads()) folder.store(leftovers, state);
+    if (steps.all().is_root()) folder.store(leftovers, state);
     return giving_back(pace, task, outputs, steps, welded, rows, faces, folder).run();
 }
 
