@@ -95,8 +95,8 @@ class part_of_surface {
 };
 
 /// All but `of_face`: where the faces of before went, of which those `listed` were merged.
-void tell(face_origins& origins, const std::vector<std::uint32_t>& source_of,
-          const std::vector<std::uint32_t>& listed, const merged_faces& merged) {
+void report(face_origins& origins, const std::vector<std::uint32_t>& source_of,
+            const std::vector<std::uint32_t>& listed, const merged_faces& merged) {
     origins.source = source_of;
     origins.merged_into.resize(source_of.size());
     std::iota(origins.merged_into.begin(), origins.merged_into.end(), 0U);
@@ -196,7 +196,7 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
                            merged.faces[f] = part.to_whole(merged.faces[f]);
                    });
     }
-    if (origins != nullptr) tell(*origins, source_of, listed, merged);
+    if (origins != nullptr) report(*origins, source_of, listed, merged);
     put_merged(surface, source_of, listed, merged, origins);
     return source_of_point;
 }

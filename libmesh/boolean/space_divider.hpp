@@ -162,7 +162,7 @@ class divider {
     }
 
     /// Adds the ranges of the components that reach into a place, or takes them away.
-    void tell(partial_expression& state, const place& p, bool is_there) const {
+    void assign(partial_expression& state, const place& p, bool is_there) const {
         const std::int64_t sign = is_there ? 1 : -1;
         for_components(p.inside, [&](std::uint32_t c) {
             const winding_range& range = range_in(p, c);

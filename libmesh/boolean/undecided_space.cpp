@@ -155,14 +155,14 @@ undecided_space::undecided_space(const surface_components& components,
     for_chunks(tasks.size(), tasks_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         partial_expression state = at_nowhere;
         for (std::size_t i = begin; i < end; ++i) {
-            const auto tell = [&](std::int64_t sign) {
-                division.tell(state, tasks[i].begin, sign > 0);
+            const auto assign = [&](std::int64_t sign) {
+                division.assign(state, tasks[i].begin, sign > 0);
                 for (const auto& [c, winding] : tasks[i].known)
                     state.add(components.operand(c), winding_range::only(sign * winding));
             };
-            tell(1);
+            assign(1);
             found[i] = subdivision(division, state).divide(tasks[i].begin);
-            tell(-1);
+            assign(-1);
             tasks[i].begin = {};
         }
     });

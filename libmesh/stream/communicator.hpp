@@ -53,21 +53,21 @@ class communicator {
 
     /// All-gather: returns what every rank gives, by rank. Collective: every rank must call this.
     [[nodiscard]] std::vector<state_reader> exchange(const state_writer& mine) const {
-        std::vector<state_reader> told;
+        std::vector<state_reader> received;
         if (is_alone())
-            told.emplace_back(mine.bytes());
+            received.emplace_back(mine.bytes());
         else
-            for (std::string& bytes : all_.exchange(mine.bytes())) told.emplace_back(bytes);
-        return told;
+            for (std::string& bytes : all_.exchange(mine.bytes())) received.emplace_back(bytes);
+        return received;
     }
-    /// Rank by rank: `tell(mine)` writes what the rank sends, which all receive, `hear(told)`,
-    /// before the next rank begins. Collective: every rank must call this.
-    template <class Tell, class Hear>
-    void sequential(const Tell& tell, const Hear& hear) const {
+    /// Rank by rank: `send(mine)` writes what the rank sends, which all receive,
+    /// `receive(received)`, before the next rank begins. Collective: every rank must call this.
+    template <class Send, class Receive>
+    void sequential(const Send& send, const Receive& receive) const {
         for (std::size_t turn = 0; turn < size(); ++turn) {
             state_writer mine;
-            if (turn == rank()) tell(mine);
-            hear(std::move(exchange(mine)[turn]));
+            if (turn == rank()) send(mine);
+            receive(std::move(exchange(mine)[turn]));
         }
     }
     /// Where this one stops in its turn, of so many bytes: at the end of its share; the last one
@@ -79,24 +79,24 @@ class communicator {
     /// Returns when every rank has called it.
     void barrier() const { static_cast<void>(exchange({})); }
     [[nodiscard]] double most(double mine) const {
-        state_writer told;
-        told.real(mine);
-        for (state_reader& one : exchange(told)) mine = std::max(mine, one.real());
+        state_writer sent;
+        sent.real(mine);
+        for (state_reader& one : exchange(sent)) mine = std::max(mine, one.real());
         return mine;
     }
     [[nodiscard]] std::uint64_t sum(std::uint64_t mine) const {
-        state_writer told;
-        told.number(mine);
+        state_writer sent;
+        sent.number(mine);
         std::uint64_t all = 0;
-        for (state_reader& one : exchange(told)) all += one.number();
+        for (state_reader& one : exchange(sent)) all += one.number();
         return all;
     }
 
-    /// Of what those tell that are ahead.
+    /// Of what lower ranks give.
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t mine) const {
-        state_writer told;
-        told.number(mine);
-        std::vector<state_reader> all = exchange(told);
+        state_writer sent;
+        sent.number(mine);
+        std::vector<state_reader> all = exchange(sent);
         std::uint64_t sum = 0;
         for (std::size_t r = 0; r < rank(); ++r) sum += all[r].number();
         return sum;

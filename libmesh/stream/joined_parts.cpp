@@ -59,12 +59,12 @@ void text_out::commit() {
         state_writer mine;
         mine.text(path_.string());
         mine.number(written_);
-        std::vector<state_reader> told = all_->exchange(mine);
-        const fs::path whole = told.front().text();
-        std::uint64_t at = told.front().number();
+        std::vector<state_reader> received = all_->exchange(mine);
+        const fs::path whole = received.front().text();
+        std::uint64_t at = received.front().number();
         for (std::size_t r = 1; r < all_->rank(); ++r) {
-            static_cast<void>(told[r].text());
-            at += told[r].number();
+            static_cast<void>(received[r].text());
+            at += received[r].number();
         }
         if (!all_->is_root()) copy_bytes(path_, 0, whole, at, written_);
         all_->barrier();

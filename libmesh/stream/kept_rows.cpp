@@ -122,7 +122,7 @@ kept_rows::kept_rows(cancellable_progress& pace, const work_folder& folder, cons
       has_all_(all.is_alone()) {
     gather(pace, steps, w);
     choose(pace);
-    tell_givers();
+    send_to_givers();
     w.max_displacement = all.most(longest_move(pace));
 }
 
@@ -185,22 +185,22 @@ void kept_rows::choose(cancellable_progress& pace) {
 }
 
 void kept_rows::share_rows(const record_count& mine) {
-    state_writer told;
-    store_count(mine, told);
-    told.number(single_ ? 1 : 0);
-    for (state_reader& one : all_.exchange(told)) {
+    state_writer sent;
+    store_count(mine, sent);
+    sent.number(single_ ? 1 : 0);
+    for (state_reader& one : all_.exchange(sent)) {
         counts_.push_back(load_count(one));
         single_ = one.number() != 0 && single_;
     }
 }
 
-void kept_rows::tell_givers() {
+void kept_rows::send_to_givers() {
     changes_.send();
     for (row_reader& from : changes_.received())
         for (; !from.empty(); from.pop()) givers_.keep(from.front()[1]);
 }
 
-void kept_rows::tell_first(const tiles_welded& w) {
+void kept_rows::gather_first(const tiles_welded& w) {
     if (has_all_) return;
     next_.reset();
     has_all_ = all_.is_root();

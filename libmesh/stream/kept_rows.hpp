@@ -44,7 +44,7 @@ class kept_rows {
               const tile_task& task, tile_steps& steps, tiles_welded& w);
 
     /// Rank 0 gets the rows of all. \pre it has been told of all points
-    void tell_first(const tiles_welded& w);
+    void gather_first(const tiles_welded& w);
 
     /// Whether the point gives its properties to what is kept.
     [[nodiscard]] bool gives(std::uint64_t point) const { return givers_.keeps(point); }
@@ -61,7 +61,7 @@ class kept_rows {
   private:
     void gather(cancellable_progress& pace, tile_steps& steps, const tiles_welded& w);
     void choose(cancellable_progress& pace);
-    void tell_givers();
+    void send_to_givers();
     void share_rows(const record_count& mine);
     [[nodiscard]] double longest_move(cancellable_progress& pace);
     [[nodiscard]] std::size_t owner_of(std::uint64_t point) const {

@@ -11,12 +11,12 @@ using io::las_grid_choice;
 
 void look_at_all(las_grid_choice& choice, const pass_of_points& each, const communicator& all) {
     each([&](points_view some) { choice.look(some); });
-    state_writer told;
+    state_writer sent;
     for (const las_grid_choice::range& r : choice.ranges()) {
-        told.real(r.low);
-        told.real(r.high);
+        sent.real(r.low);
+        sent.real(r.high);
     }
-    for (state_reader& one : all.exchange(told))
+    for (state_reader& one : all.exchange(sent))
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double low = one.real();
             choice.add(axis, {low, one.real()});
@@ -26,13 +26,13 @@ void look_at_all(las_grid_choice& choice, const pass_of_points& each, const comm
 /// Whether all agree that the scales hold all points.
 bool try_on_all(las_grid_choice& choice, const pass_of_points& each, const communicator& all) {
     each([&](points_view some) { choice.try_on(some); });
-    state_writer told;
-    told.number(choice.must_try_again() ? 1 : 0);
-    for (const int d : choice.tried()) told.number(static_cast<std::uint64_t>(d));
+    state_writer sent;
+    sent.number(choice.must_try_again() ? 1 : 0);
+    for (const int d : choice.tried()) sent.number(static_cast<std::uint64_t>(d));
     bool agreed = true;
     las_grid_choice::digits most{};
     std::vector<las_grid_choice::digits> tried;
-    for (state_reader& one : all.exchange(told)) {
+    for (state_reader& one : all.exchange(sent)) {
         agreed = one.number() == 0 && agreed;
         las_grid_choice::digits& of_one = tried.emplace_back();
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -26,12 +26,12 @@ leading_points::leading_points(const work_folder& folder, const communicator& al
                                const std::string& name, const mesh_file& header, std::uint64_t mine,
                                std::uint64_t together)
     : header_(header), packed_(header), exchanged_(folder, all, name, packed_.width(), held_bytes) {
-    state_writer told;
-    told.number(mine);
+    state_writer sent;
+    sent.number(mine);
     std::vector<std::uint64_t> parts;  // where they begin
     std::uint64_t before = 0;
     std::uint64_t first = 0;
-    for (state_reader& one : all.exchange(told)) {
+    for (state_reader& one : all.exchange(sent)) {
         if (parts.size() == all.rank()) first = before;
         parts.push_back((before + together - 1) / together * together);
         before += one.number();

@@ -24,8 +24,8 @@ void new_numbers::ask_others(cancellable_progress& pace, const work_folder& fold
     const share& mine = welded_.points;
     state_writer kept;
     kept.number(mine.size() - welded_.kept.dropped());
-    std::vector<state_reader> told = all.exchange(kept);
-    for (std::size_t r = 0; r < all.rank(); ++r) before_ += told[r].number();
+    std::vector<state_reader> received = all.exchange(kept);
+    for (std::size_t r = 0; r < all.rank(); ++r) before_ += received[r].number();
     const std::uint64_t points = steps.survey().points;
     const std::uint64_t memory = steps.sorting_memory() / 2;
     all_to_all asked(folder, all, "asked", 2, memory);

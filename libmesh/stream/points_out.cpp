@@ -90,23 +90,23 @@ write_result points_out::commit() {
     mine.real(result.max_displacement);
     mine.text(path_.string());
     mine.text(head);
-    std::vector<state_reader> told = all_->exchange(mine);
+    std::vector<state_reader> received = all_->exchange(mine);
     std::uint64_t at = part.head;
     std::uint64_t rows_at = part.head;
     fs::path whole;
     std::vector<std::string> heads;
-    for (std::size_t r = 0; r < told.size(); ++r) {
-        const std::uint64_t bytes = told[r].number();
-        const std::uint64_t rows_of_one = told[r].number();
+    for (std::size_t r = 0; r < received.size(); ++r) {
+        const std::uint64_t bytes = received[r].number();
+        const std::uint64_t rows_of_one = received[r].number();
         rows_at += bytes;
         if (r < all_->rank()) {
             at += bytes;
             rows_at += rows_of_one;
         }
-        result.max_displacement = std::max(result.max_displacement, told[r].real());
-        const std::string path = told[r].text();
+        result.max_displacement = std::max(result.max_displacement, received[r].real());
+        const std::string path = received[r].text();
         if (r == 0) whole = path;
-        if (bytes > 0) heads.push_back(told[r].text());
+        if (bytes > 0) heads.push_back(received[r].text());
     }
     if (heads.empty()) heads.push_back(head);
     if (!all_->is_root()) {

@@ -25,8 +25,8 @@ class turns {
         const std::function<void(const io::point_blocks&)>& done) {
         row_range last;
         all_.sequential([&](state_writer& mine) { tell(mine, last.last, take_block, done); },
-                        [&](state_reader told) {
-                            last = hear(told);
+                        [&](state_reader received) {
+                            last = hear(received);
                             places_.push_back(last.first);
                         });
         places_.push_back(last.last);
@@ -53,12 +53,12 @@ class turns {
 
     [[nodiscard]] static row_range hear(state_reader& one) {
         if (const std::string failure = one.text(); !failure.empty()) throw io_error(failure);
-        row_range told;
-        for (io::row_place* place : {&told.first, &told.last}) {
+        row_range received;
+        for (io::row_place* place : {&received.first, &received.last}) {
             place->row = one.number();
             place->byte = one.number();
         }
-        return told;
+        return received;
     }
 
     [[nodiscard]] row_range read_share(

@@ -408,10 +408,10 @@ class tile_steps::run_borders {
                 });
                 for (std::size_t b = 0; b < bundles; ++b) store_count(last.finish_inbox(b), mine);
             },
-            [&](state_reader told) {
+            [&](state_reader received) {
                 const share own = bundles_of(turn);
                 for (std::size_t b = 0; b < bundles; ++b) {
-                    const record_count count = load_count(told);
+                    const record_count count = load_count(received);
                     if (turn != communicator_.rank() && b >= own.last)
                         last.add_inbox(b, turn, count);
                 }

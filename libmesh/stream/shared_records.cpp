@@ -97,11 +97,11 @@ std::optional<io::record_index> look_in_turn(const std::filesystem::path& path,
             store_text(good ? std::optional(std::move(seen.found)) : std::nullopt, mine);
             for (const std::uint64_t n : {seen.next.row, seen.next.byte}) mine.number(n);
         },
-        [&](state_reader told) {
-            parts.push_back(load_text(told));
+        [&](state_reader received) {
+            parts.push_back(load_text(received));
             good = good && parts.back();
-            next.row = told.number();
-            next.byte = told.number();
+            next.row = received.number();
+            next.byte = received.number();
         });
     return joined_text(parts);
 }

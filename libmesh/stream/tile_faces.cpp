@@ -59,11 +59,11 @@ class records_of_all {
     /// Collective: every rank must call this. Returns how many there are.
     std::uint64_t finish() {
         const std::uint64_t mine = writer_.finish_unsynced().records;
-        state_writer told;
-        told.number(mine);
+        state_writer sent;
+        sent.number(mine);
         std::uint64_t all = 0;
         std::uint64_t before = 0;
-        std::vector<state_reader> counts = all_.exchange(told);
+        std::vector<state_reader> counts = all_.exchange(sent);
         for (std::size_t r = 0; r < counts.size(); ++r) {
             if (r == all_.rank()) before = all;
             all += counts[r].number();
@@ -318,7 +318,7 @@ void tile_faces::renumber(row_block& block) {
                            [&](std::uint64_t old) { return number_of(old); });
 }
 
-void tile_faces::tell(mesh_file& head, bool all) const {
+void tile_faces::describe(mesh_file& head, bool all) const {
     for (element& e : head.attributes.elements) {
         if (e.name != "face" || e.rows == 0) continue;
         e.rows = static_cast<std::size_t>(all ? steps_.survey().faces : counts_.faces);

@@ -59,7 +59,7 @@ class tile_faces {
     /// \throws stream_error, cancelled
     void weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts);
     /// How many rows `give` will write. With `all`, faces stay as they are.
-    void tell(mesh_file& head, bool all) const;
+    void describe(mesh_file& head, bool all) const;
     [[nodiscard]] std::size_t most_corners(bool all) const {
         return all ? most_corners_ : most_kept_corners_;
     }

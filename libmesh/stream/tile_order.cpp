@@ -107,13 +107,13 @@ void tile_steps::number_by_rank(row_merge& by_key, std::uint64_t rank) {
         by_number.put(owner_of(id), std::array{id, rank});
         if (rank % ranks_a_check == 0) pace_.check();
     }
-    state_writer told;
-    store_count(in_order.finish(), told);
+    state_writer sent;
+    store_count(in_order.finish(), sent);
     row_writer ranks(ranks_file(), piece);
     for (row_merge all = by_number.sorted(); !all.empty(); all.pop()) ranks.put(all.front()[1]);
     ranks_ = ranks.finish_unsynced();
     numbers_.clear();
-    for (state_reader& one : communicator_.exchange(told)) numbers_.push_back(load_count(one));
+    for (state_reader& one : communicator_.exchange(sent)) numbers_.push_back(load_count(one));
 }
 
 row_chain tile_steps::numbers_by_rank(const share& some) const {
@@ -139,14 +139,15 @@ kept_points tile_steps::number_kept(const kept_points& by_rank) const {
 }
 
 /// Of the ranks that a process is told of, it tells whoever is told of the numbers.
-kept_points tile_steps::number_kept_by_all(const share& told, const kept_points& by_rank) const {
+kept_points tile_steps::number_kept_by_all(const share& assigned,
+                                           const kept_points& by_rank) const {
     if (communicator_.is_alone()) return number_kept(by_rank);
     all_to_all dropped(folder_, communicator_, "dropped", 1, sorting_memory());
-    std::uint64_t rank = told.first;
-    for (row_chain all = numbers_by_rank(told); !all.empty(); all.pop(), ++rank)
+    std::uint64_t rank = assigned.first;
+    for (row_chain all = numbers_by_rank(assigned); !all.empty(); all.pop(), ++rank)
         if (!by_rank.keeps(rank)) dropped.put(owner_of(all.front()[0]), all.front());
     dropped.send();
-    kept_points kept(told.size(), told.first);
+    kept_points kept(assigned.size(), assigned.first);
     for (row_reader& from : dropped.received())
         for (; !from.empty(); from.pop()) kept.drop(from.front()[0]);
     dropped.remove_received();
@@ -161,22 +162,22 @@ tile_steps::leaders::leaders(const tile_steps& steps, const communicator& all,
 }
 
 /// From the ranks of points and of their leaders to the numbers of both: by way of the leaders'.
-void tile_steps::leaders::number(const tile_steps& s, const communicator& all, const share& told,
-                                 row_merge& ranks) {
+void tile_steps::leaders::number(const tile_steps& s, const communicator& all,
+                                 const share& assigned, row_merge& ranks) {
     const auto owner = [&](std::uint64_t i) { return all.owner_of(i, s.survey_.cloud.points); };
     shared_sorter by_leader(s.folder_, all, "leaders", {.width = 2, .keys = 2}, s.sorting_memory());
     sorter_ = std::make_unique<shared_sorter>(s.folder_, all, "led", row_sorter::shape{2, 1},
                                               s.sorting_memory());
-    std::uint64_t rank = told.first;
-    for (row_chain points = s.numbers_by_rank(told); !ranks.empty(); points.pop(), ++rank) {
+    std::uint64_t rank = assigned.first;
+    for (row_chain points = s.numbers_by_rank(assigned); !ranks.empty(); points.pop(), ++rank) {
         std::optional<std::uint64_t> leader;
         for (; !ranks.empty() && ranks.front()[0] == rank; ranks.pop())
             leader = border_.leader_of(ranks.front()[1]);
         if (leader) by_leader.put(owner(*leader), std::array{*leader, points.front()[0]});
         if (rank % ranks_a_check == 0) s.pace_.check();
     }
-    rank = told.first;
-    row_chain points = s.numbers_by_rank(told);
+    rank = assigned.first;
+    row_chain points = s.numbers_by_rank(assigned);
     for (row_merge led = by_leader.sorted(); !led.empty(); led.pop()) {
         for (; rank < led.front()[0]; ++rank) points.pop();
         const std::uint64_t point = led.front()[1];

@@ -63,14 +63,14 @@ class output_look {
         for (bool& one : outgrown_) one = all.sum(one ? 1 : 0) > 0;
     }
     /// \pre it has seen all points
-    void tell(mesh_file& head) const {
+    void describe(mesh_file& head) const {
         if (!single_) head.stored_as = precision::float64;
         if (extended_) io::extend(*head.las);
     }
     /// As `write` chooses types when it has all points: each axis its own. `point_writer` keeps to
     /// that only where `stored_as` is float32, so that changes; what `write` would tell of is
     /// returned.
-    [[nodiscard]] std::optional<precision> tell_types(mesh_file& head) const {
+    [[nodiscard]] std::optional<precision> describe_types(mesh_file& head) const {
         if (axes_ == std::array<bool, 3>{}) return std::nullopt;
         const precision as = head.stored_as;
         element& e = obtain_element(head.attributes, "vertex", 0);
@@ -117,8 +117,8 @@ class giving_back {
         head_.ranges = survey_.ranges;
         is_divided_ = may_divide();
         if (is_divided_) return;
-        steps.tell_first(welded);
-        if (rows != nullptr) rows->tell_first(welded);
+        steps.gather_first(welded);
+        if (rows != nullptr) rows->gather_first(welded);
     }
 
     [[nodiscard]] weld_stream_written run() {
@@ -184,7 +184,7 @@ class giving_back {
     void add_columns() {
         removed_head_ = removed_head();
         if (!asked_.welded) return;
-        if (faces_ != nullptr) faces_->tell(head_, drops_nothing());
+        if (faces_ != nullptr) faces_->describe(head_, drops_nothing());
         if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
         if (!asked_.label.empty())
             written_.label_replaced =
@@ -245,10 +245,10 @@ class giving_back {
         });
         if (is_divided_) welded.share(all_);
         if (is_divided_) removed.share(all_);
-        if (of_las) welded.tell(head_);
-        if (of_las) removed.tell(removed_head_);
-        welded_as_ = welded.tell_types(head_);
-        removed_as_ = removed.tell_types(removed_head_);
+        if (of_las) welded.describe(head_);
+        if (of_las) removed.describe(removed_head_);
+        welded_as_ = welded.describe_types(head_);
+        removed_as_ = removed.describe_types(removed_head_);
     }
 
     /// Coordinates with declared types that points may have outgrown: by their digits in text, as
@@ -307,7 +307,7 @@ class giving_back {
         removed_head_.las = las_grid_of(
             each, all, {asked_.removed->options.las_scale, asked_.removed->options.las_offset});
         seen.share(all);
-        seen.tell(removed_head_);
+        seen.describe(removed_head_);
     }
 
     void give_all() {

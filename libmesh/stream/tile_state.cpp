@@ -104,8 +104,8 @@ void tile_steps::unpack() {
 void tile_steps::share_cuts() {
     state_writer mine;
     if (communicator_.is_root()) store_cuts(*cuts_, mine);
-    std::vector<state_reader> told = communicator_.exchange(mine);
-    if (!communicator_.is_root()) cuts_ = load_cuts(told.front(), tolerance_);
+    std::vector<state_reader> received = communicator_.exchange(mine);
+    if (!communicator_.is_root()) cuts_ = load_cuts(received.front(), tolerance_);
 }
 
 bool tile_steps::has_plan() const { return folder_.load(plan_name).has_value(); }
@@ -192,15 +192,15 @@ bool tile_steps::take_over() {
         mine.number(tiles_[t].finished ? 1 : 0);
     mine.number(survey_.cloud.damaged.size());
     for (const std::filesystem::path& path : survey_.cloud.damaged) mine.text(path.string());
-    std::vector<state_reader> told = communicator_.exchange(mine);
-    for (state_reader& one : told) whole = one.number() != 0 && whole;
+    std::vector<state_reader> received = communicator_.exchange(mine);
+    for (state_reader& one : received) whole = one.number() != 0 && whole;
     survey_.cloud.damaged.clear();
     for (std::size_t t = 0; t < all; ++t) {
-        const bool finished = told[t % told.size()].number() != 0;
-        if (finished && t % told.size() != communicator_.rank())
+        const bool finished = received[t % received.size()].number() != 0;
+        if (finished && t % received.size() != communicator_.rank())
             whole = load_tile(t, false) && whole;
     }
-    for (state_reader& one : told)
+    for (state_reader& one : received)
         for (std::uint64_t left = one.number(); left > 0 && one.whole(); --left)
             survey_.cloud.damaged.push_back(one.text());
     scattered_ = survey_.cloud.continued = whole;

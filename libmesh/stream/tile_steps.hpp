@@ -59,7 +59,7 @@ struct tile_task {
 struct tiles_welded {
     tiles_welded(double tolerance, const weld::agreement& agree) : border(tolerance, agree) {}
 
-    share points{};                         ///< of whose fate the process is told
+    share points{};                         ///< of which the process gets the outcome
     kept_points kept{0};                    ///< these, by number in the files
     std::optional<kept_points> followed{};  ///< "dropped" in it: kept with others, if asked for
     border_weld border;                     ///< names the leaders
@@ -70,9 +70,9 @@ struct tiles_welded {
         std::filesystem::path path{};
         record_count count{};
     };
-    std::vector<file> drops{};  ///< that the process is told of
-    /// Of a team: those of points that [a] process tells [b] of.
-    std::vector<std::vector<file>> told{};
+    std::vector<file> drops{};  ///< that are assigned to the process
+    /// Of several ranks: those of points that [a] sends to [b].
+    std::vector<std::vector<file>> sent{};
 };
 
 /// Tiles and their borders know points by their ranks: the places they have in the order that the
@@ -109,7 +109,7 @@ class tile_steps {
     /// Whether each rank reads its points, and is told of them.
     [[nodiscard]] bool is_divided() const { return source_.count().has_value(); }
     /// Tells rank 0 of all points, and the others of none.
-    void tell_first(tiles_welded& w) const;
+    void gather_first(tiles_welded& w) const;
 
     /// The kept points that points belong to; asked for one by one, from the first on.
     class leaders {
@@ -121,7 +121,7 @@ class tile_steps {
         [[nodiscard]] std::uint64_t of(std::uint64_t point);
 
       private:
-        void number(const tile_steps& steps, const communicator& all, const share& told,
+        void number(const tile_steps& steps, const communicator& all, const share& assigned,
                     row_merge& ranks);
 
         const border_weld& border_;
@@ -234,14 +234,14 @@ class tile_steps {
     [[nodiscard]] std::vector<tiles_welded::file> weld_borders_in_runs(longest_move& longest) const;
     [[nodiscard]] bool is_outer(const point3& p, const share& tiles,
                                 std::vector<std::uint32_t>& halos) const;
-    void tell(tiles_welded& w, kept_points& followed) const;
+    void distribute(tiles_welded& w, kept_points& followed) const;
     void follow(const tiles_welded& w, kept_points& kept, kept_points& followed) const;
     void sum_up(tiles_welded& w, const kept_points& kept, const kept_points& followed,
                 longest_move longest) const;
     [[nodiscard]] kept_points number_kept(const kept_points& by_rank) const;
-    [[nodiscard]] kept_points number_kept_by_all(const share& told,
+    [[nodiscard]] kept_points number_kept_by_all(const share& assigned,
                                                  const kept_points& by_rank) const;
-    [[nodiscard]] share told_to(std::size_t rank) const;
+    [[nodiscard]] share assigned_to(std::size_t rank) const;
     [[nodiscard]] std::size_t owner_of(std::uint64_t point) const {
         return is_divided() ? communicator_.owner_of(point, survey_.cloud.points) : 0;
     }

@@ -44,11 +44,11 @@ std::uint64_t unpack_in_turn(const fs::path& pcd, const fs::path& to, const comm
                                                 packed.size, put);
             tell(at, good, mine);
         },
-        [&](state_reader told) {
-            if (told.number() == 0) packed.fail_damaged(in);
-            at.packed = static_cast<std::size_t>(told.number());
-            at.unpacked = static_cast<std::size_t>(told.number());
-            at.last = told.text();
+        [&](state_reader received) {
+            if (received.number() == 0) packed.fail_damaged(in);
+            at.packed = static_cast<std::size_t>(received.number());
+            at.unpacked = static_cast<std::size_t>(received.number());
+            at.last = received.text();
         });
     if (at.packed != packed.bytes.size() || at.unpacked != packed.size) packed.fail_damaged(in);
     return packed.size;
