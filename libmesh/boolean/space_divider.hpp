@@ -34,7 +34,7 @@ struct range_change {
 };
 
 /// A box on the way down.
-struct place {
+struct box_node {
     aabb<double, 3> box;
     items inside;
     std::vector<std::uint32_t> unusual;  ///< components that may wind otherwise there; ascending
@@ -43,7 +43,7 @@ struct place {
 };
 
 /// A half of a box.
-struct half : place {
+struct half : box_node {
     std::vector<decided_component> gone;  ///< reach into the box, but not into this half; ascending
     bool is_decided = false;  ///< by some of them: what else there is was not looked for
 };
@@ -74,8 +74,8 @@ class divider {
           items_(components),
           is_undecided_face_(is_undecided_face) {}
 
-    [[nodiscard]] place everything() const {
-        place all;
+    [[nodiscard]] box_node everything() const {
+        box_node all;
         for (std::uint32_t c = 0; c < components_.size(); ++c) {
             all.box.include(components_.box(c));
             all.inside.push_back({c, 0, 0});
@@ -86,8 +86,8 @@ class divider {
         return all;
     }
 
-    /// Whether to halve a place whose value is not known.
-    [[nodiscard]] bool is_worth_halving(const place& p) const {
+    /// Whether to halve a box whose value is not known.
+    [[nodiscard]] bool is_worth_halving(const box_node& p) const {
         if (p.faces <= limits_.faces_not_halved || p.budget < static_cast<double>(p.inside.size()))
             return false;
         // A box that one component alone reaches into has nothing hidden that halves would show.
@@ -97,7 +97,7 @@ class divider {
     /// False where the box is too small for that. `decides(gone)` says whether a half is decided by
     /// the components known to be gone from it.
     template <class Decides>
-    [[nodiscard]] bool halve(const place& p, halves& result, const Decides& decides) const {
+    [[nodiscard]] bool halve(const box_node& p, halves& result, const Decides& decides) const {
         if (!can_be_halved(p.box, result.axis, result.at)) return false;
         result.lower = {{p.box, {}, {}}, {}};
         result.upper = {{p.box, {}, {}}, {}};
@@ -135,17 +135,18 @@ class divider {
         return true;
     }
 
-    /// What is known of a part of a place by the components that are gone from it.
+    /// What is known of a part of a box by the components that are gone from it.
     [[nodiscard]] std::vector<range_change> changes_by(const std::vector<decided_component>& gone,
-                                                       const place& above) const {
+                                                       const box_node& above) const {
         std::vector<range_change> result;
         for (const auto& [c, winding] : gone)
             change(c, winding_range::only(winding), above, result);
         return result;
     }
 
-    /// What is known besides of a part of a place.
-    [[nodiscard]] std::vector<range_change> changes_in(const half& part, const place& above) const {
+    /// What is known besides of a part of a box.
+    [[nodiscard]] std::vector<range_change> changes_in(const half& part,
+                                                       const box_node& above) const {
         std::vector<range_change> result = changes_by(part.gone, above);
         for (const std::uint32_t c : above.unusual)
             if (!std::ranges::binary_search(part.unusual, c) && is_inside(c, part))
@@ -153,7 +154,7 @@ class divider {
         return result;
     }
 
-    void mark_faces(const place& p) const {
+    void mark_faces(const box_node& p) const {
         for (auto i = p.inside.begin(); i != p.inside.end();) {
             const std::uint32_t c = i->component;
             const framed_box box = items_.framed(c, p.box);
@@ -161,8 +162,8 @@ class divider {
         }
     }
 
-    /// Adds the ranges of the components that reach into a place, or takes them away.
-    void assign(partial_expression& state, const place& p, bool is_there) const {
+    /// Adds the ranges of the components that reach into a box, or takes them away.
+    void assign(partial_expression& state, const box_node& p, bool is_there) const {
         const std::int64_t sign = is_there ? 1 : -1;
         for_components(p.inside, [&](std::uint32_t c) {
             const winding_range& range = range_in(p, c);
@@ -170,8 +171,8 @@ class divider {
         });
     }
 
-    /// Whether few components reach into a place, none of which can decide it alone.
-    [[nodiscard]] bool cannot_prune(const place& p, partial_expression& state) const {
+    /// Whether few components reach into a box, none of which can decide it alone.
+    [[nodiscard]] bool cannot_prune(const box_node& p, partial_expression& state) const {
         std::size_t count = 0;
         bool has_hope = false;
         for_components(p.inside, [&](std::uint32_t c) {
@@ -190,7 +191,7 @@ class divider {
     }
 
   private:
-    void change(std::uint32_t c, const winding_range& now, const place& above,
+    void change(std::uint32_t c, const winding_range& now, const box_node& above,
                 std::vector<range_change>& result) const {
         const winding_range& before = range_in(above, c);
         if (now != before)
@@ -219,11 +220,11 @@ class divider {
         }
     }
 
-    [[nodiscard]] const winding_range& range_in(const place& p, std::uint32_t c) const {
+    [[nodiscard]] const winding_range& range_in(const box_node& p, std::uint32_t c) const {
         return std::ranges::binary_search(p.unusual, c) ? components_.range(c)
                                                         : components_.usual_range(c);
     }
-    [[nodiscard]] static bool is_inside(std::uint32_t c, const place& p) {
+    [[nodiscard]] static bool is_inside(std::uint32_t c, const box_node& p) {
         return std::ranges::binary_search(p.inside, c, {}, &item::component);
     }
 

@@ -27,7 +27,7 @@ class subdivision {
         : division_(division), state_(state) {}
 
     /// The first node is the box.
-    [[nodiscard]] std::vector<node> divide(const place& p) {
+    [[nodiscard]] std::vector<node> divide(const box_node& p) {
         nodes_.resize(1);
         if (!state_.value()) static_cast<void>(divide(p, 0));
         return std::move(nodes_);
@@ -35,7 +35,7 @@ class subdivision {
 
   private:
     /// Returns what has not been spent.
-    double divide(const place& p, std::size_t own) {
+    double divide(const box_node& p, std::size_t own) {
         halves parts;
         const auto decides = [&](const std::vector<decided_component>& gone) {
             const auto changes = division_.changes_by(gone, p);
@@ -92,14 +92,14 @@ class subdivision {
 
 /// A box that a task begins with.
 struct task {
-    place begin;
+    box_node begin;
     std::vector<decided_component> known;  ///< that wind around it
     std::size_t at = 0;                    ///< its node
 };
 
 /// Halves everything into tasks, wide first, so that they are the same however many threads there
 /// are; `nodes` are above them.
-std::vector<task> divide_into_tasks(const divider& division, place&& everything,
+std::vector<task> divide_into_tasks(const divider& division, box_node&& everything,
                                     std::vector<node>& nodes) {
     nodes.resize(1);
     std::vector<task> tasks;
@@ -147,7 +147,7 @@ undecided_space::undecided_space(const surface_components& components,
                                  const division_limits& limits)
     : is_undecided_face_(components.mesh().faces.size(), 0) {
     const divider division(components, limits, is_undecided_face_);
-    place everything = division.everything();
+    box_node everything = division.everything();
     halves_.box = everything.box;
     std::vector<node>& nodes = halves_.nodes;
     std::vector<task> tasks = divide_into_tasks(division, std::move(everything), nodes);
