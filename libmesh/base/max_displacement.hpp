@@ -12,6 +12,6 @@ namespace treeform::detail {
 ///
 /// \pre `points` and `placed` have the same size
 [[nodiscard]] double max_displacement(points_view points, const transform<3>& by,
-                                                   points_view placed);
+                                      points_view placed);
 
 }  // namespace treeform::detail

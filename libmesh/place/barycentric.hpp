@@ -13,6 +13,6 @@ namespace treeform::detail::place {
 /// \pre coordinates are finite; `p` is on the triangle, except for rounding: otherwise the weights
 ///      are those of some other point of it
 [[nodiscard]] std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t,
-                                                                     const point3& p);
+                                                        const point3& p);
 
 }  // namespace treeform::detail::place

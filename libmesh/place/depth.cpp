@@ -7,8 +7,8 @@
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/length_of.hpp>
-#include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
+#include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -100,8 +100,8 @@ class way_out_search {
         for (point3& p : points) p = plus(p, offset);
         const mesh_view there{points, a_.mesh().faces};
         const tree<3> faces = build_face_tree(there);
-        const auto how = detail::place::relation_of(shape(a_.whose(), points, faces, a_.vertices()),
-                                                    b_, {}, &effort_);
+        const auto how = detail::place::relation_of(
+            shape(a_.prepared(), points, faces, a_.vertices()), b_, {}, &effort_);
         return how.status == status::ok && how.relation != mesh_relation::penetrating;
     }
 
@@ -217,7 +217,7 @@ std::optional<penetration_depth_result> penetration_depth(const mesh_ref& given_
     if (how.relation != mesh_relation::penetrating) return std::nullopt;
     detail::base::effort effort(options.effort, a.view().faces.size() + b.view().faces.size());
     effort.hold(0.5);  // for the judgments, and for what shortens the way
-    const auto found = detail::place::find_moves_apart(
+    const auto found = detail::place::search_separations(
         of_a, {&of_b, 1}, {.effort = &effort, .progress = work.part(0.1, 0.4)});
     if (work.cancelled()) return stopped;
     way_out_search search(of_a, of_b, effort, work);

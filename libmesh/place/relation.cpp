@@ -45,7 +45,8 @@ struct pair_searches {
 /// The first face that passes through one of the other mesh.
 std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
                                         const progress_callback& progress, pair_searches& how) {
-    if (a.whose().is_cloud() || b.whose().is_cloud()) return std::nullopt;  // points only touch
+    if (a.prepared().is_cloud() || b.prepared().is_cloud())
+        return std::nullopt;  // points only touch
     mesh_intersection_options options;
     options.first_only = true;
     options.kinds = pair_kind::crossing;

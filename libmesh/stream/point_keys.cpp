@@ -86,7 +86,7 @@ void point_keys::choice_of(point_block& block, std::vector<std::uint64_t>& to) c
     take(block, choice_, to);
 }
 
-void point_keys::take(point_block& block, const place& p, std::vector<std::uint64_t>& to) {
+void point_keys::take(point_block& block, const key_column& p, std::vector<std::uint64_t>& to) {
     to.assign(block.points.size(), 0);
     if (p.property.empty()) return;
     with_properties(block, [&](const attributes& properties) {

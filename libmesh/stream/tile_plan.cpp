@@ -125,8 +125,9 @@ std::optional<tile_steps::planned> tile_steps::plan_by(bool by_places) const {
         double most;       ///< points in a tile, about
         double with_halo;  ///< points of all tiles, of all points
     };
-    // Of a team, all have several, and so about the same.
-    const double several = team_.is_alone() ? all : all / (8.0 * static_cast<double>(team_.size()));
+    // Of several ranks, all have several, and so about the same.
+    const double several =
+        communicator_.is_alone() ? all : all / (8.0 * static_cast<double>(communicator_.size()));
     for (const way w : {way{std::min({0.25 * room, std::max(small, all / tiles), several}), 1.1},
                         way{std::min(0.25 * room, several), 1.5}, way{room, 4.0}}) {
         cut_sizes sizes;

@@ -56,7 +56,7 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
         {"given", or_null(settings.gap.has_value(), settings.gap ? settings.gap->given : "")},
         {"used", nullptr},
         {"faces", nullptr}};
-    entry["max_move"] = {{"given", settings.rails.max_move.given},
+    entry["max_move"] = {{"given", settings.limits.max_move.given},
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};

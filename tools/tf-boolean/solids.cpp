@@ -63,7 +63,7 @@ void mend(job& work, const boolean_settings& settings, solid& s, json& about) {
         throw failure(found, "not-mended",
                       name + ": cannot be mended: " + made.certificate.message());
     }
-    work.out.info(name + ": " + deeds(made.statistics));
+    work.out.info(name + ": " + repair_summary(made.statistics));
     made.file.stored_as = s.file.stored_as;
     s.file = std::move(made.file);
     s.triangle_of_face.clear();

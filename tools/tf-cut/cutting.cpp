@@ -88,7 +88,7 @@ void enter_blank_report(job& work, const cut_settings& s, const usable_input& in
     entry["triangles"] = input.file.mesh.faces.size() + input.left_out;
     entry["skipped"]["non_finite"] = input.left_out;
     entry["planes"] = planes_entry(s);
-    entry["max_move"] = {{"given", s.rails.max_move.given},
+    entry["max_move"] = {{"given", s.limits.max_move.given},
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};

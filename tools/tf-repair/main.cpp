@@ -78,8 +78,8 @@ void add_options(command_line& line, repair_settings& s) {
                         "change nothing; say what is wrong; exit 1 if\n"
                         "anything is"});
     line.group("Limits beyond which nothing is written (exit 1)");
-    tools::add_max_loss(line, s.rails);
-    tools::add_max_move(line, s.rails);
+    tools::add_max_loss(line, s.limits);
+    tools::add_max_move(line, s.limits);
 }
 
 void add_what_to_give_back(command_line& line, repair_settings& s, common_options& options) {
@@ -148,7 +148,7 @@ void check_request(const command_line& line, request& r, common_options& options
         if (!s.source.empty() && format != "ply" && format != "glb")
             refuse("--source needs an output with properties: ply, glb");
     }
-    s.steps.max_loss = s.rails.loss();
+    s.steps.max_loss = s.limits.loss();
     if (!s.check) {
         tools::require_output(line, options, "--check only says what is wrong");
         return;
@@ -193,7 +193,7 @@ tf::repaired_file mend(tools::job& work, const tools::dirty_mesh& input,
     tf::repair_options options = settings.steps;
     if (settings.gap) options.gap = settings.gap->used(input.diagonal);
     options.precision = precision;
-    options.max_displacement = settings.rails.max_move.used(input.diagonal);
+    options.max_displacement = settings.limits.max_move.used(input.diagonal);
     options.progress = work.progress("repair");
     tf::repaired_file made = tf::repair_file(input.source(), options, scope);
     work.call_ended(made.certificate.status == tf::status::cancelled);
@@ -221,8 +221,8 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
         return static_cast<bool>(known) || known.status == tf::status::sheet;
     };
     std::string why = tools::objection(s, made, works);
-    const std::string too_far = tools::move_objection(work.entry["repair"], s.rails, input.diagonal,
-                                                      made.certificate, made.file.mesh.points);
+    const std::string too_far = tools::move_objection(
+        work.entry["repair"], s.limits, input.diagonal, made.certificate, made.file.mesh.points);
     if (why.empty()) why = too_far;
     if (!why.empty()) {
         work.out.result(work.name + ": not written: " + why);

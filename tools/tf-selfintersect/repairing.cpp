@@ -30,10 +30,10 @@ tf::resolve_result compute(job& work, const tf::mesh_file& input, const findings
         result.part.mesh, settings.mode,
         {.inside = settings.inside,
          .precision = precision,
-         .max_displacement = settings.rails.max_move.used(result.diagonal()),
+         .max_displacement = settings.limits.max_move.used(result.diagonal()),
          .keep_cuts = keeps_cuts(input, settings),
          .touching = settings.touching,
-         .max_loss = settings.rails.loss(),
+         .max_loss = settings.limits.loss(),
          .progress = work.progress("repair")});
     work.call_ended(repaired.certificate.status == tf::status::cancelled);
     return repaired;
@@ -167,7 +167,7 @@ bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
         compute(work, input, result, settings, written_precision(work.options, form, {&inputs, 1}));
     enter_repair(work, result, settings, repaired);
     const std::string too_far =
-        move_objection(work.entry["repair"], settings.rails, result.diagonal(),
+        move_objection(work.entry["repair"], settings.limits, result.diagonal(),
                        repaired.certificate, repaired.mesh.points);
     if (const std::string why = objection(result, settings, repaired, too_far); !why.empty()) {
         work.out.result(work.name + ": not repaired, nothing written: " + why);

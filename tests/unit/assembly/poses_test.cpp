@@ -109,8 +109,8 @@ TEST_CASE("poses: a part inside another, in one of several components, and in a 
     test::random source(3);
     for (int i = 0; i < 60; ++i) {
         poses.push_back(random_motion(source, 0.1));
-        poses.push_back(
-            tf::transform<3>::translation(tf::point3{source.in(0, 4), source.in(0, 4), source.in(0, 4)}));
+        poses.push_back(tf::transform<3>::translation(
+            tf::point3{source.in(0, 4), source.in(0, 4), source.in(0, 4)}));
     }
     check_by_moving({shell, two}, poses, 0.0);
 }

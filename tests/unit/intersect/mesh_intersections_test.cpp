@@ -289,7 +289,8 @@ TEST_CASE("intersects: balls that touch in one corner do, a hair apart they do n
     CHECK(tf::intersects(one, one, move_by(-2.0)));
     CHECK(tf::intersects(one, one, move_by(1.5)));
     CHECK_FALSE(tf::intersects(one, test::scaled(one, 0.5)));  // inside
-    CHECK(found_in(one, one, {.move_a = tf::transform<3>::translation(tf::point3{2.0, 0, 0})}).size() == 16);
+    CHECK(found_in(one, one, {.move_a = tf::transform<3>::translation(tf::point3{2.0, 0, 0})})
+              .size() == 16);
 }
 
 TEST_CASE("mesh_intersections: threads change nothing, not even the first pair or what was seen") {

@@ -237,5 +237,6 @@ TEST_CASE("self_intersections: a caller that says stop is heard, and told so") {
     CHECK(grows);
     CHECK(last == 1.0);
     CHECK_FALSE(whole.status == tf::status::cancelled);
-    CHECK(tf::self_intersections(mesh, {.progress = [](double) { return false; }}).status == tf::status::cancelled);
+    CHECK(tf::self_intersections(mesh, {.progress = [](double) { return false; }}).status ==
+          tf::status::cancelled);
 }

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 namespace io = tf::detail::io;
 namespace stream = tf::detail::stream;
 
-/// Points, some of whose lines have what few have: a value more or less, a word, another way to write
-/// a number, be it of a coordinate.
+/// Points, some of whose lines have what few have: a value more or less, a word, another way to
+/// write a number, be it of a coordinate.
 std::string odd_lines(std::size_t count, test::random& random) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i) {
@@ -38,7 +38,7 @@ std::string odd_lines(std::size_t count, test::random& random) {
 
 std::vector<std::optional<io::record_index>> look(const std::vector<fs::path>& paths,
                                                   const tf::process_team& team) {
-    const stream::team all(team);
+    const stream::communicator all(team);
     return stream::look_at_records(paths, {}, all);
 }
 

@@ -66,8 +66,8 @@ TEST_CASE("prepared distance: one without faces is near to nothing") {
     CHECK(!tf::closest_points(none, one));
     CHECK(!tf::closest_points(one, none));
     CHECK(!tf::closest_points(none, tf::prepared_mesh(tf::mesh{})));
-    const auto away =
-        tf::closest_points(one, one, {.move_b = tf::transform<3>::translation(tf::point3{0, 0, 2})});
+    const auto away = tf::closest_points(
+        one, one, {.move_b = tf::transform<3>::translation(tf::point3{0, 0, 2})});
     REQUIRE(away);
     CHECK(away->distance == 2.0);
 }
@@ -169,7 +169,8 @@ TEST_CASE("prepared distance: meshes of any size and far from each other are mea
     for (const double factor : {0x1p-900, 0x1p-300, 1e-6, 1e6, 0x1p300, 0x1p900}) {
         CAPTURE(factor);
         const tf::mesh scaled = test::scaled(a, factor);
-        compare(scaled, scaled, {}, tf::transform<3>::translation(tf::point3{factor, 2 * factor, 9 * factor}));
+        compare(scaled, scaled, {},
+                tf::transform<3>::translation(tf::point3{factor, 2 * factor, 9 * factor}));
         if (0x1p-400 < factor && factor < 0x1p400) {
             compare(scaled, a, {}, turned(source, 1.0, 50.0));
             compare(a, a, {}, turned(source, factor, 50.0 * factor));

@@ -106,7 +106,8 @@ TEST_CASE("harm: nothing, a stop, bad input, and any number of threads") {
     CHECK(tf::find_rounding_defects(none, {}).meeting == 0);
     const tf::mesh ball = test::ball(4, 1.0);
     const auto far = tf::rounded(test::moved(ball, {1e7, 3e6, 0}).points, tf::precision::float32);
-    CHECK(tf::find_rounding_defects(ball, far, [](double) { return false; }).status == tf::status::cancelled);
+    CHECK(tf::find_rounding_defects(ball, far, [](double) { return false; }).status ==
+          tf::status::cancelled);
     CHECK_THROWS_AS(static_cast<void>(tf::find_rounding_defects(ball, {})), std::invalid_argument);
     points broken = ball.points;
     broken[3].x = std::nan("");

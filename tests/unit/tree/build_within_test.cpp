@@ -81,7 +81,8 @@ TEST_CASE("build_within: touching counts, an empty box keeps nothing, an infinit
 
 TEST_CASE("build_within: with all elements it is the tree of a build") {
     const boxes<3> of = box_family<3>("random", 3000, 1);
-    const auto part = tf::build_within(of, itself, tf::detail::box_around<3>("treeform::box_of_all", of, itself));
+    const auto part =
+        tf::build_within(of, itself, tf::detail::box_around<3>("treeform::box_of_all", of, itself));
     CHECK(std::ranges::equal(part.boxes.ids(), tf::build(of, itself).ids()));
 }
 

@@ -249,8 +249,8 @@ TEST_CASE("mesh tiles: a damaged face is told of as by one, whoever reads it") {
 TEST_CASE("edge files: edges of more than two faces, with little memory") {
     const test::own_folder here("edge_files");
     const stream::work_folder folder(here.path / "work", "test");
-    stream::pacer pace({});
-    const stream::team alone{tf::process_team{}};
+    stream::cancellable_progress pace({});
+    const stream::communicator alone{tf::process_team{}};
     test::random random(2);
     for (const std::uint32_t points : {3U, 40U, 2000U}) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
@@ -287,8 +287,8 @@ TEST_CASE("edge files: of a team, each writes its uses, and counts a share of al
     for (const auto& [edge, n] : uses) expected += n > 2 ? 1 : 0;
     std::vector<std::uint64_t> counted(size);
     CHECK(test::run_as_team(size, [&](const tf::process_team& some) {
-        const stream::team all(some);
-        stream::pacer pace({});
+        const stream::communicator all(some);
+        stream::cancellable_progress pace({});
         stream::edge_files<stream::numbered_edge> files(folder, all, "edges", 60000, 1 << 20);
         for (const stream::numbered_edge e : edges[all.rank()]) files.put(e);
         counted[all.rank()] = files.count_nonmanifold(pace);

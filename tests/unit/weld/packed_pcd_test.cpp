@@ -1,6 +1,6 @@
 /// \file
-/// Compressed PCD read and written by a team: each rank unpacks and packs its share, and the bytes are
-/// those of one.
+/// Compressed PCD read and written by a team: each rank unpacks and packs its share, and the bytes
+/// are those of one.
 
 #include <libmesh/stream/unpacked_pcd.hpp>
 #include <treeform/mesh/carry.hpp>
@@ -62,8 +62,8 @@ std::set<std::string> unpack(const fs::path& pcd, const fs::path& to, std::size_
     std::set<std::string> said;
     std::size_t ended = 0;
     CHECK(test::run_as_team(size, [&](const tf::process_team& threads) {
-        const stream::team all(threads);
-        stream::pacer pace({});
+        const stream::communicator all(threads);
+        stream::cancellable_progress pace({});
         if (all.leads()) put(to, "");
         std::string words;
         try {

@@ -78,5 +78,4 @@ struct cutting_plane {
     point3 v_from, v_to;
 };
 
-
 }  // namespace treeform

@@ -34,9 +34,8 @@ struct near_pair {
     friend bool operator==(const near_pair&, const near_pair&) = default;
     /// The order of pairs: by distance, then by the numbers of a, then of b.
     friend constexpr bool nearer(const near_pair& x, const near_pair& y) {
-        return detail::comes_before(x, y, [](const auto& p, const auto& q) {
-            return p.a != q.a ? p.a < q.a : p.b < q.b;
-        });
+        return detail::comes_before(
+            x, y, [](const auto& p, const auto& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
     }
 };
 
