@@ -169,6 +169,7 @@ std::optional<oriented_box> find_oriented_box(points_view points) {
         sides.resize(most);
     }
     std::vector<oriented_box> boxes(sides.size());
+    boxes.push_back(box_along(corners, oriented_box{}.axes));
     for_chunks(sides.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const point3& n = hull.sides[sides[i]].normal;

@@ -81,7 +81,7 @@ struct oriented_box {
 };
 
 /// The box of least volume around points, of those with a side in a side of their convex hull, and
-/// another along an edge of it, as the best box nearly always has. Of flat points, the least area.
+/// another along an edge of it, or along the axes of space. Of flat points, the least area.
 /// None without points. Of a hull of more than some thousand sides, those of the largest areas are
 /// looked at, as many as 2^26 corners of sides allow.
 ///
