@@ -196,7 +196,7 @@ bool tile_search::give_tiles(bool in_turn) {
     };
     std::optional<io::record_index> text;
     if (!all_.is_alone())
-        text = look_at_records({input_}, {.format = options_.format}, all_).front();
+        text = survey_records({input_}, {.format = options_.format}, all_).front();
     const io::record_index* const known = text ? &*text : nullptr;
     io::face_rows rows =
         open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size()}, known);

@@ -153,7 +153,8 @@ class near_cells {
         }
     }
 
-    /// Calls `meet(entry, number)` for those within reach of `p` and others; for some more than once.
+    /// Calls `meet(entry, number)` for those within reach of `p` and others; for some more than
+    /// once.
     template <class Meet>
     void visit(const point3& p, std::uint64_t salt, const Meet& meet) {
         std::size_t met = 0;
@@ -201,16 +202,16 @@ class near_cells {
     }
 
     void count(std::size_t met) {
-        constexpr std::size_t looks_a_turn = 4096;
+        constexpr std::size_t searches_a_turn = 4096;
         constexpr std::size_t crowd = 16;
         met_ += met;
-        if (++looks_ < looks_a_turn) return;
-        if (met_ > crowd * looks_ && cubes_.can_shrink()) {
+        if (++searches_ < searches_a_turn) return;
+        if (met_ > crowd * searches_ && cubes_.can_shrink()) {
             cubes_.shrink();
             std::fill(heads_.begin(), heads_.end(), nobody);
             hang_all();
         }
-        met_ = looks_ = 0;
+        met_ = searches_ = 0;
     }
 
     cube_map cubes_;
@@ -219,7 +220,7 @@ class near_cells {
     std::vector<std::uint32_t> heads_;
     bool salted_;
     std::vector<std::uint64_t> salts_{};
-    std::size_t looks_ = 0;
+    std::size_t searches_ = 0;
     std::size_t met_ = 0;
 };
 
