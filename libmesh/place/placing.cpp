@@ -294,11 +294,11 @@ void placing::separate() {
 void placing::leave(const chosen_parts& parts, base::effort& effort) {
     effort.hold(0.5);  // for the judgments
     const separations found = search_separations(moving_, parts.parts,
-                                                       {.clearance = options_.clearance,
-                                                        .normals = options_.normals,
-                                                        .face_pairs = options_.face_pairs,
-                                                        .effort = &effort,
-                                                        .progress = work_.part(0.2, 0.6)});
+                                                 {.clearance = options_.clearance,
+                                                  .normals = options_.normals,
+                                                  .face_pairs = options_.face_pairs,
+                                                  .effort = &effort,
+                                                  .progress = work_.part(0.2, 0.6)});
     over();
     effort.hold(0.0);
     bool tried = false;

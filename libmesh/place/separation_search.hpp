@@ -55,7 +55,7 @@ struct separations {
 /// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
 ///         Computing the Intersection-Depth of Polyhedra, Algorithmica 9 (1993)
 [[nodiscard]] TREEFORM_API separations search_separations(const shape& a,
-                                                                std::span<const shape> parts,
-                                                                const apart_options& options = {});
+                                                          std::span<const shape> parts,
+                                                          const apart_options& options = {});
 
 }  // namespace treeform::detail::place

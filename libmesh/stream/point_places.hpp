@@ -31,7 +31,7 @@ class page_budget {
     }
 
   private:
-    static constexpr std::uint64_t page = 4096;  ///< what reading one record may bring into memory, at least
+    static constexpr std::uint64_t page = 4096;  ///< bytes that reading one record brings in
 
     std::uint64_t at_once_;
     std::uint64_t since_ = 0;
