@@ -37,7 +37,7 @@ inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
 /// Each rank has a share of the rows: a part of the file of about as many bytes as those of
 /// others. Where that is known without reading them (`point_blocks::row_parts`, and in text), each
 /// looks at its own; else, as where faces have any number of corners, each in turn looks at what
-/// begins in its share of the bytes, and tells where that ends.
+/// begins in its share of the bytes, and reports where that ends.
 class tile_faces {
   public:
     tile_faces(cancellable_progress& pace, const work_folder& folder, const tile_task& task,

@@ -68,7 +68,7 @@ class output_survey {
         if (extended_) io::extend(*head.las);
     }
     /// As `write` chooses types when it has all points: each axis its own. `point_writer` keeps to
-    /// that only where `stored_as` is float32, so that changes; what `write` would tell of is
+    /// that only where `stored_as` is float32, so that changes; what `write` would report is
     /// returned.
     [[nodiscard]] std::optional<precision> describe_types(mesh_file& head) const {
         if (axes_ == std::array<bool, 3>{}) return std::nullopt;
@@ -133,7 +133,7 @@ class giving_back {
     }
 
   private:
-    /// Whether each rank writes what it is told of.
+    /// Whether each rank writes what is assigned to it.
     [[nodiscard]] bool may_divide() const {
         const element* const vertices = find_element(head_.attributes, "vertex");
         const bool has_lists =
@@ -401,7 +401,7 @@ class giving_back {
     mesh_file head_;
     mesh_file removed_head_{};
     weld_stream_written written_{};
-    std::optional<precision> welded_as_{};  ///< to be told of the file, where types were chosen
+    std::optional<precision> welded_as_{};  ///< to be reported of the file, where types were chosen
     std::optional<precision> removed_as_{};
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};

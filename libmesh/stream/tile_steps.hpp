@@ -106,7 +106,7 @@ class tile_steps {
     /// \throws stream_error with what would be enough, where memory is not
     void check_before_borders() const;
     [[nodiscard]] tiles_welded weld_borders();
-    /// Whether each rank reads its points, and is told of them.
+    /// Whether each rank reads its points, and is assigned them.
     [[nodiscard]] bool is_divided() const { return source_.count().has_value(); }
     /// Tells rank 0 of all points, and the others of none.
     void gather_first(tiles_welded& w) const;
@@ -172,7 +172,7 @@ class tile_steps {
     [[nodiscard]] share tiles_of(std::size_t rank, bool unfinished = false) const;
 
     struct cut_sizes;
-    /// Whether a look at the points tells more of the memory that is needed than their number.
+    /// Whether a survey of the points says more of the memory that is needed than their number.
     [[nodiscard]] bool needs_survey() const;
     /// Decides where to cut.
     /// \throws stream_error with what would be enough, where memory is not

@@ -18,7 +18,7 @@ namespace treeform::detail::weld {
 /// Cubes whose edge is a multiple of an eighth of a power of two, and at least 2.0833 times as wide
 /// as a reach. An interval of the reach to both sides, rounded outward, meets at most two cubes a
 /// side, those of its ends:
-/// - For |x| below 2^44 edges, positions in edges are told by multiplication. The interval is
+/// - For |x| below 2^44 edges, positions in edges are found by multiplication. The interval is
 ///   2 / 2.0833 edges wide, and 2^-6 for the slack, 2^-7 for the rounding of its ends, 2^-7 for
 ///   that of the two positions: less than 1.
 /// - Beyond, a cube is so many neighboring doubles a side: 1024 at first, which are at least two
