@@ -17,7 +17,7 @@ TOOL_LINES = 900      # of C++ in the folder of a tool: what more it needs belon
 PAGE_LINES = 330      # of the page of a tool, page.cpp, which counts apart
 MORE_TOOL_LINES = {"tf-weld": 1700, "tf-selfintersect": 1150, "tf-boolean": 1125, "tf-place": 950,
                    "common": 4200, "picture": 2000, "assembly": 1200,
-                   "c": 8040,  # a function for each of the library's, and its docstring
+                   "c": 4930,  # functions and their docstrings
                    "python": 4600}  # every verb once, pictures, work by many processes
 
 # Rooms of libmesh, top down; an include points down this list, and not across a line of it.
@@ -278,9 +278,18 @@ def check_lengths(root):
                 yield path, line, f"a function of {length} lines, {FUNCTION_LINES} at most"
 
 
+def by_hand(path):
+    """Lines of a file but for those that tools/bindings makes."""
+    if path.parent.name == "made":
+        return 0
+    return len(re.sub(r"^// made of .*?^// end$", "", path.read_text(), flags=re.M | re.S)
+               .splitlines())
+
+
 def check_tools(root):
     for folder in sorted(path for path in (root / "tools").iterdir() if path.is_dir()):
-        lines = {path.name: len(lines_of(path)) for path in sources(root, folder.relative_to(root))}
+        lines = {str(path.relative_to(folder)): by_hand(path)
+                 for path in sources(root, folder.relative_to(root))}
         has_page = folder.name.startswith("tf-") or folder.name == "assembly"
         if has_page and (page := lines.pop("page.cpp", 0)) > PAGE_LINES:
             yield folder / "page.cpp", page, f"{page} lines of a page, {PAGE_LINES} at most"

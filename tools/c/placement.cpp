@@ -3,7 +3,7 @@
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 
-#include <tools/c/relations.hpp>
+#include <tools/c/made/structs.hpp>
 
 #include <algorithm>
 
@@ -16,76 +16,11 @@ struct kept_placement {
     tf::placement at;
 };
 
-/// Sets those of the options that the verb has.
-template <class Options>
-Options options_of(const treeform_place_options* options) {
-    const auto o = glue::chosen(options, treeform_place_options_init);
-    Options how;
-    if constexpr (requires { how.clearance; }) how.clearance = o.clearance;
-    if constexpr (requires { how.max_travel; }) how.max_travel = glue::given(o.max_travel);
-    if constexpr (requires { how.precision; }) how.precision = glue::precision(o.precision);
-    if constexpr (requires { how.bed; }) how.bed = glue::given(o.bed);
-    if constexpr (requires { how.close_in; }) how.close_in = o.close_in != 0;
-    if constexpr (requires { how.normals; }) {
-        how.normals = glue::limit(o.normals);
-        how.face_pairs = glue::limit(o.face_pairs);
-        how.effort = o.effort;
-    }
-    if constexpr (requires { how.max_angle; }) {
-        how.max_angle = o.max_angle;
-        how.tolerance = glue::given(o.tolerance);
-        how.max_steps = glue::limit(o.max_steps);
-    }
-    if constexpr (requires { how.flip; }) how.flip = o.flip != 0;
-    how.limit = glue::limit(o.limit);
-    how.vertices = glue::vertices(o.vertices);
-    how.progress = glue::progress(o);
-    return how;
-}
-
-treeform_contact contact_of(const tf::placement_contact& from) {
-    treeform_contact c{};
-    glue::copy(from.point, c.point);
-    glue::copy(from.normal, c.normal);
-    c.moving = from.moving;
-    c.fixed_face = from.fixed_face.value_or(TREEFORM_NONE);
-    c.fixed = static_cast<std::uint32_t>(from.fixed);
-    return c;
-}
-
 std::unique_ptr<glue::answer<treeform_placement>> answer_of(tf::placement from) {
     if (from.certificate.status == tf::status::cancelled) throw glue::cancelled{};
     auto made = glue::make<treeform_placement>();
     const tf::placement& at = made->keep(kept_placement{std::move(from)}).at;
-    treeform_placement& p = made->value;
-    p.certificate = glue::keep(*made, at.certificate);
-    p.end = static_cast<treeform_placement_end>(at.end);
-    p.message = made->keep(at.message()).c_str();
-    p.points = glue::flat(at.points);
-    p.point_count = at.points.size();
-    glue::copy(at.matrix, p.matrix);
-    glue::copy(at.direction, p.direction);
-    p.travel = at.travel;
-    p.clearance = at.clearance;
-    p.bed = at.bed.value_or(glue::not_known);
-    p.below_bed = at.below_bed;
-    p.on_bed = at.on_bed;
-    p.at_start = static_cast<treeform_standing>(at.at_start);
-    p.at_place = static_cast<treeform_standing>(at.at_place);
-    p.nearest_fixed = TREEFORM_NONE;
-    if (at.nearest) {
-        p.nearest_fixed = static_cast<std::uint32_t>(at.nearest->fixed);
-        p.nearest = &made->keep(glue::relation_of(at.nearest->how));
-    }
-    std::vector<treeform_contact> contacts;
-    for (const tf::placement_contact& one : at.contacts) contacts.push_back(contact_of(one));
-    p.contact_listed = contacts.size();
-    p.contacts = made->keep(std::move(contacts)).data();
-    p.contact_count = at.contact_count;
-    p.backed_off = at.statistics.backed_off;
-    p.fixed_culled = at.statistics.fixed_culled;
-    p.pairs_tested = at.statistics.pairs_tested;
-    p.effort = glue::copied(at.effort);
+    glue::fill(*made, at, made->value);
     return made;
 }
 
@@ -124,36 +59,7 @@ tf::mesh_feature feature_of(const treeform_feature* from, const char* name) {
     return feature;
 }
 
-template <class Impact>
-void give_impact(Impact from, treeform_impact** out) {
-    if (from.status == tf::status::cancelled) throw glue::cancelled{};
-    auto made = glue::make<treeform_impact>();
-    const Impact& kept = made->keep(std::move(from));
-    made->value.end = static_cast<std::int32_t>(kept.end);
-    made->value.time = kept.time;
-    made->value.contacts = glue::same<treeform_impact_contact>(kept.contacts);
-    made->value.contact_listed = kept.contacts.size();
-    made->value.contact_count = kept.contact_count;
-    made->value.pairs_tested = kept.pairs_tested;
-    glue::give(std::move(made), out);
-}
-
 }  // namespace
-
-void treeform_place_options_init(treeform_place_options* options, size_t size) {
-    const tf::separate_options apart;
-    const tf::turn_options turned;
-    treeform_place_options defaults{};
-    defaults.max_travel = defaults.bed = defaults.tolerance = glue::not_known;
-    defaults.precision = TREEFORM_FLOAT64;
-    defaults.close_in = 1;
-    defaults.limit = apart.limit;
-    defaults.normals = apart.normals;
-    defaults.face_pairs = apart.face_pairs;
-    defaults.max_angle = turned.max_angle;
-    defaults.max_steps = turned.max_steps;
-    glue::init(options, size, defaults);
-}
 
 treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                              size_t fixed_count, const double direction[3],
@@ -162,7 +68,7 @@ treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* c
     return place_among(moving, fixed, fixed_count, placement,
                        [&](const auto& m, const tf::mesh_refs& f) {
                            return tf::slide(m, f, glue::point(direction, "direction"),
-                                            options_of<tf::slide_options>(options));
+                                            glue::read_as<tf::slide_options>(options));
                        });
 }
 
@@ -171,7 +77,7 @@ treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* co
                             const treeform_place_options* options, treeform_placement** placement) {
     return place_among(moving, fixed, fixed_count, placement,
                        [&](const auto& m, const tf::mesh_refs& f) {
-                           auto how = options_of<tf::drop_options>(options);
+                           auto how = glue::read_as<tf::drop_options>(options);
                            if (direction) how.direction = glue::point(direction, "direction");
                            return f.empty() ? tf::drop(m, how) : tf::drop(m, f, how);
                        });
@@ -182,7 +88,7 @@ treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* co
                             treeform_placement** placement) {
     return place_among(moving, fixed, fixed_count, placement,
                        [&](const auto& m, const tf::mesh_refs& f) {
-                           return tf::mate(m, f, options_of<tf::mate_options>(options));
+                           return tf::mate(m, f, glue::read_as<tf::mate_options>(options));
                        });
 }
 
@@ -191,7 +97,7 @@ treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh
                                 treeform_placement** placement) {
     return place_among(moving, fixed, fixed_count, placement,
                        [&](const auto& m, const tf::mesh_refs& f) {
-                           return tf::separate(m, f, options_of<tf::separate_options>(options));
+                           return tf::separate(m, f, glue::read_as<tf::separate_options>(options));
                        });
 }
 
@@ -200,7 +106,7 @@ treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform
                                      treeform_placement** placement) {
     return place_among(
         moving, fixed, fixed_count, placement, [&](const auto& m, const tf::mesh_refs& f) {
-            return tf::measure_among(m, f, options_of<tf::measure_among_options>(options));
+            return tf::measure_among(m, f, glue::read_as<tf::measure_among_options>(options));
         });
 }
 
@@ -213,7 +119,7 @@ treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* co
         const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
         tf::turn_result turned =
             tf::turn(m, row, {glue::point(origin, "origin"), glue::point(direction, "direction")},
-                     options_of<tf::turn_options>(options));
+                     glue::read_as<tf::turn_options>(options));
         auto made = answer_of(std::move(turned.at));
         made->value.angle = turned.angle;
         made->value.tolerance = turned.tolerance;
@@ -231,9 +137,9 @@ treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform
         glue::start(placement);
         const tf::prepared_mesh& m = *glue::need(moving, "moving").prepared;
         const tf::mesh_refs row = glue::refs(fixed, fixed_count, "fixed");
-        tf::feature_mating mated = tf::mate_features(m, row, feature_of(of_moving, "of_moving"),
-                                                     feature_of(of_fixed, "of_fixed"),
-                                                     options_of<tf::feature_mate_options>(options));
+        tf::feature_mating mated = tf::mate_features(
+            m, row, feature_of(of_moving, "of_moving"), feature_of(of_fixed, "of_fixed"),
+            glue::read_as<tf::feature_mate_options>(options));
         auto made = answer_of(std::move(mated.at));
         made->value.angle = mated.turn_angle;
         made->value.offset = mated.offset;
@@ -274,46 +180,18 @@ treeform_code treeform_classify_contacts(const treeform_mesh* moving,
     });
 }
 
-void treeform_impact_options_init(treeform_impact_options* options, size_t size) {
-    treeform_impact_options defaults{};
-    defaults.latest = glue::infinity;
-    defaults.limit = tf::impact_options{}.limit;
-    glue::init(options, size, defaults);
-}
-
-treeform_code treeform_time_of_impact(const treeform_mesh* a, const treeform_mesh* b,
-                                      const double motion[3],
-                                      const treeform_impact_options* options,
-                                      treeform_impact** impact) {
-    return glue::guard([&] {
-        glue::start(impact);
-        const auto o = glue::chosen(options, treeform_impact_options_init);
-        const tf::impact_options how{glue::matrix(o.move_a), glue::matrix(o.move_b), o.latest,
-                                     glue::limit(o.limit), glue::progress(o)};
-        const tf::point3 along = glue::point(motion, "motion");
-        give_impact(glue::asked(a, b,
-                                [&](const auto& x, const auto& y) {
-                                    return tf::time_of_impact(x, y, along, how);
-                                }),
-                    impact);
-    });
-}
-
 treeform_code treeform_time_to_distance(const treeform_mesh* a, const treeform_mesh* b,
                                         const double motion[3], double distance,
                                         const treeform_impact_options* options,
                                         treeform_impact** impact) {
     return glue::guard([&] {
         glue::start(impact);
-        const auto o = glue::chosen(options, treeform_impact_options_init);
-        if (o.move_a || o.move_b)
+        const tf::impact_options how = glue::read(options);
+        if (options && (options->move_a || options->move_b))
             throw std::invalid_argument("a distance is looked for where the meshes are");
-        const tf::approach_options how{o.latest, glue::limit(o.limit), glue::progress(o)};
-        const tf::point3 along = glue::point(motion, "motion");
-        give_impact(glue::asked(a, b,
-                                [&](const auto& x, const auto& y) {
-                                    return tf::time_to_distance(x, y, along, distance, how);
-                                }),
-                    impact);
+        return glue::give(tf::time_to_distance(glue::ref(a, "a"), glue::ref(b, "b"),
+                                               glue::point(motion, "motion"), distance,
+                                               {how.latest, how.limit, how.progress}),
+                          impact);
     });
 }

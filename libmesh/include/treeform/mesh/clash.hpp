@@ -27,6 +27,7 @@ namespace treeform {
 /// Numbers of two parts.
 using part_pair = std::array<std::uint32_t, 2>;
 
+/// How to look for clashes.
 struct clash_options {
     double clearance = 0.0;                ///< parts that are nearer than this are too close
     bool volumes = true;                   ///< of what two closed parts have in common
@@ -67,6 +68,7 @@ struct part_clash {
     search_effort depth_effort{};  ///< of `depth`, as in `penetration_depth_result`
 };
 
+/// All that is not clear.
 struct clash_result {
     std::vector<part_clash> pairs{};        ///< that are not clear, ascending
     std::array<std::uint64_t, 5> counts{};  ///< of pairs that were looked at, by `standing`
@@ -131,6 +133,7 @@ TREEFORM_API body_file& add_named_parts(body_set& bodies, mesh_file file, std::s
     const mesh_ref& a, const mesh_ref& b, std::span<const mesh_positions> positions,
     double radius = std::numeric_limits<double>::infinity());
 
+/// How to check poses.
 struct pose_options {
     double clearance = 0.0;                ///< parts that are nearer than this are too close
     bool first_only = false;               ///< name only the first clash of each pose

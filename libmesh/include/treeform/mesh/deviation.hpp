@@ -21,6 +21,7 @@
 
 namespace treeform {
 
+/// What to find besides distances.
 struct deviation_options {
     /// Signed distances from the first to the second, both included, are within tolerance.
     std::optional<std::array<double, 2>> band{};
@@ -53,6 +54,7 @@ struct band_counts {
     std::uint64_t above = 0;
 };
 
+/// How far points are from a surface.
 struct deviation_result {
     /// [V] of `a`: the distance of each point from the surface of `b`, negative inside the solid
     /// that `b` bounds, exactly 0 on its surface. Not negative when `b` bounds none.

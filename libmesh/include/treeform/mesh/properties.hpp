@@ -147,6 +147,7 @@ enum class face_order : std::uint8_t { kept, any };
 /// \cost O(F), and O(F log F) in any order
 [[nodiscard]] TREEFORM_API bool same_triangles(mesh_view a, mesh_view b, face_order order);
 
+/// What kind of region.
 enum class feature_kind : std::uint8_t { plane, axis };
 
 /// A plane or an axis, fitted to faces by least squares.
@@ -161,6 +162,7 @@ struct mesh_feature {
     std::vector<std::uint32_t> faces{};  ///< ascending
 };
 
+/// What counts as flat or cylindrical.
 struct feature_options {
     /// Largest distance of a corner from the plane or cylinder. Default: 1e-4 of the diagonal.
     std::optional<double> tolerance{};

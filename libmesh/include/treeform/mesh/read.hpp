@@ -122,6 +122,7 @@ struct urdf_mesh {
     mesh shape{};
 };
 
+/// A robot.
 struct urdf_robot {
     std::string name{};
     std::vector<std::string> links{};         ///< [L] names, in the order of the file
@@ -135,6 +136,7 @@ struct urdf_robot {
     [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent() const;
 };
 
+/// How to read a robot.
 struct urdf_options {
     bool visual = false;  ///< the meshes that are for show, not those for collisions
     /// Where packages are: `package://name/rest` is FOLDER/name/rest or FOLDER/rest for one of
