@@ -12,6 +12,9 @@ import shutil
 import sys
 
 import c_surface
+import python_language
+import python_surface
+import python_write
 from c_language import Language
 from c_write import _BLOCK, INCLUDE, MADE, Writer, formatted, names_of
 from headers import ROOT, read_all
@@ -33,6 +36,18 @@ def c_files() -> dict[pathlib.Path, str]:
     return made
 
 
+def python_files() -> dict[pathlib.Path, str]:
+    structs, enums = read_all()
+    language = python_language.Language(structs, enums, python_surface.RESULTS,
+                                        python_surface.WORDS)
+    writer = python_write.Writer(language, python_surface.OPTIONS, python_surface.COUNTERS,
+                                 python_surface.FUNCTIONS)
+    made = writer.sources()
+    for path in sorted([*python_write.PACKAGE.glob("*.py"), *python_write.PACKAGE.glob("*.pyi")]):
+        made[path] = writer.package_file(path)
+    return made
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true")
@@ -41,7 +56,7 @@ def main() -> int:
         print("skipped: no clang-format")
         return 77
     wrong = 0
-    for path, text in c_files().items():
+    for path, text in (c_files() | python_files()).items():
         before = path.read_text() if path.exists() else ""
         if text == before:
             continue

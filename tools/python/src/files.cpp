@@ -2,8 +2,8 @@
 #include "file_data.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
+#include "made/words.hpp"
 #include "state.hpp"
-#include "words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
@@ -172,7 +172,9 @@ py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const f
                               .las_scale = las_scale,
                               .las_offset = las_offset,
                               .round = round};
-    if (precision) options.precision = precision_of(*precision);
+    if (precision)
+        options.precision =
+            choice<tf::precision>("precision", words_of<tf::precision>::all, *precision);
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };
@@ -182,7 +184,7 @@ py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const f
     });
     py::dict made;
     made["format"] = written.format;
-    made["precision"] = word_of(precision_words, written.written_as);
+    made["precision"] = word_of(written.written_as);
     made["max_displacement"] = written.max_displacement;
     py::list warnings;
     for (const tf::io_warning& one : written.warnings) warnings.append(one.text);
@@ -272,9 +274,8 @@ void add_files(py::module_& module) {
         .def(py::init<const file_data&>())
         .def(pickled<file_data>())
         .def_property_readonly("format", [](const file_data& d) { return d.file().format; })
-        .def_property_readonly(
-            "precision",
-            [](const file_data& d) { return word_of(precision_words, d.file().stored_as); })
+        .def_property_readonly("precision",
+                               [](const file_data& d) { return word_of(d.file().stored_as); })
         .def_property_readonly("warnings", &warnings)
         .def_property_readonly("parts", &parts)
         .def_property_readonly("corners", &corners)

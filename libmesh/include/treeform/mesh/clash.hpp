@@ -50,11 +50,11 @@ struct contact_region {
 
 /// Two parts that are not clear of each other.
 struct part_clash {
-    std::uint32_t a = 0;  ///< the lower number
-    std::uint32_t b = 0;
-    standing how = standing::touching;  ///< or penetrating, closer_than_clearance
-    bool a_inside_b = false;            ///< as in `mesh_relation_result`
-    bool b_inside_a = false;
+    std::uint32_t a = 0;                             ///< the lower number
+    std::uint32_t b = 0;                             ///< number of the second part
+    standing how = standing::touching;               ///< or penetrating, closer_than_clearance
+    bool a_inside_b = false;                         ///< as in `mesh_relation_result`
+    bool b_inside_a = false;                         ///< the same with `a` and `b` swapped
     double distance = 0.0;                           ///< of the surfaces; 0 where they meet
     std::optional<std::array<point3, 2>> nearest{};  ///< of those that are too close: on a, on b
     std::uint64_t face_pairs = 0;                    ///< that meet
@@ -64,7 +64,7 @@ struct part_clash {
     std::optional<double> volume{};
     /// Of penetrating parts: `penetration_depth`, the length of `move`, which takes `a` out of `b`.
     std::optional<double> depth{};
-    point3 move{};
+    point3 move{};  ///< a short translation that takes `a` out of `b`
     search_effort depth_effort{};  ///< of `depth`, as in `penetration_depth_result`
 };
 

@@ -65,11 +65,11 @@ struct deviation_result {
     std::optional<side_counts> sides{};  ///< of the points of `a`, where distances have a sign
     double mean = 0.0;                   ///< of the signed distances
     double mean_absolute = 0.0;          ///< of their magnitudes, as are the six below
-    double rms = 0.0;
-    double p50 = 0.0;  ///< the least value that half of the magnitudes do not exceed
-    double p95 = 0.0;
-    double p99 = 0.0;
-    double max = 0.0;
+    double rms = 0.0;                    ///< root mean square
+    double p50 = 0.0;         ///< the least value that half of the magnitudes do not exceed
+    double p95 = 0.0;         ///< 95 % are not above it
+    double p99 = 0.0;         ///< 99 % are not above it
+    double max = 0.0;         ///< the largest magnitude
     std::uint32_t worst = 0;  ///< the lowest point with that distance
     double lowest = 0.0;      ///< the least signed distance
     double highest = 0.0;     ///< the greatest signed distance

@@ -84,13 +84,13 @@ typedef struct treeform_contact_region {
 
 /// Two parts that are not clear of each other.
 typedef struct treeform_part_clash {
-    uint32_t a;  ///< the lower number
-    uint32_t b;
+    uint32_t a;             ///< the lower number
+    uint32_t b;             ///< number of the second part
     treeform_standing how;  ///< or penetrating, closer_than_clearance
     int32_t a_inside_b;     ///< as in `mesh_relation_result`
-    int32_t b_inside_a;
-    double distance;  ///< of the surfaces; 0 where they meet
-    double on_a[3];   ///< nearest points of those that are too close; else NaN
+    int32_t b_inside_a;     ///< the same with `a` and `b` swapped
+    double distance;        ///< of the surfaces; 0 where they meet
+    double on_a[3];         ///< nearest points of those that are too close; else NaN
     double on_b[3];
     uint64_t face_pairs;                     ///< that meet
     const treeform_contact_region* regions;  ///< [region_count] by their lowest faces
@@ -101,7 +101,7 @@ typedef struct treeform_part_clash {
     /// Of penetrating parts: `treeform_penetration_depth`, the length of `move`, which takes `a`
     /// out of `b`.
     double depth;
-    double move[3];
+    double move[3];  ///< a short translation that takes `a` out of `b`
     /// of `depth`, as in `penetration_depth_result`
     treeform_search_effort depth_effort;
 } treeform_part_clash;

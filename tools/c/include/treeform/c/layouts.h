@@ -140,7 +140,7 @@ TREEFORM_C_API void treeform_pack_options_init(treeform_pack_options* options, s
 
 /// A part on a plate.
 typedef struct treeform_packed_part {
-    int32_t placed;
+    int32_t placed;  ///< it has a place
     uint32_t plate;  ///< number of its plate, from 0
     /// [V] the new points, as they are to be written; unchanged when the part is not placed.
     const double* points;
@@ -162,8 +162,8 @@ typedef struct treeform_packing {
     /// [not_placed_count] numbers of parts without a place, ascending
     const uint32_t* not_placed;
     size_t not_placed_count;
-    uint32_t plates_used;
-    uint32_t tries;  ///< made
+    uint32_t plates_used;  ///< plates with a part
+    uint32_t tries;        ///< made
     /// Share of the plates that the parts on them cover, seen from above, as the raster has it;
     /// with `stack`, of the boxes that their solids with what they enclose fill.
     double density;

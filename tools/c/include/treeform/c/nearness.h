@@ -246,11 +246,11 @@ typedef struct treeform_deviation_result {
     int32_t is_signed;     ///< Whether `b` is closed, so that distances have a sign.
     double mean;           ///< of the signed distances
     double mean_absolute;  ///< of their magnitudes, as are the six below
-    double rms;
-    double p50;  ///< the least value that half of the magnitudes do not exceed
-    double p95;
-    double p99;
-    double max;
+    double rms;            ///< root mean square
+    double p50;            ///< the least value that half of the magnitudes do not exceed
+    double p95;            ///< 95 % are not above it
+    double p99;            ///< 99 % are not above it
+    double max;            ///< the largest magnitude
     uint32_t worst;        ///< the lowest point with that distance
     double lowest;         ///< the least signed distance
     double highest;        ///< the greatest signed distance

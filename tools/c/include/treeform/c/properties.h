@@ -21,7 +21,7 @@ TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* ar
 //   mass_properties
 /// Of a solid of density 1.
 typedef struct treeform_mass_properties {
-    double volume;
+    double volume;     ///< what the mesh encloses; negative where it is inside out
     double center[3];  ///< of mass
     /// About the center, by axes x, y and z: the energy of turning by w is w . (inertia w) / 2.
     double inertia[9];
@@ -123,9 +123,9 @@ enum { TREEFORM_PLANE = 0, TREEFORM_AXIS = 1 };
 
 /// A plane or an axis, fitted to faces by least squares.
 typedef struct treeform_feature {
-    treeform_feature_kind kind;
-    int32_t hollow;    ///< of a cylinder: the faces look at the axis, as those of a hole
-    double origin[3];  ///< center of the faces, on the plane or the axis
+    treeform_feature_kind kind;  ///< plane or axis
+    int32_t hollow;              ///< of a cylinder: the faces look at the axis, as those of a hole
+    double origin[3];            ///< center of the faces, on the plane or the axis
     /// of length 1: the normal, outward; along the axis, either way
     double direction[3];
     double radius;          ///< of the cylinder
