@@ -1,7 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "state.hpp"
 #include "made/words.hpp"
+#include "state.hpp"
 #include <treeform/mesh/certificate.hpp>
 
 #include <pybind11/stl.h>

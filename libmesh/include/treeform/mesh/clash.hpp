@@ -64,7 +64,7 @@ struct part_clash {
     std::optional<double> volume{};
     /// Of penetrating parts: `penetration_depth`, the length of `move`, which takes `a` out of `b`.
     std::optional<double> depth{};
-    point3 move{};  ///< a short translation that takes `a` out of `b`
+    point3 move{};                 ///< a short translation that takes `a` out of `b`
     search_effort depth_effort{};  ///< of `depth`, as in `penetration_depth_result`
 };
 
