@@ -221,7 +221,7 @@ class emitter {
 
   private:
     /// How much lies before.
-    struct place {
+    struct piece_position {
         std::size_t face = 0;
         std::size_t cover = 0;
     };
@@ -236,7 +236,7 @@ class emitter {
     void place_chunks() {
         for_chunks(mesh_.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t c) {
-                       place size;
+                       piece_position size;
                        for (std::size_t f = begin; f < end; ++f)
                            size.face += is_not_whole_[f] == 0 ? 1 : 0;
                        size.cover = size.face;
@@ -253,7 +253,7 @@ class emitter {
         }
     }
 
-    void write(std::size_t begin, std::size_t end, place at, mesh_arrangement& out) const {
+    void write(std::size_t begin, std::size_t end, piece_position at, mesh_arrangement& out) const {
         auto next = first_piece(begin);
         for (std::size_t f = begin; f < end; ++f) {
             if (is_not_whole_[f] == 0) {
@@ -271,7 +271,7 @@ class emitter {
         }
     }
 
-    static void put(const face& f, std::size_t covers, std::uint8_t whole, place& at,
+    static void put(const face& f, std::size_t covers, std::uint8_t whole, piece_position& at,
                     mesh_arrangement& out) {
         out.faces[at.face] = f;
         out.cover_begin[at.face] = at.cover;
@@ -294,7 +294,7 @@ class emitter {
     const std::vector<cut_cluster>& cuts_;
     const point_numbering& numbers_;
     std::vector<piece> pieces_;
-    std::vector<place> begin_;  ///< [chunks + 1]
+    std::vector<piece_position> begin_;  ///< [chunks + 1]
 };
 
 std::vector<cut_cluster> cut_clusters(mesh_view mesh, const mesh_meetings& met,
@@ -393,7 +393,7 @@ arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& 
     self_intersection_result found = detail::intersect::pairs_by_tree(
         usable, detail::base::checked_face_tree(usable),
         {.vertices = vertex_identity::by_index, .progress = part_of(options.progress, 0.0, 0.5)});
-    if (found.cancelled) return cancelled_result(std::move(degenerate));
+    if (found.status == treeform::status::cancelled) return cancelled_result(std::move(degenerate));
     if (!degenerate.empty())
         for (face_pair& pair : found.pairs) {
             pair.a = kept_number[pair.a];

@@ -1,8 +1,8 @@
 #include <libmesh/arrange/cluster.hpp>
 #include <libmesh/arrange/planar_box.hpp>
 #include <libmesh/arrange/planar_triangulation.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/geometry/features.hpp>
-#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <cmath>

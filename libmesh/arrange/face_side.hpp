@@ -2,8 +2,8 @@
 /// \file
 /// Sides of faces, which name also how faces lie at an edge.
 
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
 
 #include <cstdint>
 

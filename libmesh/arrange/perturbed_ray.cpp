@@ -1,4 +1,5 @@
 #include <libmesh/arrange/perturbed_ray.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 
 #include <array>
 #include <cassert>

@@ -3,7 +3,7 @@
 /// A ray along an axis that grazes nothing.
 
 #include <libmesh/exact/implicit_point.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/mesh/triangle.hpp>
 
 #include <optional>

@@ -306,9 +306,9 @@ std::uint32_t planar_triangulation::make_crossing(half_edge side, std::uint32_t 
     return p;
 }
 
-planar_triangulation::way_out planar_triangulation::leave(std::uint32_t from,
-                                                          std::uint32_t to) const {
-    way_out out;
+planar_triangulation::star_exit planar_triangulation::leave(std::uint32_t from,
+                                                            std::uint32_t to) const {
+    star_exit out;
     around(from, [&](half_edge h) {
         const std::uint32_t right = target(h), left = apex(h);
         const int of_right = turn(from, to, right);

@@ -77,7 +77,7 @@ class planar_triangulation {
     };
 
     /// How a way leaves the triangles around a vertex: through a vertex, or else through a side.
-    struct way_out {
+    struct star_exit {
         std::uint32_t met = none;
         half_edge crossed = none;
     };
@@ -115,7 +115,7 @@ class planar_triangulation {
     void mark(half_edge h, std::uint32_t line);
     /// One step of `constrain`: the next vertex on the way, to which there is a marked side now.
     std::uint32_t advance(std::uint32_t from, std::uint32_t to, std::uint32_t line);
-    [[nodiscard]] way_out leave(std::uint32_t from, std::uint32_t to) const;
+    [[nodiscard]] star_exit leave(std::uint32_t from, std::uint32_t to) const;
     /// Flips the sides that cross the way until none does; the sides that this has made.
     std::pmr::vector<std::array<std::uint32_t, 2>> flip_away(std::uint32_t from, std::uint32_t to,
                                                              side_queue& sides);

@@ -1,5 +1,6 @@
 #include <libmesh/arrange/radial_order.hpp>
 #include <libmesh/exact/implicit_point.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <libmesh/arrange/face_side.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 
 #include <array>
 #include <cstddef>

@@ -81,12 +81,12 @@ class pair_inspection {
     void enter_extent(const shape& a, const shape& b, part_clash& found) const {
         if (options_.volumes && a.closed() && b.closed()) {
             const boolean_options both{.volumes = true, .progress = asking_};
-            const auto common = intersection(a.whose(), b.whose(), both);
+            const auto common = intersection(a.prepared(), b.prepared(), both);
             if (common.volumes) found.volume = common.volumes->both;
         }
         if (!options_.depths || work_.cancelled()) return;
         const auto deep = penetration_depth(
-            a.whose(), b.whose(),
+            a.prepared(), b.prepared(),
             {.effort = options_.effort, .vertices = options_.vertices, .progress = asking_});
         if (!deep || deep->status != status::ok) return;
         found.depth = deep->depth;
@@ -148,7 +148,7 @@ clash_result clash(const mesh_refs& given_parts, const clash_options& options) {
     });
     clash_result result;
     if (work.cancelled()) {
-        result.cancelled = true;
+        result.status = treeform::status::cancelled;
         return result;
     }
     for (auto& one : found) {

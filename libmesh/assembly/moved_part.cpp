@@ -94,8 +94,8 @@ part_standing moved_part::as_moved(const moved_part& other) const {
     const tree<3> tree_a = build_face_tree(mesh_view{a, of_a.mesh().faces}),
                   tree_b = build_face_tree(mesh_view{b, of_b.mesh().faces});
     const auto how = place::relation_of(
-        place::shape(of_a.whose(), a, tree_a, of_a.vertices(), mirrors(move_)),
-        place::shape(of_b.whose(), b, tree_b, of_b.vertices(), mirrors(other.move_)));
+        place::shape(of_a.prepared(), a, tree_a, of_a.vertices(), move_.mirrors()),
+        place::shape(of_b.prepared(), b, tree_b, of_b.vertices(), other.move_.mirrors()));
     return {how.relation == mesh_relation::penetrating ? standing::penetrating
             : how.relation == mesh_relation::touching  ? standing::touching
                                                        : standing::separate};
@@ -120,7 +120,7 @@ std::optional<bool> moved_part::holds(const point3& p) const {
     const double margin = 2.0 * (miss + moved) * 1.7320508075688774;
     if (!std::isfinite(margin)) return std::nullopt;
     const place::shape& solid = part_->shape();
-    if (nearness::closest_point_query_of(solid.whose()).nearest(q, 2.0 * margin))
+    if (nearness::closest_point_query_of(solid.prepared()).nearest(q, 2.0 * margin))
         return std::nullopt;
     return intersect::point_locator(solid.joined(), solid.faces()).locate(q).where ==
            location::inside;
@@ -141,13 +141,13 @@ std::optional<bool> moved_part::holds_part_of(const moved_part& other) const {
 
 part_standing moved_part::standing_to(const moved_part& other, double clearance) const {
     const place::shape &a = part_->shape(), &b = other.part_->shape();
-    if (intersects(a.whose(), b.whose(), {move_, other.move_})) {
+    if (intersects(a.prepared(), b.prepared(), {move_, other.move_})) {
         mesh_intersection_options crossing;
         crossing.move_a = move_;
         crossing.move_b = other.move_;
         crossing.first_only = true;
         crossing.kinds = pair_kind::crossing;
-        const auto through = mesh_intersections(a.whose(), b.whose(), crossing);
+        const auto through = mesh_intersections(a.prepared(), b.prepared(), crossing);
         if (!through.pairs.empty()) return {standing::penetrating};
         return as_moved(other);
     }
@@ -158,7 +158,8 @@ part_standing moved_part::standing_to(const moved_part& other, double clearance)
         if (how.standing != standing::separate) return how;
     }
     if (clearance == 0.0) return {standing::separate};
-    const double apart = treeform::distance(a.whose(), b.whose(), {move_, other.move_, clearance});
+    const double apart =
+        treeform::distance(a.prepared(), b.prepared(), {move_, other.move_, clearance});
     return apart < clearance ? part_standing{standing::closer_than_clearance, apart}
                              : part_standing{standing::clear};
 }

@@ -1,3 +1,4 @@
+#include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -24,28 +25,26 @@ mesh loose(mesh_view of, std::span<const std::uint32_t> faces) {
 
 }  // namespace
 
-body_file& add_named_parts(body_set& bodies, mesh_file content, std::string label,
-                           std::string name) {
-    body_file& file = bodies.add(std::move(content), std::move(label), std::move(name));
+body_file& body_set::add_named_parts(mesh_file content, std::string label, std::string name) {
+    body_file& file = add(std::move(content), std::move(label), std::move(name));
     const std::vector<part>& names = file.content.attributes.parts;
     if (!file.box || file.cloud || names.empty()) return file;
-    const std::size_t whole = bodies.bodies.size() - 1,
-                      count = bodies.shapes[whole].view().faces.size();
+    const std::size_t whole = bodies.size() - 1, count = shapes[whole].view().faces.size();
     std::vector<std::uint32_t> triangle, stored;
     for (std::uint32_t f = 0; f < count; ++f) {
-        triangle.push_back(bodies.bodies[whole].triangle(f));
-        stored.push_back(bodies.stored_face(whole, f));
+        triangle.push_back(bodies[whole].triangle(f));
+        stored.push_back(stored_face(whole, f));
     }
     const auto parts = scene_parts(loose(file.content.mesh, triangle), names, stored);
-    bodies.shapes.pop_back();
-    bodies.bodies.pop_back();
+    shapes.pop_back();
+    bodies.pop_back();
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        file_body body{.file = bodies.files.size() - 1, .name = parts[i].name};
+        file_body body{.file = files.size() - 1, .name = parts[i].name};
         if (body.name.empty() && parts.size() > 1) body.name = "part " + std::to_string(i);
         for (const std::uint32_t f : parts[i].faces) body.triangle_of_face.push_back(triangle[f]);
-        bodies.shapes.emplace_back(
+        shapes.emplace_back(
             join_equal_points(select_faces(file.content.mesh, body.triangle_of_face)));
-        bodies.bodies.push_back(std::move(body));
+        bodies.push_back(std::move(body));
     }
     return file;
 }

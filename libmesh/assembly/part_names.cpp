@@ -1,10 +1,13 @@
+#include <libmesh/assembly/part_names.hpp>
 #include <treeform/mesh/clash.hpp>
 
 #include <algorithm>
 
 namespace treeform {
 
-bool matches(std::string_view pattern, std::string_view name) {
+using detail::assembly::matches;
+
+bool detail::assembly::matches(std::string_view pattern, std::string_view name) {
     // Where a star is behind us, the rest may begin one further on.
     std::size_t p = 0, n = 0, star = std::string_view::npos, after_star = 0;
     while (n < name.size()) {

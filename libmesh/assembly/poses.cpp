@@ -106,7 +106,7 @@ pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<
     });
     pose_result result;
     if (work.cancelled()) {
-        result.cancelled = true;
+        result.status = treeform::status::cancelled;
         return result;
     }
     for (looked_at& one : found) {

@@ -36,11 +36,18 @@ column gather(const column& c, std::span<const std::uint32_t> rows) {
     return out;
 }
 
+template <class Row>
+const Row* named(const std::vector<Row>& rows, std::string_view name) {
+    const auto at =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
+    return at == rows.end() ? nullptr : &*at;
+}
+
 }  // namespace
 
-double number_at(const column& c, std::size_t i) {
-    const std::byte* at = c.values.data() + i * size_of(c.type);
-    switch (c.type) {
+double column::number(std::size_t i) const {
+    const std::byte* at = values.data() + i * size_of(type);
+    switch (type) {
         case scalar_type::int8:
             return load<std::int8_t>(at);
         case scalar_type::uint8:
@@ -65,38 +72,34 @@ double number_at(const column& c, std::size_t i) {
     return load<double>(at);
 }
 
-element gather(const element& e, std::span<const std::uint32_t> rows) {
-    element out{.name = e.name, .rows = rows.size()};
-    out.columns.reserve(e.columns.size());
-    for (const column& c : e.columns) out.columns.push_back(gather(c, rows));
+element element::gathered(std::span<const std::uint32_t> which) const {
+    element out{.name = name, .rows = which.size()};
+    out.columns.reserve(columns.size());
+    for (const column& c : columns) out.columns.push_back(gather(c, which));
     return out;
 }
 
-const column* find_column(const element& e, std::string_view name) {
-    const auto at = std::find_if(e.columns.begin(), e.columns.end(),
-                                 [&](const column& c) { return c.name == name; });
-    return at == e.columns.end() ? nullptr : &*at;
+const column* element::find(std::string_view column_name) const {
+    return named(columns, column_name);
 }
 
-bool set_column(element& e, column c) {
-    if (const column* found = find_column(e, c.name)) {
+bool element::set(column c) {
+    if (const column* found = find(c.name)) {
         const_cast<column&>(*found) = std::move(c);
         return true;
     }
-    e.columns.push_back(std::move(c));
+    columns.push_back(std::move(c));
     return false;
 }
 
-const element* find_element(const attributes& a, std::string_view name) {
-    const auto at = std::find_if(a.elements.begin(), a.elements.end(),
-                                 [&](const element& e) { return e.name == name; });
-    return at == a.elements.end() ? nullptr : &*at;
+const element* attributes::find(std::string_view element_name) const {
+    return named(elements, element_name);
 }
 
-element& obtain_element(attributes& a, std::string_view name, std::size_t rows) {
-    if (const element* found = find_element(a, name)) return const_cast<element&>(*found);
-    a.elements.push_back({.name = std::string(name), .rows = rows});
-    return a.elements.back();
+element& attributes::obtain(std::string_view element_name, std::size_t rows) {
+    if (const element* found = find(element_name)) return const_cast<element&>(*found);
+    elements.push_back({.name = std::string(element_name), .rows = rows});
+    return elements.back();
 }
 
 }  // namespace treeform

@@ -23,7 +23,7 @@ void set_colors(element& rows, std::span<const std::uint8_t> classes,
     for (std::size_t which = 0; which < 3; ++which) {
         for (std::size_t c = 0; c < colors.size(); ++c) of_class[c] = channel(colors[c], which);
         for (std::size_t i = 0; i < classes.size(); ++i) values[i] = of_class[classes[i]];
-        set_column(rows, make_column<std::uint8_t>(names[which], values));
+        rows.set(column::of<std::uint8_t>(names[which], values));
     }
 }
 

@@ -13,8 +13,8 @@ std::vector<face> gather(const std::vector<face>& numbers,
 }
 
 /// Behind numbers of `before` triangles; the new ones are of rows that follow `rows` others.
-void append(std::vector<face>& to, const std::vector<face>& more, std::size_t rows,
-            std::size_t before, std::size_t after) {
+void append_numbers(std::vector<face>& to, const std::vector<face>& more, std::size_t rows,
+                    std::size_t before, std::size_t after) {
     constexpr std::uint32_t none = corner_values::none;
     if (to.empty() && more.empty()) return;
     to.resize(before, {none, none, none});
@@ -42,29 +42,29 @@ std::string fault_of(const std::vector<face>& numbers, std::size_t rows, std::si
 
 }  // namespace
 
-corner_values gather(const corner_values& c, std::span<const std::uint32_t> triangles) {
-    return {.texture = c.texture,
-            .has_w = c.has_w,
-            .normals = c.normals,
-            .texture_of_corner = gather(c.texture_of_corner, triangles),
-            .normal_of_corner = gather(c.normal_of_corner, triangles)};
+corner_values corner_values::gathered(std::span<const std::uint32_t> triangles) const {
+    return {.texture = texture,
+            .has_w = has_w,
+            .normals = normals,
+            .texture_of_corner = gather(texture_of_corner, triangles),
+            .normal_of_corner = gather(normal_of_corner, triangles)};
 }
 
-void append(corner_values& to, std::size_t triangles, const corner_values& more,
-            std::size_t more_triangles) {
+void corner_values::append(std::size_t triangles, const corner_values& more,
+                           std::size_t more_triangles) {
     const std::size_t after = triangles + more_triangles;
-    append(to.texture_of_corner, more.texture_of_corner, to.texture.size(), triangles, after);
-    append(to.normal_of_corner, more.normal_of_corner, to.normals.size(), triangles, after);
-    to.texture.insert(to.texture.end(), more.texture.begin(), more.texture.end());
-    to.normals.insert(to.normals.end(), more.normals.begin(), more.normals.end());
-    to.has_w = to.has_w || more.has_w;
+    append_numbers(texture_of_corner, more.texture_of_corner, texture.size(), triangles, after);
+    append_numbers(normal_of_corner, more.normal_of_corner, normals.size(), triangles, after);
+    texture.insert(texture.end(), more.texture.begin(), more.texture.end());
+    normals.insert(normals.end(), more.normals.begin(), more.normals.end());
+    has_w = has_w || more.has_w;
 }
 
-std::string fault_of(const corner_values& c, std::size_t triangles) {
-    std::string fault =
-        fault_of(c.texture_of_corner, c.texture.size(), triangles, "texture coordinate");
-    if (fault.empty()) fault = fault_of(c.normal_of_corner, c.normals.size(), triangles, "normal");
-    return fault;
+std::string corner_values::fault(std::size_t triangles) const {
+    std::string found =
+        fault_of(texture_of_corner, texture.size(), triangles, "texture coordinate");
+    if (found.empty()) found = fault_of(normal_of_corner, normals.size(), triangles, "normal");
+    return found;
 }
 
 }  // namespace treeform

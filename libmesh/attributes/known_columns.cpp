@@ -168,8 +168,8 @@ void look_at_ranges(const element& rows, std::vector<value_range>& seen) {
             constexpr double far = std::numeric_limits<double>::infinity();
             at = seen.insert(at, {.column = c.name, .least = far, .greatest = -far});
         }
-        for (std::size_t i = 0; i < value_count(c); ++i) {
-            const double value = number_at(c, i);
+        for (std::size_t i = 0; i < c.size(); ++i) {
+            const double value = c.number(i);
             at->least = std::min(at->least, std::isnan(value) ? at->least : value);
             at->greatest = std::max(at->greatest, std::isnan(value) ? at->greatest : value);
             at->whole = at->whole && value == std::floor(value);
@@ -209,13 +209,13 @@ void translation::choose(element& columns, std::span<const std::string> drop,
         throw std::invalid_argument("treeform::write: no property '" + name + "' of points");
     };
     for (const std::string& name : drop) {
-        const std::vector<std::string> meant = columns_called(columns, name);
+        const std::vector<std::string> meant = columns.columns_called(name);
         for (const std::string& column : meant) done[find(column)] = true;
         if (meant.empty()) done[find(name)] = true;  // which says that it is not there
     }
     for (const named_column& r : renamed_) {
         const std::size_t at = find(r.source);
-        if (find_column(columns, r.name) != nullptr)
+        if (columns.find(r.name) != nullptr)
             throw std::invalid_argument("treeform::write: there is a property '" + r.name +
                                         "' already");
         columns.columns[at].name = r.name;
@@ -359,7 +359,7 @@ void translation::plan_column(const element& columns, std::size_t i) {
     const known_column* const k = is_same_ ? nullptr : known_of(c);
     if (k != nullptr && k->use != color && is_whole(columns, k->use)) {
         const column_words& words = k->words(to_words_);
-        const bool is_free = words.name == c.name || find_column(columns, words.name) == nullptr;
+        const bool is_free = words.name == c.name || columns.find(words.name) == nullptr;
         if (is_free) t.declared.name = words.name;
         if (is_free && words.type && *words.type != c.type) {
             if (to_words_ == dialect::las && *words.type == uint16 && is_floating(c.type)) {
@@ -391,7 +391,7 @@ void translation::plan_intensity(target& t, const column& c) {
 }
 
 std::uint8_t translation::byte_of(const column& c, std::size_t row) const {
-    const double value = number_at(c, row);
+    const double value = c.number(row);
     switch (scale_) {
         case color_scale::high_byte:
             return c.type == uint16 ? static_cast<std::uint8_t>(static_cast<unsigned>(value) >> 8)
@@ -413,15 +413,15 @@ void translation::fill(column& to, const target& t, const element& rows) const {
         to.list_begin = first.list_begin;
         return;
     }
-    const std::size_t count = value_count(first);
+    const std::size_t count = first.size();
     to.values.resize(count * size_of(to.type));
     for (std::size_t row = 0; row < count; ++row) {
         switch (t.how) {
             case way::cast:
-                put_nearest(to, row, number_at(first, row));
+                put_nearest(to, row, first.number(row));
                 break;
             case way::scaled:
-                put_nearest(to, row, number_at(first, row) * t.factor);
+                put_nearest(to, row, first.number(row) * t.factor);
                 break;
             case way::channel:
                 put_at(to, row, byte_of(first, row));
@@ -460,15 +460,15 @@ element translation::apply(const element& rows) const {
 
 namespace treeform {
 
-std::vector<std::string> columns_called(const element& e, std::string_view name) {
-    if (const column* const c = find_column(e, name); c && c->role == column_role::data)
+std::vector<std::string> element::columns_called(std::string_view column_name) const {
+    if (const column* const c = find(column_name); c && c->role == column_role::data)
         return {c->name};
-    std::vector<std::string> columns;
-    if (const auto use = detail::attribute::use_called(name))
-        for (const column& c : e.columns)
+    std::vector<std::string> names;
+    if (const auto use = detail::attribute::use_called(column_name))
+        for (const column& c : columns)
             if (c.role == column_role::data && detail::attribute::is_use(c.name, *use))
-                columns.push_back(c.name);
-    return columns;
+                names.push_back(c.name);
+    return names;
 }
 
 }  // namespace treeform

@@ -21,10 +21,11 @@ bool fits_single(std::span<const point3> points) {
     });
 }
 
-void split_polygons(mesh_file& file) {
+void mesh_file::split_polygons() {
+    mesh_file& file = *this;
     if (file.stored_face.empty()) return;
     for (element& e : file.attributes.elements)
-        if (e.name == "face") e = gather(e, file.stored_face);
+        if (e.name == "face") e = e.gathered(file.stored_face);
     for (part& p : file.attributes.parts) {
         const auto at =
             std::lower_bound(file.stored_face.begin(), file.stored_face.end(), p.first_face);
@@ -34,9 +35,10 @@ void split_polygons(mesh_file& file) {
     file.stored_faces = file.mesh.faces.size();
 }
 
-std::size_t drop_non_finite(mesh_file& file) {
+std::size_t mesh_file::drop_non_finite() {
+    mesh_file& file = *this;
     constexpr std::uint32_t none = corner_values::none;
-    mesh& m = file.mesh;
+    treeform::mesh& m = file.mesh;
     std::vector<std::uint32_t> kept, new_of_old(m.points.size(), none);
     for (std::uint32_t p = 0; p < m.points.size(); ++p) {
         const point3& at = m.points[p];
@@ -61,10 +63,10 @@ std::size_t drop_non_finite(mesh_file& file) {
     for (std::uint32_t f = 0; f < m.faces.size(); ++f)
         if (!is_bad[stored_of(f)]) triangles.push_back(f);
     for (element& e : file.attributes.elements) {
-        if (e.name == "vertex") e = gather(e, kept);
-        if (e.name == "face") e = gather(e, rows);
+        if (e.name == "vertex") e = e.gathered(kept);
+        if (e.name == "face") e = e.gathered(rows);
     }
-    file.attributes.corners = gather(file.attributes.corners, triangles);
+    file.attributes.corners = file.attributes.corners.gathered(triangles);
     for (part& p : file.attributes.parts) p.first_face = new_row[p.first_face];
     std::vector<std::uint32_t> stored;
     std::vector<face> faces;

@@ -20,7 +20,8 @@ std::optional<box3> bounding_box(points_view points) {
     return box;
 }
 
-double diagonal(const box3& box) {
+double box3::diagonal() const {
+    const box3& box = *this;
     constexpr double most = std::numeric_limits<double>::max();
     const double x = box.max.x - box.min.x;
     const double y = box.max.y - box.min.y;

@@ -1,4 +1,5 @@
 #include <libmesh/base/double_double.hpp>
+#include <libmesh/base/max_displacement.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -31,7 +32,7 @@ double displacement(const transform<3>& by, const point3& p, std::size_t k, doub
 
 }  // namespace
 
-double max_displacement(points_view points, const transform<3>& by, points_view placed) {
+double detail::max_displacement(points_view points, const transform<3>& by, points_view placed) {
     std::vector<double> largest(chunk_count(points.size(), light_grain), 0.0);
     for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         double mine = 0.0;

@@ -10,13 +10,13 @@
 namespace treeform {
 
 struct prepared_mesh::state {
-    struct place {
+    struct slot {
         once filled;
         std::shared_ptr<const void> index;
     };
 
     mesh owned{};
-    std::array<place, static_cast<std::size_t>(detail::base::slot_name::count)> places{};
+    std::array<slot, static_cast<std::size_t>(detail::base::slot_name::count)> places{};
     std::atomic<std::uint64_t> built{0};
 };
 
@@ -72,12 +72,12 @@ prepared_mesh detail::base::prepared_slots::shared(const prepared_mesh& mesh) {
 
 const void* detail::base::prepared_slots::get(const prepared_mesh& mesh, slot_name name,
                                               function_ref<std::shared_ptr<const void>()> build) {
-    auto& place = mesh.state_->places[static_cast<std::size_t>(name)];
-    place.filled.call([&] {
-        place.index = build();
+    auto& kept = mesh.state_->places[static_cast<std::size_t>(name)];
+    kept.filled.call([&] {
+        kept.index = build();
         mesh.state_->built.fetch_add(1, std::memory_order_relaxed);
     });
-    return place.index.get();
+    return kept.index.get();
 }
 
 }  // namespace treeform

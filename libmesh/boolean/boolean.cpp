@@ -9,7 +9,6 @@
 #include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/running_sums.hpp>
 #include <libmesh/base/work_progress.hpp>
-#include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/check_solid.hpp>
 #include <libmesh/boolean/filled_gaps.hpp>
@@ -23,6 +22,7 @@
 #include <libmesh/boolean/sheet_labels.hpp>
 #include <libmesh/boolean/small_parts.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
+#include <libmesh/boolean/undecided_part.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
 
@@ -40,13 +40,12 @@ namespace treeform {
 namespace {
 
 using detail::base::part_of;
-using detail::boolean::active_part;
 using detail::boolean::bundled_operands;
 using detail::boolean::bundles;
 using detail::boolean::cut_faces;
 using detail::boolean::cut_near;
 using detail::boolean::cut_what;
-using detail::boolean::fate;
+using detail::boolean::disposition;
 using detail::boolean::joined_operands;
 using detail::boolean::label_counts;
 using detail::boolean::left_faces;
@@ -54,6 +53,7 @@ using detail::boolean::near_result;
 using detail::boolean::open_input_edges;
 using detail::boolean::operand_edges;
 using detail::boolean::resolved_operand;
+using detail::boolean::undecided_part;
 
 /// \throws std::invalid_argument for a point that is not finite or beyond 2^1000
 joined_operands join_usable(std::span<const mesh_view> operands) {
@@ -109,7 +109,8 @@ void check_expression(const char* function, std::span<const mesh_view> operands,
                                     " operands, given are " + std::to_string(operands.size()));
 }
 
-/// The result as it is returned: a solid as a manifold, which takes a `split` where it may not be one.
+/// The result as it is returned: a solid as a manifold, which takes a `split` where it may not be
+/// one.
 boolean_result finished(boolean_result&& result, bool split, const boolean_options& options) {
     detail::base::describe(result.certificate, result.mesh, options.precision);
     if (!result.certificate) return std::move(result);
@@ -213,7 +214,7 @@ near_result split_of(std::span<const mesh_view> views, boolean_options options) 
     std::vector<std::uint32_t> pieces = detail::base::numbers_below(cut.arranged.cut.faces.size());
     detail::boolean::chosen_surface chosen{
         {cut.arranged.cut.faces, std::move(pieces)},
-        detail::boolean::fates_of(operands.all(), cut.near, fate::kept)};
+        detail::boolean::dispositions_of(operands.all(), cut.near, disposition::kept)};
     options.simplify = false;
     options.keep_cuts = true;
     near_result made = surface_of(operands.all(), cut, std::move(chosen), options, false, nullptr);
@@ -221,8 +222,8 @@ near_result split_of(std::span<const mesh_view> views, boolean_options options) 
     return made;
 }
 
-/// A mesh that need not be closed, cut along itself, and what bounds the cells that are inside by the
-/// labels with the least disagreement.
+/// A mesh that need not be closed, cut along itself, and what bounds the cells that are inside by
+/// the labels with the least disagreement.
 near_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
                        const boolean_options& options, std::optional<label_counts>& counts,
                        left_faces is_left) {
@@ -241,7 +242,7 @@ near_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
     counts = {count - 1, labels->dropped_area, labels->turned_area};
     detail::boolean::chosen_surface chosen{
         detail::round::faces_around(pieces, cells, labels->inside),
-        detail::boolean::fates_of(operands.all(), cut.near, fate::dropped)};
+        detail::boolean::dispositions_of(operands.all(), cut.near, disposition::dropped)};
     return surface_of(operands.all(), cut, std::move(chosen), options, true, is_left);
 }
 
@@ -299,9 +300,9 @@ near_result boolean_of_joined(std::span<const mesh_view> views,
     if (auto open = open_input(joined, edges)) return {open_result(std::move(*open)), false};
     near_result made;
     if (!made.goes_on(options.progress, 0.1)) return made;
-    std::unique_ptr<const active_part> part;
+    std::unique_ptr<const undecided_part> part;
     if (!options.volumes)  // which ask for more than the expression does
-        part = active_part::find(joined, std::move(edges), expression, options.inside);
+        part = undecided_part::find(joined, std::move(edges), expression, options.inside);
     bundled_operands bundled(std::move(joined), std::move(part));
     boolean_options rest = options;
     rest.progress = part_of(options.progress, 0.1, 1.0);

@@ -48,7 +48,7 @@ bundled_operands::bundled_operands(std::span<const mesh_view> operands, std::uin
 }
 
 bundled_operands::bundled_operands(joined_operands&& joined,
-                                   std::unique_ptr<const active_part> part)
+                                   std::unique_ptr<const undecided_part> part)
     : part_(std::move(part)), once_(true) {
     take_joined(0, part_ ? part_->faces() : std::move(joined), true);
     take(1, cut_operand_of(own_[1]), own_[1]);
@@ -92,7 +92,7 @@ cut_faces cut_near(const bundled_operands& operands, cut_what what,
     cut_faces result;
     result.arranged.cancelled = true;
     if (stops(0.0)) return result;
-    result.near = find_near_faces(operands.all(), operands.once(), what == cut_what::all);
+    result.near = find_interaction_zone(operands.all(), operands.once(), what == cut_what::all);
     if (stops(0.5)) return result;
     const auto find_far = [&](std::size_t k) {
         if (what == cut_what::near_beside_far)
@@ -107,11 +107,13 @@ cut_faces cut_near(const bundled_operands& operands, cut_what what,
     return result;
 }
 
-buffer<fate> fates_of(const bundles& operands, const near_faces& near, fate of_rest) {
-    buffer<fate> fates(operands[0].view().faces.size() + operands[1].view().faces.size());
-    std::fill_n(fates.data(), fates.size(), of_rest);
-    for (const std::uint32_t f : near.face_of) fates[f] = fate::cut;
-    return fates;
+buffer<disposition> dispositions_of(const bundles& operands, const interaction_zone& near,
+                                    disposition of_rest) {
+    buffer<disposition> dispositions(operands[0].view().faces.size() +
+                                     operands[1].view().faces.size());
+    std::fill_n(dispositions.data(), dispositions.size(), of_rest);
+    for (const std::uint32_t f : near.face_of) dispositions[f] = disposition::cut;
+    return dispositions;
 }
 
 }  // namespace treeform::detail::boolean

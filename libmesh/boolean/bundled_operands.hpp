@@ -3,11 +3,11 @@
 /// Operands as they are cut: which meshes, what is known of each, and what of them matters.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/cut_operand.hpp>
 #include <libmesh/boolean/far_faces.hpp>
-#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/near_labels.hpp>
+#include <libmesh/boolean/undecided_part.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 
@@ -18,8 +18,8 @@
 
 namespace treeform::detail::boolean {
 
-/// One or two operands as they are, more as one mesh; of operands that hide each other, the part that
-/// can be on the surface of the result.
+/// One or two operands as they are, more as one mesh; of operands that hide each other, the part
+/// that can be on the surface of the result.
 class bundled_operands {
   public:
     /// At most two, as they are.
@@ -29,20 +29,20 @@ class bundled_operands {
     /// Number `sheet`, and all others as one mesh.
     bundled_operands(std::span<const mesh_view> operands, std::uint32_t sheet);
     /// Several that are closed, as one mesh. \param part of them, or null where all matter
-    bundled_operands(joined_operands&& joined, std::unique_ptr<const active_part> part);
+    bundled_operands(joined_operands&& joined, std::unique_ptr<const undecided_part> part);
     bundled_operands(const bundled_operands&) = delete;
     bundled_operands& operator=(const bundled_operands&) = delete;
 
     [[nodiscard]] const bundles& all() const { return all_; }
     /// Null where all of them matters.
-    [[nodiscard]] const active_part* part() const { return part_.get(); }
+    [[nodiscard]] const undecided_part* part() const { return part_.get(); }
     /// Whether nothing that is prepared will be asked for again.
     [[nodiscard]] bool once() const { return once_; }
 
     /// Whether few of the faces of each bundle meet each other.
     [[nodiscard]] bool have_few_pairs(const progress_callback& progress) const;
-    /// Has each bundle know the pairs of its own faces that meet where it matters; of those beside a
-    /// sheet, what is near tells later.
+    /// Has each bundle know the pairs of its own faces that meet where it matters; of those beside
+    /// a sheet, what is near tells later.
     void find_pairs(const progress_callback& progress);
 
   private:
@@ -51,7 +51,7 @@ class bundled_operands {
 
     std::array<prepared_mesh, 2> own_{};
     std::optional<cut_operand> joined_{};
-    std::unique_ptr<const active_part> part_{};
+    std::unique_ptr<const undecided_part> part_{};
     std::vector<face_pair> pairs_within_{};
     bundles all_{};
     bool once_ = false;
@@ -59,7 +59,7 @@ class bundled_operands {
 
 /// Faces where they meet, cut along each other.
 struct cut_faces {
-    near_faces near{};
+    interaction_zone near{};
     arrange_faces_result arranged{};
     std::array<std::optional<far_faces>, 2> far{};  ///< where asked for
 };
@@ -75,6 +75,8 @@ enum class cut_what : std::uint8_t {
                                  const progress_callback& progress);
 
 /// The same for all faces of both bundles that are not near.
-[[nodiscard]] buffer<fate> fates_of(const bundles& operands, const near_faces& near, fate of_rest);
+[[nodiscard]] buffer<disposition> dispositions_of(const bundles& operands,
+                                                  const interaction_zone& near,
+                                                  disposition of_rest);
 
 }  // namespace treeform::detail::boolean

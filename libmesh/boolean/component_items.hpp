@@ -2,7 +2,7 @@
 /// \file
 /// Parts of components as their trees have them, and which boxes they may reach into.
 
-#include <libmesh/boolean/rough_corners.hpp>
+#include <libmesh/boolean/interval_triangle.hpp>
 #include <libmesh/boolean/surface_components.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/box_in_space.hpp>
@@ -108,7 +108,7 @@ class component_items {
     [[nodiscard]] bool does_face_reach(const item& i, const aabb<double, 3>& box) const {
         const mesh_view mesh = components_.mesh();
         const face& f = mesh.faces[face_of(i)];
-        return !rough_corners({mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]})
+        return !interval_triangle({mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]})
                     .is_apart_from(box);
     }
 

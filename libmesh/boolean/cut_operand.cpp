@@ -49,17 +49,17 @@ void check_usable(points_view points) {
         throw std::invalid_argument("treeform::boolean: a coordinate");
 }
 
-/// Where surfaces end: at edges whose ends are both rough.
+/// Where surfaces end: at edges both ends of which lack a fan.
 ///
 /// \param operand_of_face empty where there is one operand
-open_input_edges find_open(mesh_view mesh, const ids& rough,
+open_input_edges find_open(mesh_view mesh, const ids& without_fan,
                            const std::vector<std::uint32_t>& operand_of_face) {
-    if (rough.empty()) return {};
-    std::vector<std::uint8_t> is_rough(mesh.points.size(), 0);
-    for (const std::uint32_t p : rough) is_rough[p] = 1;
+    if (without_fan.empty()) return {};
+    std::vector<std::uint8_t> lacks_fan(mesh.points.size(), 0);
+    for (const std::uint32_t p : without_fan) lacks_fan[p] = 1;
     const ids at = all_but(mesh.faces.size(), [&](std::size_t f) {
         const auto& [a, b, c] = mesh.faces[f];
-        return is_rough[a] + is_rough[b] + is_rough[c] < 2;
+        return lacks_fan[a] + lacks_fan[b] + lacks_fan[c] < 2;
     });
     std::vector<face> faces;
     ids operand;
@@ -69,7 +69,7 @@ open_input_edges find_open(mesh_view mesh, const ids& rough,
     }
     operand_edges edges = find_operand_edges({mesh.points, faces}, operand);
     std::erase_if(edges.unbalanced, [&](const unbalanced_edge& e) {
-        return is_rough[e.ends[0]] == 0 || is_rough[e.ends[1]] == 0;
+        return lacks_fan[e.ends[0]] == 0 || lacks_fan[e.ends[1]] == 0;
     });
     for (unbalanced_edge& e : edges.unbalanced) e.face = at[e.face];
     return find_open_input_edges(mesh.points, edges.unbalanced);
@@ -109,7 +109,7 @@ known_pairs find_pairs(const prepared_mesh& mesh, const progress_callback& progr
     self_intersection_result met = intersect::pairs_by_tree(
         mesh.view(), build_face_tree(mesh),
         {.vertices = vertex_identity::by_index, .progress = progress}, most);
-    if (met.cancelled) throw stopped{};
+    if (met.status == treeform::status::cancelled) throw stopped{};
     if (met.pairs.size() > most) return {{}, false};
     return {std::move(met.pairs), true};
 }
@@ -121,12 +121,13 @@ cut_operand cut_operand_of(joined_operands&& joined, bool is_closed) {
     result.joined = std::move(joined);
     mesh& all = result.joined.all;
     check_usable(all.points);
-    result.rough = topology::points_without_fan(all);
-    if (!is_closed) result.open = find_open(all, result.rough, result.joined.operand_of_face());
+    result.without_fan = topology::points_without_fan(all);
+    if (!is_closed)
+        result.open = find_open(all, result.without_fan, result.joined.operand_of_face());
     if (const ids degenerate = degenerate_of(all); !degenerate.empty()) {
         result.degenerate = degenerate.size();
         leave_out(degenerate, result.joined);
-        result.rough = topology::points_without_fan(all);
+        result.without_fan = topology::points_without_fan(all);
     }
     result.own = prepared_mesh::borrow(mesh_view(all));
     return result;
@@ -145,8 +146,8 @@ const cut_operand& cut_operand_of(const prepared_mesh& mesh) {
         cut_operand result;
         base::parallel_invoke(
             [&] {
-                result.rough = topology::points_without_fan(view);
-                result.open = find_open(view, result.rough, {});
+                result.without_fan = topology::points_without_fan(view);
+                result.open = find_open(view, result.without_fan, {});
             },
             [&] { static_cast<void>(build_face_tree(mesh)); });  // asked for next
         return result;

@@ -28,7 +28,7 @@ struct cut_operand {
     std::uint64_t degenerate = 0;        ///< faces without an area, left out
     open_input_edges open{};
     /// Points whose faces are not one closed fan, ascending.
-    std::vector<std::uint32_t> rough{};
+    std::vector<std::uint32_t> without_fan{};
 
     /// \param given the mesh that this is of
     [[nodiscard]] const prepared_mesh& mesh(const prepared_mesh& given) const {

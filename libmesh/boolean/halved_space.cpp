@@ -1,6 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/boolean/halved_space.hpp>
-#include <libmesh/boolean/rough_corners.hpp>
+#include <libmesh/boolean/interval_triangle.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,30 +12,30 @@ namespace {
 using box3 = aabb<double, 3>;
 using node = halved_space::node;
 
-/// Whether a box reaches into an active leaf below node `at`.
+/// Whether a box reaches into an undecided leaf below node `at`.
 bool reaches(const std::vector<node>& nodes, std::size_t at, const box3& box) {
     for (;;) {
         const node& n = nodes[at];
-        if (n.axis >= 3) return n.axis == node::active;
+        if (n.axis >= 3) return n.axis == node::undecided;
         const bool lower = box.min[n.axis] <= n.at, upper = box.max[n.axis] >= n.at;
         if (lower && upper && reaches(nodes, n.below, box)) return true;
         at = upper ? n.below + 1 : n.below;
     }
 }
 
-/// Whether corners may reach into a settled leaf below node `at`, which is `box`.
-bool may_reach_settled(const std::vector<node>& nodes, std::size_t at, box3 box,
-                       const rough_corners& corners) {
+/// Whether corners may reach into a decided leaf below node `at`, which is `box`.
+bool may_reach_decided(const std::vector<node>& nodes, std::size_t at, box3 box,
+                       const interval_triangle& corners) {
     for (;;) {
         const node& n = nodes[at];
-        if (n.axis == node::active) return false;
-        if (n.axis == node::settled) return !corners.is_apart_from(box);
+        if (n.axis == node::undecided) return false;
+        if (n.axis == node::decided) return !corners.is_apart_from(box);
         const bool lower = corners.box().min[n.axis] <= n.at;
         const bool upper = corners.box().max[n.axis] >= n.at;
         if (lower && upper) {
             box3 half = box;
             half.max[n.axis] = n.at;
-            if (may_reach_settled(nodes, n.below, half, corners)) return true;
+            if (may_reach_decided(nodes, n.below, half, corners)) return true;
         }
         (upper ? box.min : box.max)[n.axis] = n.at;
         at = upper ? n.below + 1 : n.below;
@@ -101,15 +101,16 @@ class clipped_triangle {
     double rounding_ = 0.0;
 };
 
-/// Calls `visit(part)` for what settled leaves below node `at` have of a triangle, until that is true.
+/// Calls `visit(part)` for what decided leaves below node `at` have of a triangle, until that is
+/// true.
 template <class Visit>
-bool visit_settled(const std::vector<node>& nodes, std::size_t at, clipped_triangle part,
+bool visit_decided(const std::vector<node>& nodes, std::size_t at, clipped_triangle part,
                    const Visit& visit) {
     for (;;) {
         const node& n = nodes[at];
-        if (part.empty() || n.axis == node::active) return false;
-        if (n.axis == node::settled) return visit(part);
-        if (visit_settled(nodes, n.below, part.side(n.axis, n.at, false), visit)) return true;
+        if (part.empty() || n.axis == node::undecided) return false;
+        if (n.axis == node::decided) return visit(part);
+        if (visit_decided(nodes, n.below, part.side(n.axis, n.at, false), visit)) return true;
         part = part.side(n.axis, n.at, true);
         at = n.below + 1;
     }
@@ -117,19 +118,19 @@ bool visit_settled(const std::vector<node>& nodes, std::size_t at, clipped_trian
 
 }  // namespace
 
-bool halved_space::leaves_active(const std::array<box3, 3>& corners) const {
-    if (std::ranges::any_of(corners, [&](const box3& c) { return !reaches_active(c); }))
+bool halved_space::leaves_undecided(const std::array<box3, 3>& corners) const {
+    if (std::ranges::any_of(corners, [&](const box3& c) { return !reaches_undecided(c); }))
         return true;
-    return visit_settled(nodes, 0, clipped_triangle(corners), [&](const clipped_triangle& part) {
-        return !reaches_active(part.middle());
+    return visit_decided(nodes, 0, clipped_triangle(corners), [&](const clipped_triangle& part) {
+        return !reaches_undecided(part.middle());
     });
 }
 
-bool halved_space::reaches_active(const box3& part) const { return reaches(nodes, 0, part); }
+bool halved_space::reaches_undecided(const box3& part) const { return reaches(nodes, 0, part); }
 
-bool halved_space::is_within_active(std::span<const box3> corners) const {
-    const rough_corners rough(corners);
-    return !may_reach_settled(nodes, 0, box, rough);
+bool halved_space::is_within_undecided(std::span<const box3> corners) const {
+    const interval_triangle triangle(corners);
+    return !may_reach_decided(nodes, 0, box, triangle);
 }
 
 }  // namespace treeform::detail::boolean

@@ -23,7 +23,7 @@ std::vector<std::uint32_t> faces_at_cuts(const exact_surface& surface) {
     for_chunks(surface.faces.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t f = begin; f < end; ++f)
-                       if (surface.sound[f] == 0)
+                       if (surface.certified[f] == 0)
                            for (const std::uint32_t p : surface.faces[f])
                                std::atomic_ref(is_end[p]).store(1, std::memory_order_relaxed);
                });
@@ -53,10 +53,10 @@ class part_of_surface {
   public:
     part_of_surface(exact_surface& whole, const std::vector<std::uint32_t>& faces) : whole_(whole) {
         const std::size_t given = whole.given.size();
-        base::resize_all(faces.size(), part_.faces, part_.sound);
+        base::resize_all(faces.size(), part_.faces, part_.certified);
         for_listed(faces, [&](std::size_t i, std::uint32_t f) {
             part_.faces[i] = whole.faces[f];
-            part_.sound[i] = whole.sound[f];
+            part_.certified[i] = whole.certified[f];
         });
         point_of_ = base::used_points(given + whole.constructed.size(), part_.faces);
         point_of_.resize(static_cast<std::size_t>(std::ranges::lower_bound(point_of_, given) -
@@ -95,8 +95,8 @@ class part_of_surface {
 };
 
 /// All but `of_face`: where the faces of before went, of which those `listed` were merged.
-void tell(face_origins& origins, const std::vector<std::uint32_t>& source_of,
-          const std::vector<std::uint32_t>& listed, const merged_faces& merged) {
+void report(face_origins& origins, const std::vector<std::uint32_t>& source_of,
+            const std::vector<std::uint32_t>& listed, const merged_faces& merged) {
     origins.source = source_of;
     origins.merged_into.resize(source_of.size());
     std::iota(origins.merged_into.begin(), origins.merged_into.end(), 0U);
@@ -109,10 +109,10 @@ void put_merged(exact_surface& surface, std::vector<std::uint32_t>& source_of,
                 const std::vector<std::uint32_t>& listed, const merged_faces& merged,
                 face_origins* origins) {
     std::vector<face> faces;
-    std::vector<std::uint8_t> sound;
+    std::vector<std::uint8_t> certified;
     std::vector<std::uint32_t> source;
     const std::size_t count = surface.faces.size() - listed.size() + merged.faces.size();
-    base::resize_all(count, faces, sound, source);
+    base::resize_all(count, faces, certified, source);
     if (origins != nullptr) base::resize_all(count, origins->of_face);
     for_chunks(
         surface.faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -123,7 +123,7 @@ void put_merged(exact_surface& surface, std::vector<std::uint32_t>& source_of,
             std::size_t place = begin - part + next;
             const auto put = [&](const face& corners, std::size_t f, bool is_new) {
                 faces[place] = corners;
-                sound[place] = is_new ? std::uint8_t{0} : surface.sound[f];
+                certified[place] = is_new ? std::uint8_t{0} : surface.certified[f];
                 source[place] = source_of[f];
                 if (origins != nullptr) origins->of_face[place] = static_cast<std::uint32_t>(f);
                 ++place;
@@ -139,7 +139,7 @@ void put_merged(exact_surface& surface, std::vector<std::uint32_t>& source_of,
             }
         });
     surface.faces = std::move(faces);
-    surface.sound = std::move(sound);
+    surface.certified = std::move(certified);
     source_of = std::move(source);
 }
 
@@ -183,19 +183,20 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
     merged_faces merged;
     {
         const part_of_surface part(surface, listed);
-        const std::vector<std::uint8_t>& sound = part.surface().sound;
+        const std::vector<std::uint8_t>& certified = part.surface().certified;
         merged = merge_coplanar(
-            part.surface(), {.mesh = {surface.given, input},
-                             .plane_of = plane_of,
-                             .group_of = group_of,
-                             .stays = options.simplify ? std::span<const std::uint8_t>() : sound});
+            part.surface(),
+            {.mesh = {surface.given, input},
+             .plane_of = plane_of,
+             .group_of = group_of,
+             .stays = options.simplify ? std::span<const std::uint8_t>() : certified});
         for_chunks(merged.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        for (std::size_t f = begin; f < end; ++f)
                            merged.faces[f] = part.to_whole(merged.faces[f]);
                    });
     }
-    if (origins != nullptr) tell(*origins, source_of, listed, merged);
+    if (origins != nullptr) report(*origins, source_of, listed, merged);
     put_merged(surface, source_of, listed, merged, origins);
     return source_of_point;
 }

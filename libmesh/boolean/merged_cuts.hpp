@@ -50,7 +50,7 @@ struct face_origins {
 /// so do vertices that only such faces have, inside of them or on a straight edge between the same
 /// two. With `simplify`, of all coplanar faces. Nothing changes with `keep_cuts`.
 ///
-/// Exact. Other faces stay, with all their corners. Merged ones are not sound.
+/// Exact. Other faces stay, with all their corners. Merged ones are not certified.
 ///
 /// \param input     whose faces were cut; points are those of `surface`
 /// \param group_of  [faces of `input`] or empty: only faces of one group are merged
@@ -59,8 +59,8 @@ struct face_origins {
 ///                  is afterwards, the lowest of those that were merged
 /// \return for each constructed point, the lowest face of `input` among the sources at it; empty
 ///         where nothing was to be merged
-/// \pre    as `merge_coplanar`; `surface.sound` has a value for each face
-/// \cost   as `merge_coplanar` for the faces that are not sound, and O(F) to find them
+/// \pre    as `merge_coplanar`; `surface.certified` has a value for each face
+/// \cost   as `merge_coplanar` for the faces that are not certified, and O(F) to find them
 /// \same   on any number of threads
 std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::uint32_t>& source_of,
                                       std::span<const face> input,

@@ -8,8 +8,8 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
 #include <libmesh/boolean/region_triangles.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/weld/edge_uses.hpp>
-#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -1,5 +1,5 @@
+#include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/arrange/patch_regions.hpp>
-#include <libmesh/arrange/way_out.hpp>
 #include <libmesh/arrange/winding_beside.hpp>
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_math.hpp>
@@ -25,7 +25,7 @@ constexpr std::size_t labels_a_chunk = 64, ways_a_chunk = 2;
 /// How often operands wind around places beside their faces.
 class line_windings {
   public:
-    line_windings(const bundles& operands, const active_part* part)
+    line_windings(const bundles& operands, const undecided_part* part)
         : operands_(operands), part_(part) {
         if (part != nullptr) box_ = part->components().box();
         for (std::size_t k = 0; k < 2; ++k) {
@@ -41,16 +41,16 @@ class line_windings {
     /// On one side of face f of bundle k.
     [[nodiscard]] beside_face at(std::size_t k, std::uint32_t f) const {
         const triangle3 whole = base::triangle_of(operands_[k].view(), f);
-        return follow(arrange::find_way_out({whole[0], whole[1], whole[2]}, whole, box_));
+        return follow(arrange::find_escape_ray({whole[0], whole[1], whole[2]}, whole, box_));
     }
     /// On one side of a face of an arrangement of `local`.
     [[nodiscard]] beside_face at(mesh_view local, const mesh_arrangement& cut,
                                  std::uint32_t f) const {
-        return follow(arrange::find_way_out(local, cut, f, box_));
+        return follow(arrange::find_escape_ray(local, cut, f, box_));
     }
 
   private:
-    [[nodiscard]] beside_face follow(const arrange::way_out& out) const {
+    [[nodiscard]] beside_face follow(const arrange::escape_ray& out) const {
         const aabb<double, 3> way = arrange::way_along(out.line, out.ahead);
         beside_face found{(out.line.faces() > 0) == out.ahead};
         if (part_ != nullptr) {
@@ -79,12 +79,12 @@ class line_windings {
     }
 
     const bundles& operands_;
-    const active_part* part_;
+    const undecided_part* part_;
     std::array<const tree<3>*, 2> trees_{};
     aabb<double, 3> box_{};
 };
 
-ids operands_of(const bundles& operands, const near_faces& near) {
+ids operands_of(const bundles& operands, const interaction_zone& near) {
     const std::size_t faces_of_a = operands[0].view().faces.size();
     ids result(near.face_of.size());
     for (std::size_t f = 0; f < result.size(); ++f)
@@ -93,10 +93,10 @@ ids operands_of(const bundles& operands, const near_faces& near) {
     return result;
 }
 
-/// A face that is cut is near together with all at its edges, and so are all at an edge of other than
-/// two. So faces are missing only where a whole one ends, or out of active space.
+/// A face that is cut is near together with all at its edges, and so are all at an edge of other
+/// than two. So faces are missing only where a whole one ends, or out of undecided space.
 surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_face,
-                           const active_places& places) {
+                           const undecided_places& places) {
     return arrange::find_closed_patches(
         cut, operand_of_face,
         [&](const std::array<std::uint32_t, 2>& points, std::span<const arrange::face_side> sides) {
@@ -105,7 +105,7 @@ surface_patches patches_of(const mesh_arrangement& cut, const ids& operand_of_fa
 }
 
 arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
-                                  const surface_patches& patches, const active_places& places) {
+                                  const surface_patches& patches, const undecided_places& places) {
     arrange::patch_regions joined(patches);
     joined.join_about_edges(local, cut, places.is_within());
     return joined.number();
@@ -113,9 +113,9 @@ arrange::numbered_sets regions_of(mesh_view local, const mesh_arrangement& cut,
 
 }  // namespace
 
-near_labels::near_labels(const bundles& operands, const near_faces& near,
+near_labels::near_labels(const bundles& operands, const interaction_zone& near,
                          const mesh_arrangement& cut, std::array<far_faces, 2> far,
-                         const active_part* part)
+                         const undecided_part* part)
     : operands_(operands),
       cut_(cut),
       operand_of_face_(operands_of(operands, near)),
@@ -207,18 +207,20 @@ chosen_surface near_labels::choose(const boolean_expression& expression, fill_ru
     result.near = round::faces_around(cut_, cells, inside.regions);
 
     const std::array faces{operands_[0].view().faces.size(), operands_[1].view().faces.size()};
-    result.fates = buffer<fate>(faces[0] + faces[1]);
-    for_chunks(result.fates.size(), light_grain,
+    result.dispositions = buffer<disposition>(faces[0] + faces[1]);
+    for_chunks(result.dispositions.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {
-                   std::fill(result.fates.data() + begin, result.fates.data() + end, fate::cut);
+                   std::fill(result.dispositions.data() + begin, result.dispositions.data() + end,
+                             disposition::cut);
                });
     for (std::size_t k = 0; k < 2; ++k) {
-        std::vector<fate> of_set;
+        std::vector<disposition> of_set;
         for (const auto& [front, behind] : inside.sets[k])
-            of_set.push_back(front == behind ? fate::dropped
-                             : behind != 0   ? fate::kept
-                                             : fate::turned);
-        far_[k].write(std::span<const fate>(of_set), result.fates.data() + (k == 0 ? 0 : faces[0]));
+            of_set.push_back(front == behind ? disposition::dropped
+                             : behind != 0   ? disposition::kept
+                                             : disposition::turned);
+        far_[k].write(std::span<const disposition>(of_set),
+                      result.dispositions.data() + (k == 0 ? 0 : faces[0]));
     }
     return result;
 }

@@ -4,11 +4,11 @@
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/arrange/patches.hpp>
-#include <libmesh/boolean/active_part.hpp>
-#include <libmesh/boolean/active_places.hpp>
 #include <libmesh/boolean/far_faces.hpp>
-#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/region_graph.hpp>
+#include <libmesh/boolean/undecided_part.hpp>
+#include <libmesh/boolean/undecided_places.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tree/detail/buffer.hpp>
@@ -20,17 +20,17 @@
 namespace treeform::detail::boolean {
 
 /// What becomes of a face that is not near.
-enum class fate : std::uint8_t { cut, dropped, kept, turned };
+enum class disposition : std::uint8_t { cut, dropped, kept, turned };
 
 struct chosen_surface {
     round::solid_faces near;  ///< of the arrangement of what is near
     /// Of all faces of both bundles, counted through; `cut` are those that are near.
-    buffer<fate> fates{};
+    buffer<disposition> dispositions{};
 };
 
-/// How often operands wind around both sides of all faces: patches between cuts are alike, and so are
-/// sets of faces that are not near. A line from one face of each group of patches that hang together,
-/// and of each set, tells, exactly; from there on, crossing a patch does.
+/// How often operands wind around both sides of all faces: patches between cuts are alike, and so
+/// are sets of faces that are not near. A line from one face of each group of patches that hang
+/// together, and of each set, tells, exactly; from there on, crossing a patch does.
 class near_labels {
   public:
     /// \param cut the arrangement of `near.local`
@@ -39,8 +39,8 @@ class near_labels {
     /// \cost  O(F' log F') for the F' faces of the arrangement, and O(log F) a line
     /// \same  on any number of threads
     /// \param part  that the operands are, or null where they are whole
-    near_labels(const bundles& operands, const near_faces& near, const mesh_arrangement& cut,
-                std::array<far_faces, 2> far, const active_part* part = nullptr);
+    near_labels(const bundles& operands, const interaction_zone& near, const mesh_arrangement& cut,
+                std::array<far_faces, 2> far, const undecided_part* part = nullptr);
 
     /// \cost  a change of the expression for each patch, and O(F)
     [[nodiscard]] chosen_surface choose(const boolean_expression& expression, fill_rule rule) const;
@@ -68,7 +68,7 @@ class near_labels {
     const bundles& operands_;
     const mesh_arrangement& cut_;
     std::vector<std::uint32_t> operand_of_face_;  ///< of `near.local`
-    active_places places_;
+    undecided_places places_;
     arrange::surface_patches patches_;
     region_graph regions_;
     std::vector<std::uint8_t> is_hidden_;  ///< [patch]

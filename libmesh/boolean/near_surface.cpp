@@ -33,7 +33,7 @@ constexpr int most_steps = 3;
 /// Where others are fewer than this share of what is near, nothing is mended without them.
 constexpr std::size_t few_others = 8;
 
-bool stays(fate of) { return of == fate::kept || of == fate::turned; }
+bool stays(disposition of) { return of == disposition::kept || of == disposition::turned; }
 
 constexpr std::size_t write_grain = std::size_t{1} << 10;
 /// Room for one more point in so many, for those that `split_nonmanifold` adds.
@@ -42,10 +42,11 @@ constexpr std::size_t slack = 64;
 /// Puts together the faces that were cut and those that were not, of both bundles counted through.
 class assembly {
   public:
-    assembly(const bundles& operands, const near_faces& near, const buffer<fate>& fates)
+    assembly(const bundles& operands, const interaction_zone& near,
+             const buffer<disposition>& dispositions)
         : operands_(operands),
           near_(near),
-          fates_(fates),
+          dispositions_(dispositions),
           faces_{0, meshes_[0].faces.size(), meshes_[0].faces.size() + meshes_[1].faces.size()},
           points_{0, meshes_[0].points.size(), meshes_[0].points.size() + meshes_[1].points.size()},
           number_(points_[2]) {}
@@ -114,7 +115,7 @@ class assembly {
     template <class Visit>
     void for_far_faces(std::size_t begin, std::size_t end, const Visit& visit) const {
         for (std::size_t f = begin; f < end; ++f)
-            if (stays(fates_[f])) visit(f);
+            if (stays(dispositions_[f])) visit(f);
     }
 
     /// Marks the points of operands that are in use.
@@ -178,8 +179,9 @@ class assembly {
                 const std::size_t k = operand_of(f);
                 const std::uint32_t* const number = number_.data() + points_[k];
                 const auto& [p, q, r] = corners(f);
-                put(f, fates_[f] == fate::kept ? face{number[p], number[q], number[r]}
-                                               : face{number[p], number[r], number[q]});
+                put(f, dispositions_[f] == disposition::kept
+                           ? face{number[p], number[q], number[r]}
+                           : face{number[p], number[r], number[q]});
             });
             put_pieces_before(end);
         });
@@ -187,8 +189,8 @@ class assembly {
 
     const bundles& operands_;
     std::array<mesh_view, 2> meshes_{operands_[0].view(), operands_[1].view()};
-    const near_faces& near_;
-    const buffer<fate>& fates_;
+    const interaction_zone& near_;
+    const buffer<disposition>& dispositions_;
     std::array<std::size_t, 3> faces_;   ///< where those of each operand begin
     std::array<std::size_t, 3> points_;  ///< likewise
     buffer<std::uint32_t> number_;       ///< of points of operands, in the result
@@ -216,19 +218,20 @@ void spread(ids& of_piece, const ids& pieces, std::size_t count) {
 
 /// Takes in faces that stay, if `wanted(f)`: then they are near, too. They have no origin.
 template <class Wanted>
-void take_in(const bundles& operands, near_faces& near, buffer<fate>& fates, exact_surface& exact,
-             ids& source, ids& face_of_point, ids& origin_of_face, const Wanted& wanted) {
+void take_in(const bundles& operands, interaction_zone& near, buffer<disposition>& dispositions,
+             exact_surface& exact, ids& source, ids& face_of_point, ids& origin_of_face,
+             const Wanted& wanted) {
     const std::array meshes{operands[0].view(), operands[1].view()};
     const std::size_t faces_of_a = meshes[0].faces.size(), points_of_a = meshes[0].points.size();
     ids number(points_of_a + meshes[1].points.size(), rounded_surface::none);
     for (std::uint32_t p = 0; p < near.point_of.size(); ++p) number[near.point_of[p]] = p;
     const std::size_t given = exact.given.size();
 
-    near_faces more;
+    interaction_zone more;
     more.point_of = std::move(near.point_of);
     std::vector<face>& faces = more.local.faces;
     std::vector<face> surface;
-    std::vector<std::uint8_t> sound;
+    std::vector<std::uint8_t> certified;
     ids surface_source, pieces, new_of_old(near.face_of.size());
     const auto take = [&](std::uint32_t f) {
         const std::size_t k = f < faces_of_a ? 0 : 1, first = k == 0 ? 0 : points_of_a;
@@ -242,28 +245,29 @@ void take_in(const bundles& operands, near_faces& near, buffer<fate>& fates, exa
             }
             p = local;
         }
-        surface.push_back(fates[f] == fate::kept ? corners
-                                                 : face{corners[0], corners[2], corners[1]});
-        sound.push_back(1);
+        surface.push_back(dispositions[f] == disposition::kept
+                              ? corners
+                              : face{corners[0], corners[2], corners[1]});
+        certified.push_back(1);
         surface_source.push_back(static_cast<std::uint32_t>(faces.size()));
         faces.push_back(corners);
         more.face_of.push_back(f);
     };
     std::size_t old = 0, piece = 0;
-    for (std::uint32_t f = 0; f < fates.size(); ++f) {
+    for (std::uint32_t f = 0; f < dispositions.size(); ++f) {
         if (old < near.face_of.size() && near.face_of[old] == f) {
             new_of_old[old] = static_cast<std::uint32_t>(faces.size());
             for (; piece < source.size() && source[piece] == old; ++piece) {
                 pieces.push_back(static_cast<std::uint32_t>(surface.size()));
                 surface.push_back(exact.faces[piece]);
-                sound.push_back(exact.sound[piece]);
+                certified.push_back(exact.certified[piece]);
                 surface_source.push_back(new_of_old[old]);
             }
             faces.push_back(near.local.faces[old++]);
             more.face_of.push_back(f);
-        } else if (stays(fates[f]) && wanted(f)) {
+        } else if (stays(dispositions[f]) && wanted(f)) {
             take(f);
-            fates[f] = fate::cut;
+            dispositions[f] = disposition::cut;
         }
     }
     for (const std::uint32_t f : pieces)
@@ -271,7 +275,7 @@ void take_in(const bundles& operands, near_faces& near, buffer<fate>& fates, exa
             if (p >= given) p += static_cast<std::uint32_t>(exact.given.size() - given);
     if (!origin_of_face.empty()) spread(origin_of_face, pieces, surface.size());
     exact.faces = std::move(surface);
-    exact.sound = std::move(sound);
+    exact.certified = std::move(certified);
     source = std::move(surface_source);
     for (std::uint32_t& f : face_of_point)
         if (f < new_of_old.size()) f = new_of_old[f];
@@ -281,8 +285,8 @@ void take_in(const bundles& operands, near_faces& near, buffer<fate>& fates, exa
 /// The faces that stay as they are where they are.
 class faces_left {
   public:
-    faces_left(const bundles& operands, const buffer<fate>& fates)
-        : operands_(operands), fates_(fates) {
+    faces_left(const bundles& operands, const buffer<disposition>& dispositions)
+        : operands_(operands), dispositions_(dispositions) {
         for (std::size_t k = 0; k < 2; ++k) trees_[k] = &build_face_tree(*operands[k].mesh);
     }
 
@@ -295,8 +299,8 @@ class faces_left {
                 *trees_[k], [&](std::uint32_t f) { return base::triangle_of(mesh, f); }, line, way,
                 ahead,
                 [&](std::uint32_t f, int change) {
-                    const fate of = fates_[first(k) + f];
-                    if (stays(of)) winding += of == fate::kept ? change : -change;
+                    const disposition of = dispositions_[first(k) + f];
+                    if (stays(of)) winding += of == disposition::kept ? change : -change;
                 });
         }
         return winding;
@@ -315,7 +319,7 @@ class faces_left {
             const auto box = base::face_boxes(rounded.surface.points)(now);
             for (std::size_t k = 0; k < 2; ++k)
                 search(*trees_[k], box, [&](std::uint32_t f) {
-                    if (stays(fates_[first(k) + f]))
+                    if (stays(dispositions_[first(k) + f]))
                         found.push_back(static_cast<std::uint32_t>(first(k) + f));
                 });
         }
@@ -330,17 +334,17 @@ class faces_left {
     }
 
     const bundles& operands_;
-    const buffer<fate>& fates_;
+    const buffer<disposition>& dispositions_;
     std::array<const tree<3>*, 2> trees_{};
 };
 
 /// The chosen faces, and the local face that each is of, in `source`, where those of `cut` were.
 exact_surface surface_of(mesh_arrangement& cut, std::vector<face>&& faces, ids& source) {
     exact_surface exact{std::move(cut.given_points), std::move(cut.constructed), std::move(faces)};
-    exact.sound.resize(source.size());
+    exact.certified.resize(source.size());
     for_chunks(source.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f) {
-            exact.sound[f] = cut.whole[source[f]];
+            exact.certified[f] = cut.whole[source[f]];
             source[f] = cut.covers_of(source[f]).front().face;
         }
     });
@@ -362,7 +366,7 @@ void keep_counts(const bundles& operands, const arrange_faces_result& arranged,
 }
 
 /// \param vertices [points of `rounded`] that they are in the result
-void name_cut_vertices(const bundles& operands, const near_faces& near,
+void name_cut_vertices(const bundles& operands, const interaction_zone& near,
                        const rounded_surface& rounded, const ids& vertices,
                        const ids& face_of_point, boolean_result& result) {
     const std::size_t given = near.point_of.size();
@@ -382,8 +386,8 @@ void name_cut_vertices(const bundles& operands, const near_faces& near,
 /// The chosen faces of what is near, and what is to be known of them when they are rounded.
 struct near_rounding {
     const bundles& operands;
-    near_faces& near;
-    buffer<fate>& fates;
+    interaction_zone& near;
+    buffer<disposition>& dispositions;
     const boolean_options& options;
     bool solid;
     exact_surface exact{};
@@ -395,7 +399,8 @@ struct near_rounding {
 
     template <class Wanted>
     void take_in_some(const Wanted& wanted) {
-        take_in(operands, near, fates, exact, source, face_of_point, origins.of_face, wanted);
+        take_in(operands, near, dispositions, exact, source, face_of_point, origins.of_face,
+                wanted);
     }
     void take_in_all() {
         if (!std::exchange(is_all, true)) take_in_some([](std::uint32_t) { return true; });
@@ -413,9 +418,9 @@ struct near_rounding {
         for (std::uint32_t& f : origins.source) f = near.face_of[f];
     }
 
-    /// What was left out meets no box of what was cut, and so no piece of it either, rounded or not:
-    /// rounding to nearest takes no coordinate out of a box of doubles. Nor is it to meet the box of
-    /// a face that was mended.
+    /// What was left out meets no box of what was cut, and so no piece of it either, rounded or
+    /// not: rounding to nearest takes no coordinate out of a box of doubles. Nor is it to meet the
+    /// box of a face that was mended.
     rounded_surface round() {
         double done = 0.7;
         const auto options_of = [&](double most, const winding_of_rest& rest) {
@@ -427,7 +432,7 @@ struct near_rounding {
                                  .rest = rest,
                                  .progress = base::part_of(options.progress, from, done)};
         };
-        const faces_left left(operands, fates);
+        const faces_left left(operands, dispositions);
         const bool are_few = others < exact.faces.size() / few_others;
         const double most = are_few ? 0.0 : options.max_displacement;
         for (int i = 0; !is_all; ++i) {
@@ -449,16 +454,17 @@ struct near_rounding {
 
 }  // namespace
 
-near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_result& arranged,
-                       chosen_surface chosen, const boolean_options& options, bool solid,
-                       left_faces is_left) {
+near_result surface_of(const bundles& operands, interaction_zone& near,
+                       arrange_faces_result& arranged, chosen_surface chosen,
+                       const boolean_options& options, bool solid, left_faces is_left) {
     near_result made;
     boolean_result& result = made.result;
-    near_rounding work{operands, near, chosen.fates, options, solid};
+    near_rounding work{operands, near, chosen.dispositions, options, solid};
     work.source = std::move(chosen.near.face_of);
     work.exact = surface_of(arranged.cut, std::move(chosen.near.faces), work.source);
     work.others = static_cast<std::size_t>(
-        std::count_if(chosen.fates.data(), chosen.fates.data() + chosen.fates.size(), stays));
+        std::count_if(chosen.dispositions.data(),
+                      chosen.dispositions.data() + chosen.dispositions.size(), stays));
     work.is_all = work.others == 0;
     if (options.simplify) work.take_in_all();
     work.merge(is_left != nullptr);
@@ -478,7 +484,7 @@ near_result surface_of(const bundles& operands, near_faces& near, arrange_faces_
                        face_of_piece[i] = near.face_of[source[rounded.face_of[i]]];
                });
     sort_by_source(face_of_piece, rounded.surface.faces);
-    const ids vertices = assembly(operands, near, chosen.fates)
+    const ids vertices = assembly(operands, near, chosen.dispositions)
                              .write(rounded, face_of_piece, merges_faces(options), result);
     // Faces that were not cut are as they were in their operand, all of those at a vertex or none.
     made.is_manifold = solid && !work.is_all && topology::is_manifold_at(vertices, result.mesh);

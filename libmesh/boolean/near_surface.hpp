@@ -3,7 +3,7 @@
 /// The surface of a result, from faces that were cut and faces that need not be.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <treeform/mesh/boolean.hpp>
 
@@ -38,7 +38,7 @@ struct near_result {
 /// \param arranged of `near.local`
 /// \param solid    whether the faces bound a solid
 /// \same  on any number of threads
-[[nodiscard]] near_result surface_of(const bundles& operands, near_faces& near,
+[[nodiscard]] near_result surface_of(const bundles& operands, interaction_zone& near,
                                      arrange_faces_result& arranged, chosen_surface chosen,
                                      const boolean_options& options, bool solid = true,
                                      left_faces is_left = nullptr);

@@ -46,9 +46,9 @@ std::array<point3, 8> places_beside(mesh_view mesh, std::uint32_t f) {
     return places;
 }
 
-/// Whether components that wind equally often around all places settle the expression, whatever the
+/// Whether components that wind equally often around all places decide the expression, whatever the
 /// others do. `state` is that of component `own` alone, and is given back.
-bool are_settled(const surface_components& components, std::uint32_t own,
+bool are_decided(const surface_components& components, std::uint32_t own,
                  std::span<const point3> places, partial_expression& state) {
     aabb<double, 3> box;
     for (const point3& q : places) box.include(q);
@@ -63,9 +63,9 @@ bool are_settled(const surface_components& components, std::uint32_t own,
                             alike ? winding_range::only(first) : components.range(c));
     });
     for (const auto& [operand, range] : around) state.add(operand, range);
-    const bool settled = state.value().has_value();
+    const bool decided = state.value().has_value();
     for (const auto& [operand, range] : around) state.add(operand, {-range.low, -range.high});
-    return settled;
+    return decided;
 }
 
 /// Faces of components other than `own` whose boxes overlap that of face f.
@@ -101,7 +101,7 @@ face_samples sample_faces(const surface_components& components,
             const winding_range& range = components.range(own);
             state.add(components.operand(own), range);
             const auto places = places_beside(mesh, f);
-            if (are_settled(components, own, places, state)) hidden += 1 + near;
+            if (are_decided(components, own, places, state)) hidden += 1 + near;
             state.add(components.operand(own), {-range.low, -range.high});
         }
     });

@@ -9,9 +9,10 @@ namespace treeform::detail::boolean {
 
 /// Means over 64 faces that are spread over all.
 struct face_samples {
-    /// The share at which components that do not seem to cross them settle the expression, whatever
+    /// The share at which components that do not seem to cross them decide the expression, whatever
     /// all others do: about what a division of space can leave out. A face counts once for itself
-    /// and once for each neighbor, as it costs to cut: hidden ones that nothing is near cost little.
+    /// and once for each neighbor, as it costs to cut: hidden ones that nothing is near cost
+    /// little.
     double hidden = 0.0;
     double neighbors = 0.0;  ///< faces of other components whose boxes overlap theirs
 };

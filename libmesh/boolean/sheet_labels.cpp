@@ -20,8 +20,8 @@ constexpr std::size_t lines_a_chunk = 16;
 
 }  // namespace
 
-sheet_labels::sheet_labels(const bundles& operands, const near_faces& near, mesh_arrangement& cut,
-                           const far_faces& far)
+sheet_labels::sheet_labels(const bundles& operands, const interaction_zone& near,
+                           mesh_arrangement& cut, const far_faces& far)
     : operands_(operands), near_(near), cut_(cut), far_(far), way_(cut.faces.size(), 0) {
     for (const bundle& operand : operands)
         if (!operand.view().faces.empty())
@@ -37,7 +37,7 @@ sheet_labels::sheet_labels(const bundles& operands, const near_faces& near, mesh
     }
 }
 
-bool sheet_labels::keeps(const arrange::way_out& out, std::span<const covering_face> covers,
+bool sheet_labels::keeps(const arrange::escape_ray& out, std::span<const covering_face> covers,
                          const boolean_expression& expression, fill_rule rule) const {
     const std::size_t count = expression.operand_count();
     const bundle& solids = operands_[1];
@@ -74,7 +74,7 @@ chosen_surface sheet_labels::choose(const boolean_expression& expression, fill_r
     for_chunks(asked.size(), lines_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t f = asked[i];
-            kept[patches.patch[f]] = keeps(arrange::find_way_out(near_.local, cut_, f, box_),
+            kept[patches.patch[f]] = keeps(arrange::find_escape_ray(near_.local, cut_, f, box_),
                                            cut_.covers_of(f), expression, rule);
         }
     });
@@ -86,20 +86,21 @@ chosen_surface sheet_labels::choose(const boolean_expression& expression, fill_r
         chosen.near.face_of.push_back(f);
     }
     const mesh_view sheet = operands_[0].view();
-    std::vector<fate> of_set(far_.faces().size());
+    std::vector<disposition> of_set(far_.faces().size());
     for_chunks(of_set.size(), lines_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const triangle3 t = base::triangle_of(sheet, far_.faces()[i]);
             of_set[i] =
-                keeps(arrange::find_way_out({t[0], t[1], t[2]}, t, box_), {}, expression, rule)
-                    ? fate::kept
-                    : fate::dropped;
+                keeps(arrange::find_escape_ray({t[0], t[1], t[2]}, t, box_), {}, expression, rule)
+                    ? disposition::kept
+                    : disposition::dropped;
         }
     });
-    chosen.fates = buffer<fate>(sheet.faces.size() + operands_[1].view().faces.size());
-    std::fill_n(chosen.fates.data(), chosen.fates.size(), fate::dropped);
-    far_.write(std::span<const fate>(of_set), chosen.fates.data());
-    for (const std::uint32_t f : near_.face_of) chosen.fates[f] = fate::cut;
+    chosen.dispositions =
+        buffer<disposition>(sheet.faces.size() + operands_[1].view().faces.size());
+    std::fill_n(chosen.dispositions.data(), chosen.dispositions.size(), disposition::dropped);
+    far_.write(std::span<const disposition>(of_set), chosen.dispositions.data());
+    for (const std::uint32_t f : near_.face_of) chosen.dispositions[f] = disposition::cut;
     return chosen;
 }
 

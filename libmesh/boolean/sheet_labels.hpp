@@ -2,10 +2,10 @@
 /// \file
 /// Which faces of a sheet an expression keeps among solids.
 
+#include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <libmesh/arrange/way_out.hpp>
 #include <libmesh/boolean/far_faces.hpp>
-#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tree/aabb.hpp>
@@ -23,7 +23,7 @@ class sheet_labels {
     /// \param cut the arrangement of `near.local`
     /// \param far of the sheet
     /// \pre   the second bundle is closed; what is referred to outlives this
-    sheet_labels(const bundles& operands, const near_faces& near, mesh_arrangement& cut,
+    sheet_labels(const bundles& operands, const interaction_zone& near, mesh_arrangement& cut,
                  const far_faces& far);
 
     /// A piece is in a solid when one of its sides is. Those that are kept are now first covered by
@@ -36,11 +36,11 @@ class sheet_labels {
   private:
     [[nodiscard]] bool is_of_sheet(std::uint32_t local) const { return local < near_.first_of_b; }
     /// \param covers of the face that `out` starts from
-    [[nodiscard]] bool keeps(const arrange::way_out& out, std::span<const covering_face> covers,
+    [[nodiscard]] bool keeps(const arrange::escape_ray& out, std::span<const covering_face> covers,
                              const boolean_expression& expression, fill_rule rule) const;
 
     const bundles& operands_;
-    const near_faces& near_;
+    const interaction_zone& near_;
     const mesh_arrangement& cut_;
     const far_faces& far_;
     aabb<double, 3> box_{};

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Boxes on the way down to settled and active ones, and what reaches into each.
+/// Boxes on the way down to decided and undecided ones, and what reaches into each.
 
-#include <libmesh/boolean/active_space.hpp>
 #include <libmesh/boolean/component_items.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/boolean/undecided_space.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
 
@@ -19,11 +19,11 @@
 namespace treeform::detail::boolean {
 
 /// To halve a box costs as much as there are items in it. What may be spent is so much for a face,
-/// shared out among the halves; where one is settled, the faces that are in it alone pay so much.
+/// shared out among the halves; where one is decided, the faces that are in it alone pay so much.
 constexpr double budget_of_face = 16.0;
 constexpr double pay_of_face = 4.0;
 
-struct settled_component {
+struct decided_component {
     std::uint32_t component;
     std::int64_t winding;
 };
@@ -34,7 +34,7 @@ struct range_change {
 };
 
 /// A box on the way down.
-struct place {
+struct box_node {
     aabb<double, 3> box;
     items inside;
     std::vector<std::uint32_t> unusual;  ///< components that may wind otherwise there; ascending
@@ -43,9 +43,9 @@ struct place {
 };
 
 /// A half of a box.
-struct half : place {
-    std::vector<settled_component> gone;  ///< reach into the box, but not into this half; ascending
-    bool is_settled = false;  ///< by some of them: what else there is was not looked for
+struct half : box_node {
+    std::vector<decided_component> gone;  ///< reach into the box, but not into this half; ascending
+    bool is_decided = false;  ///< by some of them: what else there is was not looked for
 };
 
 struct halves {
@@ -68,14 +68,14 @@ inline bool can_be_halved(const aabb<double, 3>& box, std::size_t& axis, double&
 class divider {
   public:
     divider(const surface_components& components, const division_limits& limits,
-            std::vector<std::uint8_t>& is_active_face)
+            std::vector<std::uint8_t>& is_undecided_face)
         : components_(components),
           limits_(limits),
           items_(components),
-          is_active_face_(is_active_face) {}
+          is_undecided_face_(is_undecided_face) {}
 
-    [[nodiscard]] place everything() const {
-        place all;
+    [[nodiscard]] box_node everything() const {
+        box_node all;
         for (std::uint32_t c = 0; c < components_.size(); ++c) {
             all.box.include(components_.box(c));
             all.inside.push_back({c, 0, 0});
@@ -86,18 +86,18 @@ class divider {
         return all;
     }
 
-    /// Whether to halve a place whose value is not known.
-    [[nodiscard]] bool is_worth_halving(const place& p) const {
+    /// Whether to halve a box whose value is not known.
+    [[nodiscard]] bool is_worth_halving(const box_node& p) const {
         if (p.faces <= limits_.faces_not_halved || p.budget < static_cast<double>(p.inside.size()))
             return false;
         // A box that one component alone reaches into has nothing hidden that halves would show.
         return p.inside.front().component != p.inside.back().component;
     }
 
-    /// False where the box is too small for that. `settles(gone)` says whether a half is settled by
+    /// False where the box is too small for that. `decides(gone)` says whether a half is decided by
     /// the components known to be gone from it.
-    template <class Settles>
-    [[nodiscard]] bool halve(const place& p, halves& result, const Settles& settles) const {
+    template <class Decides>
+    [[nodiscard]] bool halve(const box_node& p, halves& result, const Decides& decides) const {
         if (!can_be_halved(p.box, result.axis, result.at)) return false;
         result.lower = {{p.box, {}, {}}, {}};
         result.upper = {{p.box, {}, {}}, {}};
@@ -113,9 +113,9 @@ class divider {
                 for (const framed_halves box = framed(c, result);
                      i != p.inside.end() && i->component == c; ++i)
                     sort_in_known(*i, box, result);
-            if (result.lower.inside.size() == in_lower) leave(c, result.lower, settles);
-            if (result.upper.inside.size() == in_upper) leave(c, result.upper, settles);
-            if (result.lower.is_settled && result.upper.is_settled) return true;
+            if (result.lower.inside.size() == in_lower) leave(c, result.lower, decides);
+            if (result.upper.inside.size() == in_upper) leave(c, result.upper, decides);
+            if (result.lower.is_decided && result.upper.is_decided) return true;
         }
         const double rest = p.budget - static_cast<double>(p.inside.size());
         const auto weight = [](const half& part) {
@@ -135,17 +135,18 @@ class divider {
         return true;
     }
 
-    /// What is known of a part of a place by the components that are gone from it.
-    [[nodiscard]] std::vector<range_change> changes_by(const std::vector<settled_component>& gone,
-                                                       const place& above) const {
+    /// What is known of a part of a box by the components that are gone from it.
+    [[nodiscard]] std::vector<range_change> changes_by(const std::vector<decided_component>& gone,
+                                                       const box_node& above) const {
         std::vector<range_change> result;
         for (const auto& [c, winding] : gone)
             change(c, winding_range::only(winding), above, result);
         return result;
     }
 
-    /// What is known besides of a part of a place.
-    [[nodiscard]] std::vector<range_change> changes_in(const half& part, const place& above) const {
+    /// What is known besides of a part of a box.
+    [[nodiscard]] std::vector<range_change> changes_in(const half& part,
+                                                       const box_node& above) const {
         std::vector<range_change> result = changes_by(part.gone, above);
         for (const std::uint32_t c : above.unusual)
             if (!std::ranges::binary_search(part.unusual, c) && is_inside(c, part))
@@ -153,7 +154,7 @@ class divider {
         return result;
     }
 
-    void mark_faces(const place& p) const {
+    void mark_faces(const box_node& p) const {
         for (auto i = p.inside.begin(); i != p.inside.end();) {
             const std::uint32_t c = i->component;
             const framed_box box = items_.framed(c, p.box);
@@ -161,8 +162,8 @@ class divider {
         }
     }
 
-    /// Adds the ranges of the components that reach into a place, or takes them away.
-    void tell(partial_expression& state, const place& p, bool is_there) const {
+    /// Adds the ranges of the components that reach into a box, or takes them away.
+    void assign(partial_expression& state, const box_node& p, bool is_there) const {
         const std::int64_t sign = is_there ? 1 : -1;
         for_components(p.inside, [&](std::uint32_t c) {
             const winding_range& range = range_in(p, c);
@@ -170,8 +171,8 @@ class divider {
         });
     }
 
-    /// Whether few components reach into a place, none of which can settle it alone.
-    [[nodiscard]] bool is_hopeless(const place& p, partial_expression& state) const {
+    /// Whether few components reach into a box, none of which can decide it alone.
+    [[nodiscard]] bool cannot_prune(const box_node& p, partial_expression& state) const {
         std::size_t count = 0;
         bool has_hope = false;
         for_components(p.inside, [&](std::uint32_t c) {
@@ -190,7 +191,7 @@ class divider {
     }
 
   private:
-    void change(std::uint32_t c, const winding_range& now, const place& above,
+    void change(std::uint32_t c, const winding_range& now, const box_node& above,
                 std::vector<range_change>& result) const {
         const winding_range& before = range_in(above, c);
         if (now != before)
@@ -199,14 +200,14 @@ class divider {
     }
 
     /// A component does not reach into a half.
-    template <class Settles>
-    void leave(std::uint32_t c, half& from, const Settles& settles) const {
-        if (from.is_settled) return;
+    template <class Decides>
+    void leave(std::uint32_t c, half& from, const Decides& decides) const {
+        if (from.is_decided) return;
         point3 q;
         for (std::size_t k = 0; k < 3; ++k) q[k] = from.box.min[k];
         const std::int64_t winding = components_.winding_around(c, q);
         from.gone.push_back({c, winding});
-        if (winding != 0) from.is_settled = settles(from.gone);
+        if (winding != 0) from.is_decided = decides(from.gone);
     }
 
     template <class Visit>
@@ -219,11 +220,11 @@ class divider {
         }
     }
 
-    [[nodiscard]] const winding_range& range_in(const place& p, std::uint32_t c) const {
+    [[nodiscard]] const winding_range& range_in(const box_node& p, std::uint32_t c) const {
         return std::ranges::binary_search(p.unusual, c) ? components_.range(c)
                                                         : components_.usual_range(c);
     }
-    [[nodiscard]] static bool is_inside(std::uint32_t c, const place& p) {
+    [[nodiscard]] static bool is_inside(std::uint32_t c, const box_node& p) {
         return std::ranges::binary_search(p.inside, c, {}, &item::component);
     }
 
@@ -249,8 +250,8 @@ class divider {
     /// Puts an item into the halves that it reaches into, opened where it is larger than they are.
     void sort_in(const item& i, const framed_halves& box, halves& result) const {
         const aabb<float, 3> own = items_.box_of(i);
-        const bool in_lower = !result.lower.is_settled && items_.reaches(i, own, box.lower);
-        const bool in_upper = !result.upper.is_settled && items_.reaches(i, own, box.upper);
+        const bool in_lower = !result.lower.is_decided && items_.reaches(i, own, box.lower);
+        const bool in_upper = !result.upper.is_decided && items_.reaches(i, own, box.upper);
         if (!in_lower && !in_upper) return;
         if (items_.is_face(i) || !is_larger(own, box.lower.in_frame))
             put(i, in_lower, in_upper, result);
@@ -258,8 +259,8 @@ class divider {
             items_.for_children(i, [&](const item& child) { sort_in(child, box, result); });
     }
 
-    /// The same of an item that reaches into both halves together, and is no larger: along the other
-    /// axes nothing has changed.
+    /// The same of an item that reaches into both halves together, and is no larger: along the
+    /// other axes nothing has changed.
     void sort_in_known(const item& i, const framed_halves& box, halves& result) const {
         if (items_.is_face(i)) return sort_in(i, box, result);
         const std::size_t axis = result.axis;
@@ -273,8 +274,8 @@ class divider {
     }
 
     void put(const item& i, bool in_lower, bool in_upper, halves& result) const {
-        in_lower = in_lower && !result.lower.is_settled;
-        in_upper = in_upper && !result.upper.is_settled;
+        in_lower = in_lower && !result.lower.is_decided;
+        in_upper = in_upper && !result.upper.is_decided;
         if (!in_lower && !in_upper) return;
         const std::size_t faces = items_.faces_below(i);
         if (in_lower) {
@@ -290,7 +291,7 @@ class divider {
     /// \pre the item may reach into the box
     void mark_faces(const item& i, const framed_box& box) const {
         if (items_.is_face(i)) {
-            const std::atomic_ref mark(is_active_face_[items_.face_of(i)]);
+            const std::atomic_ref mark(is_undecided_face_[items_.face_of(i)]);
             if (mark.load(std::memory_order_relaxed) == 0)  // else let others keep it in reach
                 mark.store(1, std::memory_order_relaxed);
             return;
@@ -303,7 +304,7 @@ class divider {
     const surface_components& components_;
     division_limits limits_;
     component_items items_;
-    std::vector<std::uint8_t>& is_active_face_;
+    std::vector<std::uint8_t>& is_undecided_face_;
 };
 
 }  // namespace treeform::detail::boolean

@@ -69,14 +69,14 @@ class few_faces {
     mesh_arrangement cut_;
 };
 
-/// Of a surface of which the faces at all rough points are there: others have one fan, which need not
-/// be there.
+/// Of a surface of which the faces at all points without a fan are there: others have one fan,
+/// which need not be there.
 class separator {
   public:
-    /// Marks rough points as it goes.
-    separator(treeform::mesh&& solid, std::vector<std::uint8_t>& is_rough)
+    /// Marks points without a fan as it goes.
+    separator(treeform::mesh&& solid, std::vector<std::uint8_t>& lacks_fan)
         : solid_(std::move(solid)),
-          is_rough_(is_rough),
+          is_rough_(lacks_fan),
           edges_(solid_.points.size(), solid_.faces, detail::weld::repeated_corners::left_out) {}
 
     manifold_surface run() {
@@ -91,7 +91,7 @@ class separator {
     }
 
   private:
-    static constexpr std::uint8_t taken = 2;  ///< a rough point, by its first fan
+    static constexpr std::uint8_t taken = 2;  ///< a point without one closed fan, by its first fan
 
     [[nodiscard]] bool runs_up(std::uint32_t f, std::uint32_t low, std::uint32_t high) const {
         const face& c = solid_.faces[f];
@@ -257,17 +257,17 @@ class separator {
 }  // namespace
 
 manifold_surface split_nonmanifold(mesh&& solid) {
-    const std::vector<std::uint32_t> rough = topology::points_without_fan(solid);
-    if (rough.empty()) return {.surface = std::move(solid)};
-    std::vector<std::uint8_t> is_rough(solid.points.size(), 0);
-    for (const std::uint32_t p : rough) is_rough[p] = 1;
+    const std::vector<std::uint32_t> without_fan = topology::points_without_fan(solid);
+    if (without_fan.empty()) return {.surface = std::move(solid)};
+    std::vector<std::uint8_t> lacks_fan(solid.points.size(), 0);
+    for (const std::uint32_t p : without_fan) lacks_fan[p] = 1;
     std::vector<face> all = std::move(solid.faces);
-    std::vector<std::uint32_t> at;  // faces at rough points
+    std::vector<std::uint32_t> at;  // faces at points without a fan
     solid.faces.clear();
     base::compact(
         all.size(),
         [&](std::size_t f) {
-            return (is_rough[all[f][0]] | is_rough[all[f][1]] | is_rough[all[f][2]]) != 0;
+            return (lacks_fan[all[f][0]] | lacks_fan[all[f][1]] | lacks_fan[all[f][2]]) != 0;
         },
         [&](std::size_t count) {
             at.resize(count);
@@ -277,7 +277,7 @@ manifold_surface split_nonmanifold(mesh&& solid) {
             at[place] = static_cast<std::uint32_t>(f);
             solid.faces[place] = all[f];
         });
-    manifold_surface result = separator(std::move(solid), is_rough).run();
+    manifold_surface result = separator(std::move(solid), lacks_fan).run();
     for (std::size_t i = 0; i < at.size(); ++i) all[at[i]] = result.surface.faces[i];
     result.surface.faces = std::move(all);
     return result;

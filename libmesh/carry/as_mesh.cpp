@@ -1,5 +1,6 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/topology/select_faces.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -56,8 +57,7 @@ void join_points(usable_mesh& part, const part_options& options) {
     }
     if (!(options.tolerance > 0.0)) return;
     const std::size_t before = part.mesh.points.size();
-    part.mesh =
-        join_groups(part.mesh, group_points(part.mesh.points, {.tolerance = options.tolerance}));
+    part.mesh = group_points(part.mesh.points, {.tolerance = options.tolerance}).joined(part.mesh);
     part.joined = before - part.mesh.points.size();
 }
 

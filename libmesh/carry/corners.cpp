@@ -189,7 +189,7 @@ std::vector<face> carried(std::span<const carry_source> inputs, const mesh& surf
 /// null where floats will do.
 const column* double_list(std::span<const carry_source> inputs) {
     for (const carry_source& input : inputs)
-        if (const element* faces = find_element(input.file->attributes, "face"))
+        if (const element* faces = input.file->attributes.find("face"))
             for (const column& c : faces->columns)
                 if (c.role == column_role::texture && c.type == scalar_type::float64) return &c;
     return nullptr;
@@ -202,7 +202,7 @@ void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
     corner_values& corners = file.attributes.corners;
     corners.texture_of_corner = carried(inputs, file.mesh, made, corners.texture);
     if (const column* list = double_list(inputs); list && !corners.texture_of_corner.empty())
-        obtain_element(file.attributes, "face", file.mesh.faces.size()).columns.push_back(*list);
+        file.attributes.obtain("face", file.mesh.faces.size()).columns.push_back(*list);
     corners.normal_of_corner = carried(inputs, file.mesh, made, corners.normals);
     corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const carry_source& input) {
         return input.file->attributes.corners.has_w;

@@ -49,11 +49,11 @@ void append_values(column& to, const column& from) {
         return;
     }
     with_type(to.type, [&]<class T>(T) {
-        const std::size_t count = value_count(from);
+        const std::size_t count = from.size();
         const std::size_t begin = to.values.size();
         to.values.resize(begin + count * sizeof(T));
         for (std::size_t i = 0; i < count; ++i) {
-            const T value = static_cast<T>(number_at(from, i));
+            const T value = static_cast<T>(from.number(i));
             std::memcpy(to.values.data() + begin + i * sizeof(T), &value, sizeof(T));
         }
     });
@@ -69,7 +69,7 @@ void append_nothing(column& to, std::size_t rows) {
     with_type(to.type, [&]<class T>(T) {
         const std::vector<T> values(
             rows, std::is_floating_point_v<T> ? std::numeric_limits<T>::quiet_NaN() : T{});
-        filler = make_column<T>(to.name, values);
+        filler = column::of<T>(to.name, values);
     });
     append_values(to, filler);
 }
@@ -96,12 +96,12 @@ class joiner {
         leave_out_elements();
         for (mesh_file& file : files_) {
             join_parts(file);
-            append(all_.attributes.corners, all_.mesh.faces.size(), file.attributes.corners,
-                   file.mesh.faces.size());
+            all_.attributes.corners.append(all_.mesh.faces.size(), file.attributes.corners,
+                                           file.mesh.faces.size());
             join_faces(file);
             file = {};
         }
-        if (const element* points = find_element(all_.attributes, "vertex"))
+        if (const element* points = all_.attributes.find("vertex"))
             detail::attribute::look_at_ranges(*points, all_.ranges);
         return std::move(all_);
     }
@@ -187,7 +187,7 @@ class joiner {
         element joined{.name = name};
         for (const mesh_file& file : files_) {
             joined.rows += rows_of(file);
-            if (const element* e = find_element(file.attributes, name))
+            if (const element* e = file.attributes.find(name))
                 declare_columns(joined, *e, &file == &files_.front());
         }
         if (joined.columns.empty()) return;
@@ -238,8 +238,8 @@ class joiner {
         if (c.list_length) c.list_begin.push_back(0);
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const std::size_t rows = rows_of(files_[i]);
-            const element* e = find_element(files_[i].attributes, element_name);
-            const column* from = e == nullptr ? nullptr : find_column(*e, c.name);
+            const element* e = files_[i].attributes.find(element_name);
+            const column* from = e == nullptr ? nullptr : e->find(c.name);
             if (from != nullptr && from->role == column_role::data) {
                 if (c.list_length) append_lists(c, *from);
                 append_values(c, *from);

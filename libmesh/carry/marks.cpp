@@ -26,40 +26,37 @@ std::vector<std::uint8_t> marks_of_vertices(const mesh& mesh,
 
 }  // namespace
 
-face_marks mark_faces(std::size_t face_count, std::span<const face_pair> pairs,
-                      const intersection_regions& regions) {
-    face_marks marks;
-    marks.kind.assign(face_count, 0);
-    marks.region.assign(face_count, -1);
+face_marks::face_marks(std::size_t face_count, std::span<const face_pair> pairs,
+                       const intersection_regions& regions)
+    : kind(face_count, 0), region(face_count, -1) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
         for (const std::uint32_t f : {pairs[i].a, pairs[i].b}) {
-            mark(marks.kind[f], pairs[i].kind);
-            marks.region[f] = static_cast<std::int32_t>(regions.region_of_pair[i]);
+            mark(kind[f], pairs[i].kind);
+            region[f] = static_cast<std::int32_t>(regions.region_of_pair[i]);
         }
-    return marks;
 }
 
-void color_marks(mesh_file& file, const usable_mesh& looked_at, const face_marks& marks) {
+void face_marks::color(mesh_file& file, const usable_mesh& looked_at) const {
     std::vector<std::int32_t> kinds(file.mesh.faces.size(), 0), regions(kinds.size(), -1);
     std::vector<std::uint8_t> classes(kinds.size(), 0);
-    for (std::uint32_t f = 0; f < marks.kind.size(); ++f) {
+    for (std::uint32_t f = 0; f < kind.size(); ++f) {
         const std::uint32_t t = looked_at.triangle(f);
-        kinds[t] = classes[t] = marks.kind[f];
-        regions[t] = marks.region[f];
+        kinds[t] = classes[t] = kind[f];
+        regions[t] = region[f];
     }
-    if (!file.stored_face.empty()) split_polygons(file);
+    if (!file.stored_face.empty()) file.split_polygons();
     if (!file.indexed) {  // a soup becomes a mesh; where vertices have numbers they keep them
         file.mesh = join_equal_points(file.mesh);
         file.attributes = {};
         file.indexed = true;
     }
     using detail::attribute::set_colors;
-    element& vertices = obtain_element(file.attributes, "vertex", file.mesh.points.size());
+    element& vertices = file.attributes.obtain("vertex", file.mesh.points.size());
     set_colors(vertices, marks_of_vertices(file.mesh, classes), mark_colors);
-    element& faces = obtain_element(file.attributes, "face", file.mesh.faces.size());
+    element& faces = file.attributes.obtain("face", file.mesh.faces.size());
     set_colors(faces, classes, mark_colors);
-    set_column(faces, make_column<std::int32_t>("tf_class", kinds));
-    set_column(faces, make_column<std::int32_t>("tf_region", regions));
+    faces.set(column::of<std::int32_t>("tf_class", kinds));
+    faces.set(column::of<std::int32_t>("tf_region", regions));
 }
 
 }  // namespace treeform

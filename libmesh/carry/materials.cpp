@@ -81,11 +81,11 @@ void carry_materials(mesh_file& file, std::span<const carry_source> inputs,
 
 namespace treeform {
 
-std::vector<std::string> ambiguous_materials(std::span<const mesh_file* const> inputs) {
+std::vector<std::string> carry_sources::ambiguous_materials() const {
     std::map<std::string, const std::vector<std::string>*> files_of;
     std::set<std::string> found;
-    for (const mesh_file* input : inputs) {
-        const attributes& all = input->attributes;
+    for (const carry_source& input : all_) {
+        const attributes& all = input.file->attributes;
         for (const part& p : all.parts) {
             if (p.material.empty()) continue;
             const auto [at, fresh] = files_of.try_emplace(p.material, &all.material_files);

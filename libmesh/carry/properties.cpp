@@ -24,8 +24,8 @@ bool is_normal(const std::string& name) { return name == "nx" || name == "ny" ||
 
 /// Whether points have all three coordinates of a normal; they are carried together.
 bool has_normals(const element& e) {
-    return e.name == "vertex" && find_column(e, "nx") != nullptr &&
-           find_column(e, "ny") != nullptr && find_column(e, "nz") != nullptr;
+    return e.name == "vertex" && e.find("nx") != nullptr && e.find("ny") != nullptr &&
+           e.find("nz") != nullptr;
 }
 
 bool can_be_carried(const column& c) { return c.role == column_role::data && !c.list_length; }
@@ -44,7 +44,7 @@ struct property {
 std::vector<property> properties_of(std::span<const carry_source> inputs, const char* name) {
     std::vector<property> all;
     for (std::size_t k = 0; k < inputs.size(); ++k) {
-        const element* e = find_element(inputs[k].file->attributes, name);
+        const element* e = inputs[k].file->attributes.find(name);
         if (e == nullptr) continue;
         for (const column& c : e->columns) {
             if (!is_single_value(*e, c)) continue;
@@ -79,7 +79,7 @@ column make_values(const property& p, std::size_t rows, ValueOf value_of) {
         using T = decltype(zero);
         std::vector<T> values(rows);
         for (std::size_t row = 0; row < rows; ++row) values[row] = nearest<T>(value_of(row));
-        return make_column<T>(p.name, values);
+        return column::of<T>(p.name, values);
     });
 }
 
@@ -134,21 +134,21 @@ double value_of(const property& p, const mixture& m) {
     if (values == nullptr) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
-        if (m.shares.of[k] > 0.0) sum += m.shares.of[k] * number_at(*values, m.points[k]);
+        if (m.shares.of[k] > 0.0) sum += m.shares.of[k] * values->number(m.points[k]);
     return sum;
 }
 
 /// The normal of a point where face `f` of the surface has it.
 point3 carried_normal(std::span<const carry_source> inputs, const mesh& surface,
                       const carried_elements& made, const mixture& m, std::uint32_t f) {
-    const element* points = find_element(inputs[m.input].file->attributes, "vertex");
+    const element* points = inputs[m.input].file->attributes.find("vertex");
     const point3 flat = normal_of(surface, surface.faces[f]);
     if (points == nullptr || !has_normals(*points)) return with_length_one(flat);
     point3 normal{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const column& c = *find_column(*points, std::array{"nx", "ny", "nz"}[axis]);
+        const column& c = *points->find(std::array{"nx", "ny", "nz"}[axis]);
         for (std::size_t k = 0; k < 3; ++k)
-            if (m.shares.of[k] > 0.0) normal[axis] += m.shares.of[k] * number_at(c, m.points[k]);
+            if (m.shares.of[k] > 0.0) normal[axis] += m.shares.of[k] * c.number(m.points[k]);
     }
     if (m.shares.of[0] < 1.0) normal = with_length_one(normal);
     const operand_element source = made.face_source[f];
@@ -180,13 +180,12 @@ void carry_normals(element& rows, std::span<const carry_source> inputs, const me
             values[axis].push_back(static_cast<float>(normal[axis]));
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
-        rows.columns.push_back(
-            make_column<float>(std::array{"nx", "ny", "nz"}[axis], values[axis]));
+        rows.columns.push_back(column::of<float>(std::array{"nx", "ny", "nz"}[axis], values[axis]));
 }
 
 bool any_has_normals(std::span<const carry_source> inputs) {
     return std::any_of(inputs.begin(), inputs.end(), [](const carry_source& s) {
-        const element* points = find_element(s.file->attributes, "vertex");
+        const element* points = s.file->attributes.find("vertex");
         return points != nullptr && has_normals(*points);
     });
 }
@@ -198,33 +197,34 @@ namespace treeform {
 
 using namespace detail::carry;  // NOLINT: their public half
 
-void carry(mesh_file& file, std::span<const carry_source> inputs, const carried_elements& made) {
+void carry_sources::carry(mesh_file& file, const carried_elements& made) const {
+    const std::span<const carry_source> inputs = all_;
     const mesh& surface = file.mesh;
-    if (const auto of_points = properties_of(inputs, "vertex"); has_vertex_values(inputs)) {
+    if (const auto of_points = properties_of(inputs, "vertex"); has_vertex_values()) {
         const std::vector<mixture> mixtures = mixtures_of(inputs, surface, made);
-        element& rows = obtain_element(file.attributes, "vertex", surface.points.size());
+        element& rows = file.attributes.obtain("vertex", surface.points.size());
         for (const property& p : of_points)
             rows.columns.push_back(make_values(
                 p, mixtures.size(), [&](std::size_t row) { return value_of(p, mixtures[row]); }));
         if (any_has_normals(inputs)) carry_normals(rows, inputs, surface, made, mixtures);
     }
     if (const auto of_faces = properties_of(inputs, "face"); !of_faces.empty()) {
-        element& rows = obtain_element(file.attributes, "face", surface.faces.size());
+        element& rows = file.attributes.obtain("face", surface.faces.size());
         for (const property& p : of_faces)
             rows.columns.push_back(make_values(p, surface.faces.size(), [&](std::size_t row) {
                 const auto [operand, index] = made.face_source[row];
                 const column* values =
                     operand == operand_element::none ? nullptr : p.of_input[operand];
                 return values == nullptr ? std::numeric_limits<double>::quiet_NaN()
-                                         : number_at(*values, inputs[operand].stored_face(index));
+                                         : values->number(inputs[operand].stored_face(index));
             }));
     }
     carry_corners(file, inputs, made);
     carry_materials(file, inputs, made);
 }
 
-void carry(mesh_file& file, const carry_source& input, std::span<const std::uint32_t> face_source,
-           std::span<const std::uint32_t> vertex_source) {
+void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_source,
+                          std::span<const std::uint32_t> vertex_source) const {
     const auto of_input = [](std::span<const std::uint32_t> indices) {
         std::vector<operand_element> elements(indices.size());
         for (std::size_t i = 0; i < indices.size(); ++i)
@@ -233,11 +233,11 @@ void carry(mesh_file& file, const carry_source& input, std::span<const std::uint
     };
     const std::vector<operand_element> faces = of_input(face_source);
     const std::vector<operand_element> vertices = of_input(vertex_source);
-    carry(file, {&input, 1}, {faces, vertices});
+    carry(file, {faces, vertices});
 }
 
-std::vector<std::uint32_t> face_groups(std::span<const carry_source> inputs, bool by_values,
-                                       bool by_input) {
+std::vector<std::uint32_t> carry_sources::face_groups(bool by_values, bool by_input) const {
+    const std::span<const carry_source> inputs = all_;
     std::vector<property> properties;
     if (by_values) properties = properties_of(inputs, "face");
     const face_kinds kinds(by_values ? inputs : inputs.first(0));
@@ -250,8 +250,7 @@ std::vector<std::uint32_t> face_groups(std::span<const carry_source> inputs, boo
             std::vector<double> values{by_input ? static_cast<double>(k) : 0.0};
             for (const property& p : properties) {
                 const column* column = p.of_input[k];
-                const double value =
-                    column ? number_at(*column, inputs[k].stored_face(f)) : nothing;
+                const double value = column ? column->number(inputs[k].stored_face(f)) : nothing;
                 values.push_back(std::isnan(value) ? nothing : value);
             }
             kinds.append(k, f, values);
@@ -261,18 +260,18 @@ std::vector<std::uint32_t> face_groups(std::span<const carry_source> inputs, boo
     return groups;
 }
 
-bool has_vertex_values(std::span<const carry_source> inputs) {
-    return any_has_normals(inputs) || !properties_of(inputs, "vertex").empty();
+bool carry_sources::has_vertex_values() const {
+    return any_has_normals(all_) || !properties_of(all_, "vertex").empty();
 }
 
-bool merging_mixes_values(std::span<const carry_source> inputs) {
-    if (has_vertex_values(inputs)) return true;
-    const std::vector<std::uint32_t> groups = face_groups(inputs, true, false);
+bool carry_sources::merging_mixes_values() const {
+    if (has_vertex_values()) return true;
+    const std::vector<std::uint32_t> groups = face_groups(true, false);
     return std::ranges::adjacent_find(groups, std::ranges::not_equal_to{}) != groups.end();
 }
 
-bool has_values_left_out(std::span<const carry_source> inputs) {
-    for (const carry_source& input : inputs)
+bool carry_sources::has_values_left_out() const {
+    for (const carry_source& input : all_)
         for (const element& e : input.file->attributes.elements)
             for (const column& c : e.columns)
                 if (c.role == column_role::data &&

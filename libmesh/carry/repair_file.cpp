@@ -83,7 +83,7 @@ class repair_of_parts {
         done_.file.stored_faces = done_.file.mesh.faces.size();
         done_.file.stored_as = done_.certificate.precision;
         done_.file.format = input_.file->format;
-        carry(done_.file, input_, face_source_, vertex_source_);
+        carry_sources(input_).carry(done_.file, face_source_, vertex_source_);
         return std::move(done_);
     }
 
@@ -131,8 +131,8 @@ std::vector<solid_part> parts_of(const carry_source& input, repair_scope scope) 
 class mixing {
   public:
     explicit mixing(const carry_source& input)
-        : of_vertices_(has_vertex_values({&input, 1})),
-          group_of_(face_groups({&input, 1}, true, false)) {}
+        : of_vertices_(carry_sources(input).has_vertex_values()),
+          group_of_(carry_sources(input).face_groups(true, false)) {}
 
     [[nodiscard]] bool is_in(const std::vector<std::uint32_t>& faces) const {
         return of_vertices_ ||
@@ -172,7 +172,7 @@ repaired_file repair_file(const carry_source& input, const repair_options& optio
     repair_of_parts all(input);
     repair_options how = options;
     if (parts.empty()) {
-        how.keep_cuts = options.keep_cuts || merging_mixes_values({&input, 1});
+        how.keep_cuts = options.keep_cuts || carry_sources(input).merging_mixes_values();
         all.take(repair(input.file->mesh, how), {});
         repaired_file done = all.finish();
         done.parts.clear();
@@ -211,8 +211,8 @@ solid_defects find_solid_defects(const carry_source& input, repair_scope scope,
         all.meeting_pairs += found.meeting_pairs;
         all.inverted += found.inverted;
         all.wrongly_nested = all.wrongly_nested || found.wrongly_nested;
-        all.cancelled = found.cancelled;
-        if (found.cancelled) break;
+        all.status = found.status;
+        if (found.status == treeform::status::cancelled) break;
     }
     return all;
 }

@@ -1,3 +1,4 @@
+#include <libmesh/carry/texture_files.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
@@ -8,6 +9,9 @@
 #include <utility>
 
 namespace treeform {
+
+using detail::carry::texture_numbers;
+
 namespace {
 
 /// The parts of a file in a scene, to be known there by the names they have, or by the
@@ -45,7 +49,7 @@ mesh_file described(const mesh_file& file) {
 void append_texture_numbers(mesh_file& scene, const mesh_file& one, std::size_t faces) {
     const column* const more = texture_numbers(one);
     if (more == nullptr || scene.attributes.texture_files.empty()) return;
-    element& rows = obtain_element(scene.attributes, "face", 0);
+    element& rows = scene.attributes.obtain("face", 0);
     rows.rows += faces;
     if (rows.columns.empty()) return rows.columns.push_back(*more);
     auto& values = rows.columns[0].values;
@@ -54,7 +58,7 @@ void append_texture_numbers(mesh_file& scene, const mesh_file& one, std::size_t 
 
 void append(mesh_file& scene, const scene_member& member, mesh_file one) {
     const mesh& added = member.file->mesh;
-    split_polygons(one);
+    one.split_polygons();
     append_texture_numbers(scene, one, added.faces.size());
     const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
     const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
@@ -62,7 +66,7 @@ void append(mesh_file& scene, const scene_member& member, mesh_file one) {
         p.first_face += first_face;
         scene.attributes.parts.push_back(std::move(p));
     }
-    append(scene.attributes.corners, first_face, one.attributes.corners, added.faces.size());
+    scene.attributes.corners.append(first_face, one.attributes.corners, added.faces.size());
     auto& names = scene.attributes.material_files;
     for (const std::string& name : one.attributes.material_files)
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);

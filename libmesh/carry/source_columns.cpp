@@ -10,8 +10,6 @@ bool is_printable(const std::string& text) {
     return std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) >= 32; });
 }
 
-}  // namespace
-
 void drop_source_columns(mesh_file& file, const std::string& name) {
     for (element& e : file.attributes.elements)
         if (e.name == "face")
@@ -22,18 +20,21 @@ void drop_source_columns(mesh_file& file, const std::string& name) {
                   [&](const std::string& comment) { return comment.starts_with(name + "_mesh "); });
 }
 
-void add_source_columns(mesh_file& file, const std::string& name,
+}  // namespace
+
+void set_source_columns(mesh_file& file, const std::string& name,
                         std::span<const operand_element> face_source,
                         std::span<const std::string> inputs) {
     drop_source_columns(file, name);
+    if (inputs.empty()) return;
     std::vector<std::uint32_t> meshes, faces;
     for (const operand_element& source : face_source) {
         meshes.push_back(source.operand);
         faces.push_back(source.index);
     }
-    element& rows = obtain_element(file.attributes, "face", file.mesh.faces.size());
-    rows.columns.push_back(make_column<std::uint32_t>(name + "_mesh", meshes));
-    rows.columns.push_back(make_column<std::uint32_t>(name + "_face", faces));
+    element& rows = file.attributes.obtain("face", file.mesh.faces.size());
+    rows.columns.push_back(column::of<std::uint32_t>(name + "_mesh", meshes));
+    rows.columns.push_back(column::of<std::uint32_t>(name + "_face", faces));
     for (std::size_t i = 0; i < inputs.size(); ++i)
         if (is_printable(inputs[i]))
             file.attributes.comments.push_back(name + "_mesh " + std::to_string(i) + " " +

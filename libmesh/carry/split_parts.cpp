@@ -1,5 +1,6 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/carry/solid_parts.hpp>
+#include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
 
@@ -22,8 +23,8 @@ std::vector<file_part> split_parts(const carry_source& source) {
             kept.push_back(whole.mesh.faces[f]);
             part.stored_face.push_back(source.stored_face(f));
         }
-        carry(part.file, source, of.faces,
-              detail::base::used_points(whole.mesh.points.size(), kept));
+        carry_sources(source).carry(part.file, of.faces,
+                                    detail::base::used_points(whole.mesh.points.size(), kept));
         parts.push_back(std::move(part));
     }
     return parts;

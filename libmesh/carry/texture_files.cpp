@@ -1,3 +1,4 @@
+#include <libmesh/carry/texture_files.hpp>
 #include <treeform/mesh/carry.hpp>
 
 #include <cmath>
@@ -8,6 +9,9 @@
 #include <utility>
 
 namespace treeform {
+
+using detail::carry::texture_numbers;
+
 namespace {
 
 constexpr const char* number_name = "texnumber";
@@ -34,7 +38,7 @@ class renumberer {
         const column* const given = texture_numbers(file);
         std::uint64_t wrong = 0;
         for (std::size_t f = 0; given != nullptr && f < numbers.size(); ++f) {
-            const double n = number_at(*given, f);
+            const double n = given->number(f);
             const bool names_one =
                 n >= 0.0 && n < static_cast<double>(places.size()) && n == std::floor(n);
             numbers[f] = names_one ? places[static_cast<std::size_t>(n)] : no_texture;
@@ -44,8 +48,8 @@ class renumberer {
             warn(name, std::to_string(wrong) + (wrong == 1 ? " face has a" : " faces have a") +
                            " " + number_name + " that names no texture file; -1 there");
         const bool was_there = given != nullptr;
-        element& faces = obtain_element(file.attributes, "face", file.stored_faces);
-        if (set_column(faces, make_column<std::int32_t>(number_name, numbers)) && !was_there)
+        element& faces = file.attributes.obtain("face", file.stored_faces);
+        if (faces.set(column::of<std::int32_t>(number_name, numbers)) && !was_there)
             warn(name, std::string("lists ") + number_name + " of faces are replaced by numbers");
     }
 
@@ -64,9 +68,9 @@ class renumberer {
 
 }  // namespace
 
-const column* texture_numbers(const mesh_file& file) {
-    const element* faces = find_element(file.attributes, "face");
-    const column* c = faces == nullptr ? nullptr : find_column(*faces, number_name);
+const column* detail::carry::texture_numbers(const mesh_file& file) {
+    const element* faces = file.attributes.find("face");
+    const column* c = faces == nullptr ? nullptr : faces->find(number_name);
     return c == nullptr || c->role != column_role::data || c->list_length ? nullptr : c;
 }
 

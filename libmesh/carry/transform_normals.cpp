@@ -17,7 +17,7 @@ namespace {
 /// The cofactors of the linear part, which is how normals go; against them by a mirror, so that what
 /// looked outward still does.
 transform<3> of_normals(const transform<3>& m) {
-    const double sign = mirrors(m) ? -1.0 : 1.0;
+    const double sign = m.mirrors() ? -1.0 : 1.0;
     transform<3> result;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -68,7 +68,7 @@ void turn_columns(element& e, const transform<3>& turn) {
     if (!axes[0] || !axes[1] || !axes[2]) return;
     for (std::size_t row = 0; row < e.rows; ++row) {
         point3 n;
-        for (std::size_t k = 0; k < 3; ++k) n[k] = number_at(*axes[k], row);
+        for (std::size_t k = 0; k < 3; ++k) n[k] = axes[k]->number(row);
         n = turned(turn, n);
         for (std::size_t k = 0; k < 3; ++k) set_number(*axes[k], row, n[k]);
     }
@@ -88,21 +88,21 @@ void turn_over(std::vector<face>& corners, const std::vector<std::uint32_t>& sto
 
 }  // namespace
 
-void transform_file(mesh_file& file, const transform<3>& by) {
-    for (point3& p : file.mesh.points) p = by(p);
-    transform_normals(file, by);
-    if (!mirrors(by)) return;
-    corner_values& corners = file.attributes.corners;
+void mesh_file::move(const transform<3>& by) {
+    for (point3& p : mesh.points) p = by(p);
+    turn_normals(by);
+    if (!by.mirrors()) return;
+    corner_values& corners = attributes.corners;
     for (auto* const of_faces :
-         {&file.mesh.faces, &corners.texture_of_corner, &corners.normal_of_corner})
-        turn_over(*of_faces, file.stored_face);
+         {&mesh.faces, &corners.texture_of_corner, &corners.normal_of_corner})
+        turn_over(*of_faces, stored_face);
 }
 
-void transform_normals(mesh_file& file, const transform<3>& by) {
+void mesh_file::turn_normals(const transform<3>& by) {
     if (only_shifts(by)) return;  // else last digits would change
     const transform<3> turn = of_normals(by);
-    for (element& e : file.attributes.elements) turn_columns(e, turn);
-    for (point3& n : file.attributes.corners.normals) n = turned(turn, n);
+    for (element& e : attributes.elements) turn_columns(e, turn);
+    for (point3& n : attributes.corners.normals) n = turned(turn, n);
 }
 
 }  // namespace treeform

@@ -56,7 +56,7 @@ cut_piece rounded_piece(cut_room::slab&& slab, std::size_t faces, const cut_opti
     return piece;
 }
 
-/// The pieces of a mesh that is known to be sound.
+/// The pieces of a mesh that is known to be free of self-intersections.
 std::vector<cut_piece> pieces_of(mesh_view mesh, const oriented_plane& plane,
                                  std::span<const double> heights, const cut_options& options,
                                  work_progress& progress, double from, double to) {

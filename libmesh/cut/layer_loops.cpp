@@ -1,5 +1,5 @@
 #include <libmesh/cut/layer_loops.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/used_points.hpp>
+#include <libmesh/topology/select_faces.hpp>
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/cut.hpp>
@@ -157,7 +158,7 @@ mesh transform_mesh(const mesh_ref& given, const transform<3>& by) {
     treeform::mesh made{{mesh.points.begin(), mesh.points.end()},
                         {mesh.faces.begin(), mesh.faces.end()}};
     for (point3& p : made.points) p = by(p);
-    if (mirrors(by))
+    if (by.mirrors())
         for (face& f : made.faces) std::swap(f[1], f[2]);
     return made;
 }

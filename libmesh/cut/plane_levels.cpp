@@ -1,5 +1,5 @@
 #include <libmesh/cut/plane_levels.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -102,7 +102,8 @@ class level_finder {
 
 }  // namespace
 
-plane_frame frame_of(const oriented_plane& plane) {
+plane_frame oriented_plane::frame() const {
+    const oriented_plane& plane = *this;
     const point3& n = plane.normal;
     if (!is_finite(n) || n == point3{})
         throw std::invalid_argument("treeform: the normal of a plane is zero or not finite");
@@ -123,8 +124,9 @@ plane_frame frame_of(const oriented_plane& plane) {
     return frame;
 }
 
-oriented_plane parallel_plane(const oriented_plane& plane, double height) {
-    const point3 n = frame_of(plane).normal;
+oriented_plane oriented_plane::parallel(double height) const {
+    const oriented_plane& plane = *this;
+    const point3 n = frame().normal;
     oriented_plane result = plane;
     for (std::size_t i = 0; i < 3; ++i)
         if (n[i] != 0.0) result.at[i] += height * n[i];
@@ -140,12 +142,12 @@ plane_levels levels_of(const char* function, points_view points, const oriented_
     result.normal = plane.normal;
     std::vector<point3> at;
     for (const double height : heights) {
-        at.push_back(parallel_plane(plane, height).at);
+        at.push_back(plane.parallel(height).at);
         if (!is_finite(at.back()))
             throw std::invalid_argument(name + ": the plane at height " + std::to_string(height) +
                                         " is not finite");
     }
-    if (heights.empty()) (void)frame_of(plane);  // refuses what is no plane
+    if (heights.empty()) (void)plane.frame();  // refuses what is no plane
     const auto order_of = [&](std::uint32_t a, std::uint32_t b) {
         return compare_along({}, plane.normal, at[a], at[b]);
     };

@@ -127,7 +127,7 @@ section_result sections_of(mesh_view mesh, const detail::weld::joined_faces& joi
                            const oriented_plane& plane, std::span<const double> heights,
                            const section_options& options) {
     section_result result;
-    result.frame = frame_of(plane);
+    result.frame = plane.frame();
     detail::base::work_progress progress(options.progress);
     const auto cancelled = [&] {
         result = {};
@@ -185,7 +185,7 @@ point3 section_result::in_space(const section_layer& layer, const point2& p) con
 
 std::vector<double> layer_heights(points_view points, const oriented_plane& plane,
                                   double thickness) {
-    const point3 n = frame_of(plane).normal;
+    const point3 n = plane.frame().normal;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     const double zero = n.x * plane.at.x + n.y * plane.at.y + n.z * plane.at.z;
     if (!std::isfinite(zero))

@@ -1,7 +1,7 @@
 #include <libmesh/boolean/region_triangles.hpp>
 #include <libmesh/cut/layer_loops.hpp>
 #include <libmesh/cut/slabs.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -209,9 +209,9 @@ class slab_cutter {
                           std::ssize(made.point_of));
         };
         const auto put = [&](const std::array<slab_corner, 3>& c, std::uint32_t face,
-                             std::uint8_t sound) {
+                             std::uint8_t certified) {
             made.surface.faces.push_back({number(c[0]), number(c[1]), number(c[2])});
-            made.surface.sound.push_back(sound);
+            made.surface.certified.push_back(certified);
             made.face_of.push_back(face);
         };
         for (const std::uint32_t f : whole) put(corners_of(f), f, 1);

@@ -27,13 +27,13 @@ namespace treeform::detail::exact {
 /// three planes meet, `large` for all.
 template <class Number>
 struct places_of {
-    using small = place<Number, Number>;
+    using small = quotient_point<Number, Number>;
     using large = small;
 };
 template <std::size_t Limbs>
 struct places_of<integer<Limbs>> {
-    using small = place<integer<4 * Limbs>, integer<3 * Limbs>>;
-    using large = place<integer<7 * Limbs>, integer<6 * Limbs>>;
+    using small = quotient_point<integer<4 * Limbs>, integer<3 * Limbs>>;
+    using large = quotient_point<integer<7 * Limbs>, integer<6 * Limbs>>;
 };
 
 /// The number 1.

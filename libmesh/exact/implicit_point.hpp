@@ -15,8 +15,8 @@
 /// \source the kinds of points: Attene, Indirect Predicates for Geometric Constructions, CAD 126
 ///         (2020); their balls: the error analyzes in libmesh/exact/implicit_point.cpp
 
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 #include <array>

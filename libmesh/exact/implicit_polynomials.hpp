@@ -69,7 +69,7 @@ struct line_normal_polynomial {
 
 /// A vector over a common denominator.
 template <class Over, class Under>
-struct place {
+struct quotient_point {
     vector3<Over> over;
     Under under;
 };
@@ -98,7 +98,7 @@ struct planes_polynomial {
         const auto q = dot(k, d[7]);
         const auto kn = cross(k, n);
         const auto nm = cross(n, m);
-        return place<decltype(p * kn.x + q * nm.x), decltype(dot(cross(m, k), n))>{
+        return quotient_point<decltype(p * kn.x + q * nm.x), decltype(dot(cross(m, k), n))>{
             {p * kn.x + q * nm.x, p * kn.y + q * nm.y, p * kn.z + q * nm.z}, dot(cross(m, k), n)};
     }
 };

@@ -1,8 +1,8 @@
 #include <libmesh/exact/exact_sign.hpp>
 #include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/exact/staged_sign.hpp>
 #include <libmesh/exact/stages.hpp>
-#include <treeform/mesh/predicates.hpp>
 
 namespace treeform {
 namespace {

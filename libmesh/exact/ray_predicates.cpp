@@ -1,9 +1,9 @@
 #include <libmesh/exact/exact_ratio.hpp>
 #include <libmesh/exact/exact_sign.hpp>
 #include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/exact/ray_polynomials.hpp>
 #include <libmesh/exact/staged_sign.hpp>
-#include <treeform/mesh/predicates.hpp>
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include <libmesh/exact/filter.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/exact/ray_polynomials.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/geometry/features.hpp>
 #include <libmesh/geometry/flat_triangle.hpp>
 #include <libmesh/geometry/plane_interval.hpp>

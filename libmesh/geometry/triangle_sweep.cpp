@@ -1,4 +1,5 @@
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <treeform/mesh/triangle.hpp>
 
 #include <algorithm>

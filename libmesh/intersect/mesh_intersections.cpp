@@ -106,7 +106,7 @@ mesh_intersection_result classified(const pair_search<3>& search,
     });
     if (effort && !effort->spend(looked.up_to(last.load()))) {
         mesh_intersection_result nothing;
-        nothing.cancelled = true;
+        nothing.status = treeform::status::cancelled;
         return nothing;
     }
     detail::intersect::bad_faces met;
@@ -118,7 +118,7 @@ mesh_intersection_result classified(const pair_search<3>& search,
     check_faces_met("treeform::mesh_intersections", met);
     if (options.first_only) detail::intersect::keep_first(found);
     detail::intersect::join_outputs(found, options.limit, result);
-    result.cancelled = progress.cancelled();
+    if (progress.cancelled()) result.status = status::cancelled;
     return result;
 }
 
@@ -142,7 +142,7 @@ bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tr
                                                            {b, tree_b, positions.move_b}};
     std::mutex mutex;  // taken for a bad face only
     detail::intersect::bad_faces bad;
-    const bool found = search_any_broad(
+    const bool found = detail::search_any_broad(
         transformed(tree_a, moves.move_a), transformed(tree_b, moves.move_b),
         [&](const candidate_block& block) {
             detail::intersect::narrow_phase_output output;

@@ -260,27 +260,15 @@ int winding_number(const mesh_ref& mesh, const point3& point) {
     return locate(mesh, point).winding;
 }
 
-std::vector<curve_edge> polygon_edges(std::uint32_t count) {
-    std::vector<curve_edge> edges(count);
-    for (std::uint32_t i = 0; i < count; ++i) edges[i] = {i, i + 1 < count ? i + 1 : 0};
-    return edges;
-}
-
-tree<2> edge_tree(curve_view curves) {
-    check_edges("edge_tree", curves);
-    return build(curves.edges, [points = curves.points](const curve_edge& e) {
+curve_locator::curve_locator(curve_view curves) : curves_(curves) {
+    check_edges("curve_locator", curves);
+    tree_ = build(curves.edges, [points = curves.points](const curve_edge& e) {
         aabb<double, 2> box;
         box.include(points[e[0]]);
         box.include(points[e[1]]);
         if (!is_finite(points[e[0]]) || !is_finite(points[e[1]])) box.min[0] = NAN;
         return box;
     });
-}
-
-curve_locator::curve_locator(curve_view curves, const tree<2>& tree)
-    : curves_(curves), tree_(&tree) {
-    check_edges("curve_locator", curves);
-    if (tree.size() != curves.edges.size()) refuse("curve_locator: the tree is not of these edges");
     std::vector<std::int64_t> net(curves.points.size());
     for (const auto& [from, to] : curves.edges) ++net[to], --net[from];
     for (std::size_t i = 0; i < net.size(); ++i)
@@ -291,7 +279,7 @@ point_location curve_locator::locate(const point2& point) const {
     if (!is_finite(point)) refuse("curve_locator: the point is not finite");
     constexpr double infinite = std::numeric_limits<double>::infinity();
     tally found;
-    visit_along(*tree_, ray<double, 2>{{point.x, point.y}, {1, 0}}, [&](std::uint32_t id) {
+    visit_along(tree_, ray<double, 2>{{point.x, point.y}, {1, 0}}, [&](std::uint32_t id) {
         const auto& [from, to] = curves_.edges[id];
         count_edge(curves_.points[from], curves_.points[to], point, id, found);
         return infinite;

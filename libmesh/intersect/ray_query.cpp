@@ -1,5 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/prepared_ref.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/geometry/features.hpp>
 #include <libmesh/intersect/ray_query.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -103,7 +103,7 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
     });
     if (options.first_only) detail::intersect::keep_first(found);
     detail::intersect::join_outputs(found, options.limit, result);
-    result.cancelled = progress.cancelled();
+    if (progress.cancelled()) result.status = status::cancelled;
     result.pair_seconds = seconds_since(pair_start);
     return result;
 }

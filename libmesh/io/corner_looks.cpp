@@ -34,7 +34,7 @@ template <class Row, class Value>
     std::vector<double> values(row_of.size(), 0.0);
     for (std::size_t v = 0; v < values.size(); ++v)
         if (row_of[v] != corner_values::none) values[v] = value(rows[row_of[v]]);
-    return make_column<double>(name, values);
+    return column::of<double>(name, values);
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ template <class T>
 }
 
 [[nodiscard]] bool take_if_all_fit(mesh_file& file, const column& c) {
-    if (c.role != column_role::data || !c.list_length || value_count(c) / 2 >= corner_values::none)
+    if (c.role != column_role::data || !c.list_length || c.size() / 2 >= corner_values::none)
         return false;
     if (c.type == scalar_type::float32) return take_if_all_fit<float>(file, c);
     return c.type == scalar_type::float64 && take_if_all_fit<double>(file, c);

@@ -105,13 +105,13 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
     const holdings& holds = format.holds;
     std::string columns;
     add_names(columns, points, holds.points, holds.alpha, "points");
-    const element* const faces = find_element(file.attributes, "face");
+    const element* const faces = file.attributes.find("face");
     if (!holds.has_faces || faces == nullptr) return columns;
     // Colors of an OBJ are those of its materials, in their file.
     const bool has_materials = format.extension == "obj" && !file.attributes.material_files.empty();
     // A single color of OFF: its number in a table, or lists.
-    const bool is_off = format.extension == "off" &&
-                        (find_column(*faces, "color_index") || find_column(*faces, "off_color"));
+    const bool is_off =
+        format.extension == "off" && (faces->find("color_index") || faces->find("off_color"));
     add_names(columns, faces,
               is_off                                   ? held::all
               : has_materials                          ? held::colors
@@ -124,7 +124,7 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
 [[nodiscard]] std::string corner_values_left_out(const holdings& holds, const corner_values& values,
                                                  const element* points) {
     const auto has = [&](std::string_view column) {
-        return points != nullptr && find_column(*points, column) != nullptr;
+        return points != nullptr && points->find(column) != nullptr;
     };
     const bool has_texture = holds.texture || has("s") || has("u") || has("texture_u");
     const bool has_normals = holds.normals || has("nx") || has("normal_x") || has("NormalX");

@@ -261,10 +261,10 @@ void choose_las_grid(las_header& header, std::span<const point3> points,
 
 bool has_extended_values(const element& vertices) {
     const auto has_above = [&](std::string_view name, double most) {
-        const column* const c = find_column(vertices, name);
+        const column* const c = vertices.find(name);
         if (c == nullptr || c->role != column_role::data || c->list_length) return false;
-        for (std::size_t i = 0; i < value_count(*c); ++i)
-            if (number_at(*c, i) > most) return true;
+        for (std::size_t i = 0; i < c->size(); ++i)
+            if (c->number(i) > most) return true;
         return false;
     };
     return has_above("return_number", 7) || has_above("number_of_returns", 7) ||

@@ -127,7 +127,7 @@ void put_converted(const column& c, const record_rows& rows, const las_dimension
     std::uint64_t rounded = 0;
     with_type(d.type, [&]<class T>(T) {
         for (std::size_t i = 0; i < rows.count; ++i) {
-            const double value = in_units_of(d, c, number_at(c, rows.first + i));
+            const double value = in_units_of(d, c, c.number(rows.first + i));
             if constexpr (std::is_integral_v<T>) {
                 if (!is_value_of<T>(value) || value > most) {
                     fault.at(rows.first + i, too_large(c, value));
@@ -153,7 +153,7 @@ void put_scaled(const column& c, const record_rows& rows, const las_dimension& d
     const las_scaling& s = *d.scaling;
     with_type(d.type, [&]<class T>(T) {
         for (std::size_t i = 0; i < rows.count; ++i) {
-            const double value = number_at(c, rows.first + i);
+            const double value = c.number(rows.first + i);
             double stored = (value - s.offset) / s.scale;
             if constexpr (std::is_integral_v<T>) stored = std::nearbyint(stored);
             if (std::isnan(value)) {

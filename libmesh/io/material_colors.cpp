@@ -125,12 +125,12 @@ void add_material_colors(mesh_file& file, const std::filesystem::path& path) {
     const bool opaque =
         std::all_of(colors.begin(), colors.end(), [](const rgba& c) { return c[3] == 255; });
     constexpr std::array<const char*, 4> channels{"red", "green", "blue", "alpha"};
-    element& faces = obtain_element(file.attributes, "face", colors.size());
+    element& faces = file.attributes.obtain("face", colors.size());
     for (std::size_t c = 0; c < (opaque ? 3U : 4U); ++c) {
         std::vector<std::uint8_t> values(colors.size());
         std::transform(colors.begin(), colors.end(), values.begin(),
                        [&](const rgba& color) { return color[c]; });
-        faces.columns.push_back(make_column<std::uint8_t>(channels[c], values));
+        faces.columns.push_back(column::of<std::uint8_t>(channels[c], values));
     }
     if (has_transparency)
         file.warnings.push_back({"materials",

@@ -166,8 +166,8 @@ point3 attributes_glb::stored_normal(const vertex_glb& v) const {
     if (!corners.normal_of_corner.empty())
         return v.normal == corner_values::none ? point3{} : corners.normals[v.normal];
     if (normals_.empty()) return {};
-    return {number_at(*normals_[0], v.point), number_at(*normals_[1], v.point),
-            number_at(*normals_[2], v.point)};
+    return {normals_[0]->number(v.point), normals_[1]->number(v.point),
+            normals_[2]->number(v.point)};
 }
 
 std::array<double, 2> attributes_glb::stored_texture(const vertex_glb& v) const {
@@ -177,7 +177,7 @@ std::array<double, 2> attributes_glb::stored_texture(const vertex_glb& v) const 
         return {corners.texture[v.texture][0], corners.texture[v.texture][1]};
     }
     if (texture_.empty()) return {not_given, not_given};
-    return {number_at(*texture_[0], v.point), number_at(*texture_[1], v.point)};
+    return {texture_[0]->number(v.point), texture_[1]->number(v.point)};
 }
 
 namespace {

@@ -113,7 +113,7 @@ struct placed_node {
 [[nodiscard]] column float_column(const char* name, std::size_t count, auto&& value) {
     std::vector<float> values(count);
     for (std::size_t i = 0; i < count; ++i) values[i] = value(i);
-    return make_column<float>(name, values);
+    return column::of<float>(name, values);
 }
 
 /// What an eye sees of linear light (sRGB).
@@ -237,7 +237,7 @@ class placer_gltf {
         store_colors_of_faces();
         if (normals_.empty() && texture_.empty() && colors_.empty()) return;
         const std::size_t count = file_.mesh.points.size();
-        auto& columns = obtain_element(file_.attributes, "vertex", count).columns;
+        auto& columns = file_.attributes.obtain("vertex", count).columns;
         for (std::size_t k = 0; k < 3 && !normals_.empty(); ++k)
             columns.push_back(float_column(std::array{"nx", "ny", "nz"}[k], count,
                                            [&](std::size_t i) { return normals_[i][k]; }));
@@ -270,7 +270,7 @@ class placer_gltf {
         if (std::ranges::none_of(materials_, has_color)) return;
         const bool is_opaque =
             std::ranges::all_of(materials_, [&](std::size_t m) { return color_of(m)[3] >= 1.0; });
-        auto& columns = obtain_element(file_.attributes, "face", materials_.size()).columns;
+        auto& columns = file_.attributes.obtain("face", materials_.size()).columns;
         bool is_rounded = false;
         for (std::size_t k = 0; k < (is_opaque ? 3U : 4U); ++k) {
             std::vector<std::uint8_t> values(materials_.size());
@@ -282,7 +282,7 @@ class placer_gltf {
                 is_rounded = is_rounded || !(std::abs(share - values[f]) < 0.25);
             }
             columns.push_back(
-                make_column<std::uint8_t>(std::array{"red", "green", "blue", "alpha"}[k], values));
+                column::of<std::uint8_t>(std::array{"red", "green", "blue", "alpha"}[k], values));
         }
         if (is_rounded) warn("colors", "colors of materials are rounded to 8 bits");
     }

@@ -60,7 +60,7 @@ class ply_faces {
         const std::uint64_t last = part.last(count);
         const std::uint64_t step = count / sample_size + 1;
         std::uint64_t sampled = (first + step - 1) / step * step;
-        const element declared = *find_element(rows_.head.attributes, "vertex");
+        const element declared = *rows_.head.attributes.find("vertex");
         element run;
         std::vector<point3> points;
         for (std::uint64_t next = rows_.left_out; next < last; next += points.size()) {

@@ -38,7 +38,7 @@ elements_to_read sort_elements(const source& in, std::vector<element>& elements,
             fail_in_blocks(in, "element '" + e.name + "' is not read in blocks");
         if (is_face && with_role(e, column_role::corners) == nullptr)
             in.fail("element 'face' has no list of vertex_indices");
-        if (is_face && use == row_use::copied && find_column(e, face_texture_name) != nullptr)
+        if (is_face && use == row_use::copied && e.find(face_texture_name) != nullptr)
             fail_in_blocks(in, "texture coordinates of corners are not read in blocks");
         (is_ahead ? sorted.ahead : sorted.behind).push_back(e);
     }

@@ -55,7 +55,7 @@ point_blocks::point_blocks(const std::filesystem::path& path, const reading& how
 }
 
 bool point_blocks::read(point_block& block, std::size_t most) {
-    const element* vertices = find_element(rows_.head.attributes, "vertex");
+    const element* vertices = rows_.head.attributes.find("vertex");
     restart(block.properties, vertices == nullptr ? element{.name = "vertex"} : *vertices);
     block.points.clear();
     block.properties.rows = rows_.append(block.points, block.properties, most, rows_.head.warnings);

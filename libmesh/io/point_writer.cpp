@@ -29,7 +29,7 @@ namespace {
     head.attributes.obj_info = header.attributes.obj_info;
     head.las = header.las;
     head.ranges = header.ranges;
-    bool has_vertices = find_element(header.attributes, "vertex") == nullptr;
+    bool has_vertices = header.attributes.find("vertex") == nullptr;
     for (const element& e : header.attributes.elements) {
         has_vertices = has_vertices || e.name == "vertex";
         if (!has_vertices && e.rows > 0)
@@ -83,10 +83,10 @@ struct point_writer::state {
                              .result = result,
                              .out = *out,
                              .most_corners = most_corners,
-                             .vertices = find_element(head.attributes, "vertex")},
+                             .vertices = head.attributes.find("vertex")},
                             count);
         for (io_warning& w :
-             detail::io::left_out(format, head, find_element(head.attributes, "vertex"), false))
+             detail::io::left_out(format, head, head.attributes.find("vertex"), false))
             result.warnings.push_back(std::move(w));
         if (!behind.empty() && !rows.behind)
             throw io_error(path.string() +

@@ -220,12 +220,12 @@ class obj_reader {
                 {"vertex-colors", "only some vertices have a color; none was kept"});
             return;
         }
-        element& vertices = obtain_element(file_.attributes, "vertex", count);
+        element& vertices = file_.attributes.obtain("vertex", count);
         std::vector<double> channel(count);
         const char* const names[] = {"red", "green", "blue"};
         for (std::size_t c = 0; c < 3; ++c) {
             for (std::size_t v = 0; v < count; ++v) channel[v] = colors_[3 * v + c];
-            vertices.columns.push_back(make_column<double>(names[c], channel));
+            vertices.columns.push_back(column::of<double>(names[c], channel));
         }
     }
 
@@ -236,8 +236,8 @@ class obj_reader {
         const auto add = [&](const char* name, const auto& value) {
             std::vector<double> values(count);
             for (std::size_t v = 0; v < count; ++v) values[v] = value(v);
-            obtain_element(file_.attributes, "vertex", count)
-                .columns.push_back(make_column<double>(name, values));
+            file_.attributes.obtain("vertex", count)
+                .columns.push_back(column::of<double>(name, values));
         };
         if (count > 0 && corners.texture.size() == count) {
             add("s", [&](std::size_t v) { return corners.texture[v][0]; });

@@ -207,25 +207,25 @@ class off_reader {
         for (std::size_t i = 0; bytes && i < extras.values.size(); ++i)
             bytes = i % width >= colors ||
                     (extras.whole[i % width] && extras.values[i] >= 0 && extras.values[i] <= 255);
-        element& e = obtain_element(file_.attributes, name, extras.rows);
+        element& e = file_.attributes.obtain(name, extras.rows);
         std::vector<double> values(extras.rows);
         for (std::size_t c = 0; c < width; ++c) {
             for (std::size_t row = 0; row < extras.rows; ++row)
                 values[row] = extras.values[row * width + c];
             if (bytes && c < colors) {
                 const std::vector<std::uint8_t> small(values.begin(), values.end());
-                e.columns.push_back(make_column<std::uint8_t>(names[c], small));
+                e.columns.push_back(column::of<std::uint8_t>(names[c], small));
             } else {
-                e.columns.push_back(make_column<double>(names[c], values));
+                e.columns.push_back(column::of<double>(names[c], values));
             }
         }
     }
 
     void store_list() {
-        column c = make_column<double>("off_color", faces_extra_.values);
+        column c = column::of<double>("off_color", faces_extra_.values);
         c.list_length = faces_extra_.widest < 256 ? scalar_type::uint8 : scalar_type::uint32;
         c.list_begin = std::move(faces_extra_.begin);
-        obtain_element(file_.attributes, "face", faces_extra_.rows).columns.push_back(std::move(c));
+        file_.attributes.obtain("face", faces_extra_.rows).columns.push_back(std::move(c));
     }
 
     text text_;

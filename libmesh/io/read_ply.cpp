@@ -49,11 +49,11 @@ class body_reader {
         const element& vertices = vertices_of(in_, file_.attributes.elements);
         if (vertices.rows > most_numbers) in_.fail("more vertices than 32-bit numbers can name");
         vertex_count_ = static_cast<std::int64_t>(vertices.rows);
-        const element* faces = find_element(file_.attributes, "face");
+        const element* faces = file_.attributes.find("face");
         if (faces != nullptr && faces->rows > 0 &&
             with_role(*faces, column_role::corners) == nullptr)
             in_.fail("element 'face' has no list of vertex_indices");
-        const element* strips = find_element(file_.attributes, "tristrips");
+        const element* strips = file_.attributes.find("tristrips");
         from_strips_ = strips != nullptr && strips->rows > 0;
         if (!from_strips_) return;
         if (with_role(*strips, column_role::corners) == nullptr)

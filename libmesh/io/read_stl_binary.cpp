@@ -85,8 +85,8 @@ class facet_bits {
     }
     void store(mesh_file& file) const {
         if (used_)
-            obtain_element(file.attributes, "face", file.stored_faces)
-                .columns.push_back(make_column<std::uint16_t>(bits_name, bits_));
+            file.attributes.obtain("face", file.stored_faces)
+                .columns.push_back(column::of<std::uint16_t>(bits_name, bits_));
     }
 
   private:
@@ -176,7 +176,7 @@ point_rows open_stl_points(const source& in, std::uint64_t first) {
     rows.head.stored_as = precision::float32;
     rows.head.format = "stl-binary";
     rows.head.attributes.header.assign(in.begin(), 80);
-    element& faces = obtain_element(rows.head.attributes, "face", count);
+    element& faces = rows.head.attributes.obtain("face", count);
     faces.columns.push_back({.name = bits_name, .type = scalar_type::uint16});
     const element declared = faces;
     rows.count = std::uint64_t{3} * count;
@@ -218,7 +218,7 @@ point_rows open_stl_points(const source& in, std::uint64_t first) {
         }
         in.release_before(facets + record_bytes * next);
         some.rows.rows = bits.size();
-        some.rows.columns.front() = make_column<std::uint16_t>(bits_name, bits);
+        some.rows.columns.front() = column::of<std::uint16_t>(bits_name, bits);
         return !bits.empty();
     };
     return rows;

@@ -138,9 +138,9 @@ void retype(column& c, scalar_type type) {
     if (c.type == type) return;
     column made{.name = c.name, .type = type};
     with_type(type, [&]<class T>(T) {
-        std::vector<T> values(value_count(c));
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<T>(number_at(c, i));
-        made = make_column<T>(c.name, values);
+        std::vector<T> values(c.size());
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<T>(c.number(i));
+        made = column::of<T>(c.name, values);
     });
     c = std::move(made);
 }

@@ -123,7 +123,7 @@ class urdf_reader {
         for (std::size_t k = 0; k < 3; ++k) scale.rows[k][k] = s[k];
         robot_.meshes.push_back({link,
                                  mesh_file_of(mesh.attribute("filename").value(), whose),
-                                 after(origin_of(node, whose), scale),
+                                 origin_of(node, whose).after(scale),
                                  {}});
     }
 
@@ -273,7 +273,7 @@ class urdf_reader {
 transform<3> motion_of(const urdf_joint& joint, double value) {
     const point3& u = joint.axis;
     if (joint.kind == urdf_joint_kind::prismatic)
-        return translation<3>(point3{u.x * value, u.y * value, u.z * value});
+        return transform<3>::translation(point3{u.x * value, u.y * value, u.z * value});
     if (joint.kind == urdf_joint_kind::fixed) return {};
     const double s = std::sin(value), c = std::cos(value), r = 1.0 - c;
     transform<3> turn;
@@ -308,8 +308,8 @@ urdf_robot read_urdf(const std::filesystem::path& path, const urdf_options& opti
     return urdf_reader(path, options).read();
 }
 
-std::vector<transform<3>> link_transforms(const urdf_robot& robot,
-                                          std::span<const joint_value> values) {
+std::vector<transform<3>> urdf_robot::link_transforms(std::span<const joint_value> values) const {
+    const urdf_robot& robot = *this;
     const std::string name = "treeform::link_transforms: ";
     std::map<std::string_view, std::optional<double>> value_of;
     std::map<std::string_view, const urdf_joint*> joint_of;
@@ -335,19 +335,20 @@ std::vector<transform<3>> link_transforms(const urdf_robot& robot,
     std::vector<transform<3>> at(robot.links.size());
     for (const urdf_joint& joint : robot.joints)
         at[joint.child] =
-            after(at[joint.parent], after(joint.origin, motion_of(joint, value(joint))));
+            at[joint.parent].after(joint.origin.after(motion_of(joint, value(joint))));
     return at;
 }
 
-robot_parts parts_of(const urdf_robot& robot,
-                     const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) {
+robot_parts urdf_robot::parts(
+    const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const {
+    const urdf_robot& robot = *this;
     std::vector<mesh> of_link(robot.links.size());
     for (const urdf_mesh& one : robot.meshes) {
         const mesh from = one.file.empty() ? one.shape : mesh_of_file(one.file);
         mesh& to = of_link[one.link];
         const auto first = static_cast<std::uint32_t>(to.points.size());
         for (const point3& p : from.points) to.points.push_back(one.place(p));
-        const bool turned = mirrors(one.place);
+        const bool turned = one.place.mirrors();
         for (const face& f : from.faces)
             to.faces.push_back(
                 {first + f[0], first + f[turned ? 2 : 1], first + f[turned ? 1 : 2]});

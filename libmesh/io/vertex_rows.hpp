@@ -17,7 +17,7 @@ template <class Values>
 void read_data(Values& values, column& c) {
     if (!c.list_length) return values.scalar(c);
     for (std::size_t left = values.length(c); left > 0; --left) values.scalar(c);
-    c.list_begin.push_back(value_count(c));
+    c.list_begin.push_back(c.size());
 }
 
 /// Value by value, for text and for rows with lists.

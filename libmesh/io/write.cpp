@@ -29,7 +29,7 @@ void check_columns(const element& e) {
         if (c.name.empty() || std::any_of(c.name.begin(), c.name.end(), is_space))
             refuse_file("column name '" + c.name + "' is empty or has blanks");
         if (c.role != column_role::data) continue;
-        const std::size_t values = value_count(c);
+        const std::size_t values = c.size();
         const bool fits = c.list_length
                               ? c.list_begin.size() == e.rows + 1 && c.list_begin.back() == values
                               : values == e.rows;
@@ -51,7 +51,7 @@ std::vector<const column*> scalar_columns(const element* e,
                                           std::span<const std::string_view> names) {
     std::vector<const column*> found;
     for (const std::string_view name : names) {
-        const column* c = e == nullptr ? nullptr : find_column(*e, name);
+        const column* c = e == nullptr ? nullptr : e->find(name);
         if (c == nullptr || c->list_length || c->role != column_role::data) return {};
         found.push_back(c);
     }
@@ -60,13 +60,13 @@ std::vector<const column*> scalar_columns(const element* e,
 
 std::vector<const column*> scalar_columns(const mesh_file& file, std::string_view element_name,
                                           std::span<const std::string_view> names) {
-    return scalar_columns(find_element(file.attributes, element_name), names);
+    return scalar_columns(file.attributes.find(element_name), names);
 }
 
 std::vector<const column*> color_columns(const element* e) {
     std::vector<const column*> found;
     for (const std::string_view name : {"red", "green", "blue", "alpha"}) {
-        const column* c = e == nullptr ? nullptr : find_column(*e, name);
+        const column* c = e == nullptr ? nullptr : e->find(name);
         for (std::size_t i = 0; c == nullptr && e != nullptr && i < e->columns.size(); ++i) {
             const auto* const known = attribute::find_known(e->columns[i].name);
             if (known != nullptr && known->in[0].name == name) c = &e->columns[i];
@@ -78,7 +78,7 @@ std::vector<const column*> color_columns(const element* e) {
 }
 
 std::vector<const column*> color_columns(const mesh_file& file, std::string_view element_name) {
-    return color_columns(find_element(file.attributes, element_name));
+    return color_columns(file.attributes.find(element_name));
 }
 
 }  // namespace detail::io
@@ -97,7 +97,7 @@ void check_faces(const mesh_file& file) {
             if (corner >= file.mesh.points.size())
                 refuse_file("face " + std::to_string(f) + " has a corner out of range");
     const auto& stored = file.stored_face;
-    if (const auto fault = fault_of(file.attributes.corners, faces.size()); !fault.empty())
+    if (const auto fault = file.attributes.corners.fault(faces.size()); !fault.empty())
         refuse_file(fault);
     if (stored.empty()) return;
     if (stored.size() != faces.size()) refuse_file("stored_face has another size than faces");
@@ -184,7 +184,7 @@ class writing {
 
     write_result run(detail::io::sink& out) {
         using detail::attribute::translation;
-        const element* vertices = find_element(file_.attributes, "vertex");
+        const element* vertices = file_.attributes.find("vertex");
         std::optional<element> with_looks = looks_of_points(vertices);
         if (with_looks) vertices = &*with_looks;
         std::optional<element> translated;
@@ -218,7 +218,7 @@ class writing {
         if (vertices != nullptr) made = *vertices;
         bool changed = false;
         const auto add = [&](std::vector<column> columns) {
-            if (columns.empty() || find_column(made, columns.front().name) != nullptr) return;
+            if (columns.empty() || made.find(columns.front().name) != nullptr) return;
             for (column& c : columns) made.columns.push_back(std::move(c));
             changed = true;
         };
@@ -245,13 +245,13 @@ class dropped_corners {
   public:
     dropped_corners(const mesh_file& file, const write_options& options)
         : file_(file), options_(options) {
-        const element* const points = find_element(file.attributes, "vertex");
+        const element* const points = file.attributes.find("vertex");
         const auto drop = [&](const char* name, auto corner_values::*values, const auto& clear) {
             if (std::ranges::count(options.drop, name) == 0) return;
             if ((file.attributes.corners.*values).empty()) return;
             if (!less_) less_ = file;
             clear(less_->attributes.corners);
-            if (points != nullptr && !columns_called(*points, name).empty()) return;
+            if (points != nullptr && !points->columns_called(name).empty()) return;
             if (!fewer_) fewer_ = options;
             std::erase(fewer_->drop, name);
         };
@@ -279,17 +279,17 @@ write_result write_file(const std::filesystem::path& path, const mesh_file& file
     const dropped_corners less(file, options);
     writing job(path, less.file(), less.options(), may_round);
     const auto goes_on = [&](double done) { return !options.progress || options.progress(done); };
-    if (!goes_on(0.0)) return {.cancelled = true};
+    if (!goes_on(0.0)) return {.status = status::cancelled};
     detail::io::output_file target(path);
     detail::io::sink out(target.descriptor(), target.name(), [&] { return goes_on(0.0); });
     write_result result;
     try {
         result = job.run(out);
     } catch (const detail::io::writing_stopped&) {
-        return {.cancelled = true};
+        return {.status = status::cancelled};
     }
-    result.cancelled = !goes_on(1.0);
-    if (!result.cancelled) target.commit();
+    if (!goes_on(1.0)) result.status = status::cancelled;
+    if (result.status != treeform::status::cancelled) target.commit();
     return result;
 }
 

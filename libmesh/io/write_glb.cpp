@@ -41,7 +41,7 @@ using json = nlohmann::ordered_json;
 /// materials.
 [[nodiscard]] std::vector<const column*> numbers_of_faces(const mesh_file& file) {
     std::vector<const column*> numbers;
-    const element* const faces = find_element(file.attributes, "face");
+    const element* const faces = file.attributes.find("face");
     if (faces == nullptr) return numbers;
     const auto colors = color_columns(file, "face");
     for (const column& c : faces->columns) {
@@ -49,8 +49,8 @@ using json = nlohmann::ordered_json;
             std::find(colors.begin(), colors.end(), &c) != colors.end())
             continue;
         bool fits = c.type != scalar_type::float32 && c.type != scalar_type::float64;
-        for (std::size_t i = 0; fits && i < value_count(c); ++i) {
-            const double value = number_at(c, i);
+        for (std::size_t i = 0; fits && i < c.size(); ++i) {
+            const double value = c.number(i);
             fits = value >= 0.0 && value <= std::numeric_limits<std::uint32_t>::max();
         }
         if (fits) numbers.push_back(&c);
@@ -157,7 +157,7 @@ class document_glb {
                 for (const primitive_glb& p : part.primitives)
                     for (const std::uint32_t f : p.triangles)
                         job_.out.raw<std::endian::little>(
-                            static_cast<std::uint32_t>(number_at(*c, face_row(job_.file, f))));
+                            static_cast<std::uint32_t>(c->number(face_row(job_.file, f))));
     }
 
   private:
@@ -344,7 +344,7 @@ class document_glb {
         };
         for (const std::string& name : attributes_.left_out()) add(name);
         const auto face_colors = color_columns(job_.file, "face");
-        if (const element* const faces = find_element(job_.file.attributes, "face"))
+        if (const element* const faces = job_.file.attributes.find("face"))
             for (const column& c : faces->columns)
                 if (c.role == column_role::data &&
                     std::find(numbers_.begin(), numbers_.end(), &c) == numbers_.end() &&

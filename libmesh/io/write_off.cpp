@@ -19,7 +19,7 @@ void put_values(sink& out, const std::vector<const column*>& columns, std::size_
     for (const column* c : columns) {
         out.put(' ');
         put_number(out, *c, row);
-        if (c->type >= scalar_type::float32 && is_whole(number_at(*c, row))) out.put(".0");
+        if (c->type >= scalar_type::float32 && is_whole(c->number(row))) out.put(".0");
     }
 }
 
@@ -47,7 +47,7 @@ void put_list(sink& out, const column* list, std::size_t row) {
     if (list == nullptr || !list->list_length) return;
     for (std::uint64_t i = list->list_begin[row]; i < list->list_begin[row + 1]; ++i) {
         out.put(' ');
-        out.number(number_at(*list, i));
+        out.number(list->number(i));
     }
 }
 
@@ -69,9 +69,8 @@ void write_off(const write_job& job) {
         put_values(out, columns.texture, v);
         out.put('\n');
     }
-    const element* face_element = find_element(file.attributes, "face");
-    const column* list =
-        face_element == nullptr ? nullptr : find_column(*face_element, "off_color");
+    const element* face_element = file.attributes.find("face");
+    const column* list = face_element == nullptr ? nullptr : face_element->find("off_color");
     constexpr std::string_view index_name[] = {"color_index"};
     auto colors = color_columns(file, "face");
     if (colors.empty()) colors = scalar_columns(file, "face", index_name);

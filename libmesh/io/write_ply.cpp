@@ -44,7 +44,7 @@ class ply_writer {
         put_header();
         for (const element& e : names_) {
             const element* source =
-                e.name == "vertex" ? job_.vertices : find_element(job_.file.attributes, e.name);
+                e.name == "vertex" ? job_.vertices : job_.file.attributes.find(e.name);
             if (e.name == "face")
                 put_faces(e);
             else
@@ -143,7 +143,7 @@ class ply_writer {
     /// Those of the element in their order, with corners and their texture coordinates, which the
     /// file may have had in its formats or not.
     void declare_face_columns(element& e) {
-        const element* source = find_element(job_.file.attributes, e.name);
+        const element* source = job_.file.attributes.find(e.name);
         const bool has_texture = !job_.file.attributes.corners.texture_of_corner.empty();
         e.columns.clear();
         for (std::size_t i = 0; source != nullptr && i < source->columns.size(); ++i) {

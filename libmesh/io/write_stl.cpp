@@ -50,7 +50,7 @@ void binary_facet(const write_job& job, std::size_t f, const std::vector<const c
         put_vector(job.out,
                    {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
     }
-    const double value = bits.empty() ? 0.0 : number_at(*bits[0], face_row(file, f));
+    const double value = bits.empty() ? 0.0 : bits[0]->number(face_row(file, f));
     const bool fits = value >= 0.0 && value <= 65535.0;
     job.out.raw<std::endian::little>(static_cast<std::uint16_t>(fits ? value : 0.0));
 }

@@ -179,7 +179,7 @@ void put_bits(sink& out, const column& c, std::size_t i) {
 
 /// A color as a number from 0 to 1: whole numbers count 255ths, those of 16 bits 65535ths; others are taken as they are.
 [[nodiscard]] inline double color_value(const column& c, std::size_t row) {
-    const double value = number_at(c, row);
+    const double value = c.number(row);
     if (c.type == scalar_type::uint16) return value / 65535.0;
     return c.type < scalar_type::float32 ? value / 255.0 : value;
 }

@@ -439,14 +439,10 @@ align_result aligned(points_view moving, mesh_view fixed, const align_options& o
 
 }  // namespace
 
-align_result align(points_view moving, const mesh_ref& fixed, const align_options& options) {
+align_result align(const mesh_ref& moving, const mesh_ref& fixed, const align_options& options) {
     mesh_view to = fixed.view();
     if (fixed.prepared() != nullptr && fixed.prepared()->is_cloud()) to.faces = {};
-    return aligned(moving, to, options);
-}
-
-align_result align(const mesh_ref& moving, const mesh_ref& fixed, const align_options& options) {
-    return align(moving.view().points, fixed, options);
+    return aligned(moving.view().points, to, options);
 }
 
 }  // namespace treeform

@@ -19,9 +19,9 @@ align_frame::align_frame(points_view moving, points_view fixed, const transform<
     center = middle(box);
     pivot = middle(*bounding_box(moving));
     int exponent = 0;
-    std::frexp(treeform::diagonal(box), &exponent);
+    std::frexp(box.diagonal(), &exponent);
     by = std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
-    diagonal = treeform::diagonal(box) * by;
+    diagonal = box.diagonal() * by;
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
             linear(r, c) = start.rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];

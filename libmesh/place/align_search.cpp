@@ -48,7 +48,7 @@ class acceleration {
 
   private:
     static constexpr std::size_t memory = 5;
-    struct place {
+    struct iterate {
         row7 goal, residual;
     };
 
@@ -66,7 +66,7 @@ class acceleration {
     }
 
     Matrix3d about_ = Matrix3d::Identity();
-    std::vector<place> places_;
+    std::vector<iterate> places_;
 };
 
 /// Whether the cost still falls.

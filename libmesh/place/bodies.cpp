@@ -1,5 +1,6 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/placement.hpp>
@@ -142,11 +143,11 @@ std::vector<std::string> body_set::labels() const {
     return all;
 }
 
-void put_back(body_set& set, std::size_t number, points_view placed, const transform<3>& matrix,
-              precision written_as) {
-    const file_body& body = set.bodies[number];
-    const prepared_mesh& shape = set.shapes[number];
-    mesh& file = set.files[body.file].content.mesh;
+void body_set::put_back(std::size_t number, points_view placed, const transform<3>& matrix,
+                        precision written_as) {
+    const file_body& body = bodies[number];
+    const prepared_mesh& shape = shapes[number];
+    mesh& file = files[body.file].content.mesh;
     for (point3& p : file.points) {
         p = matrix(p);
         if (written_as == precision::float32) p = rounded(p);
@@ -162,7 +163,8 @@ void put_back(body_set& set, std::size_t number, points_view placed, const trans
     }
 }
 
-double round_to_float32(mesh_file& file) {
+double mesh_file::round_to_float32() {
+    mesh_file& file = *this;
     double largest = 0.0;
     for (point3& p : file.mesh.points) {
         const point3 before = std::exchange(p, rounded(p));

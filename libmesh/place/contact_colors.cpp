@@ -1,5 +1,6 @@
 #include <libmesh/attributes/class_colors.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/placement.hpp>
@@ -70,7 +71,7 @@ row_classes by_stored_face(const mesh_file& file, const row_classes& triangles) 
 bool has_colors(const mesh_file& file) {
     const auto& elements = file.attributes.elements;
     return std::any_of(elements.begin(), elements.end(),
-                       [](const element& e) { return find_column(e, "red") != nullptr; });
+                       [](const element& e) { return e.find("red") != nullptr; });
 }
 
 /// Adds a class for each triangle of the files of `set`; `of_body` are those by body.
@@ -92,13 +93,17 @@ void append_classes(std::vector<contact_class>& all, const body_set& set,
 
 }  // namespace
 
-std::vector<contact_class> classes_in_files(const contact_classes& classes, const body_set& moving,
-                                            const body_set& fixed) {
+std::vector<contact_class> contact_classes::in_files(const body_set& moving,
+                                                     const body_set& fixed) const {
     const bool with_clouds = fixed.bodies.empty();
     std::vector<contact_class> all;
-    append_classes(all, moving, {&classes.moving, 1}, with_clouds);
-    append_classes(all, fixed, classes.fixed, with_clouds);
+    append_classes(all, moving, {&this->moving, 1}, with_clouds);
+    append_classes(all, fixed, this->fixed, with_clouds);
     return all;
+}
+
+std::vector<contact_class> contact_classes::in_files(const body_set& moving) const {
+    return in_files(moving, {});
 }
 
 void color_contacts(mesh_file& file, std::span<const contact_class> classes,
@@ -107,17 +112,17 @@ void color_contacts(mesh_file& file, std::span<const contact_class> classes,
     if (classes.size() != (cloud ? file.mesh.points.size() : file.mesh.faces.size()))
         throw std::invalid_argument(
             "treeform::color_contacts: a class for each triangle is needed");
-    if (options.split_polygons && !cloud) split_polygons(file);
+    if (options.split_polygons && !cloud) file.split_polygons();
     row_classes of_row;
     for (const contact_class c : classes) of_row.push_back(static_cast<std::uint8_t>(c));
     const bool colors = !(options.keep_colors && has_colors(file));
     if (!cloud && colors && options.halo > 0.0) add_halo(file.mesh, options.halo, of_row);
     if (!cloud) of_row = by_stored_face(file, of_row);
-    element& rows = obtain_element(file.attributes, cloud ? "vertex" : "face", of_row.size());
+    element& rows = file.attributes.obtain(cloud ? "vertex" : "face", of_row.size());
     if (colors) detail::attribute::set_colors(rows, of_row, colors_of_classes);
     std::vector<std::int32_t> numbers;
     for (const std::uint8_t row : of_row) numbers.push_back(row > tint ? 0 : row);
-    set_column(rows, make_column<std::int32_t>("tf_class", numbers));
+    rows.set(column::of<std::int32_t>("tf_class", numbers));
 }
 
 }  // namespace treeform

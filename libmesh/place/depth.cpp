@@ -7,8 +7,8 @@
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/length_of.hpp>
-#include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
+#include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -100,8 +100,8 @@ class way_out_search {
         for (point3& p : points) p = plus(p, offset);
         const mesh_view there{points, a_.mesh().faces};
         const tree<3> faces = build_face_tree(there);
-        const auto how = detail::place::relation_of(shape(a_.whose(), points, faces, a_.vertices()),
-                                                    b_, {}, &effort_);
+        const auto how = detail::place::relation_of(
+            shape(a_.prepared(), points, faces, a_.vertices()), b_, {}, &effort_);
         return how.status == status::ok && how.relation != mesh_relation::penetrating;
     }
 
@@ -128,12 +128,12 @@ class way_out_search {
                     box_a_.max[k] + offset[k] < box_b_.min[k];
         if (apart) return true;
         mesh_intersection_options options;
-        options.move_a = translation<3>(offset);
+        options.move_a = transform<3>::translation(offset);
         options.first_only = true;
         options.kinds = pair_kind::crossing;
         const auto found = detail::intersect::mesh_intersections(a_.mesh(), a_.faces(), b_.mesh(),
                                                                  b_.faces(), options, &effort_);
-        if (!found.pairs.empty() || found.cancelled) return false;
+        if (!found.pairs.empty() || found.status == treeform::status::cancelled) return false;
         return !any_inside(parts_a_, offset, b_, box_b_) &&
                !any_inside(parts_b_, scaled(offset, -1.0), a_, box_a_);
     }
@@ -145,7 +145,7 @@ class way_out_search {
         if (!seems_out(offset)) return false;
         const double out = length_ * (1.0 - 0x1p-30);
         impact_options options;
-        options.move_a = translation<3>(offset);
+        options.move_a = transform<3>::translation(offset);
         options.latest = out;
         options.limit = 1;
         const impact back = detail::place::impact_of(a_.mesh(), a_.faces(), b_.mesh(), b_.faces(),
@@ -217,7 +217,7 @@ std::optional<penetration_depth_result> penetration_depth(const mesh_ref& given_
     if (how.relation != mesh_relation::penetrating) return std::nullopt;
     detail::base::effort effort(options.effort, a.view().faces.size() + b.view().faces.size());
     effort.hold(0.5);  // for the judgments, and for what shortens the way
-    const auto found = detail::place::find_moves_apart(
+    const auto found = detail::place::search_separations(
         of_a, {&of_b, 1}, {.effort = &effort, .progress = work.part(0.1, 0.4)});
     if (work.cancelled()) return stopped;
     way_out_search search(of_a, of_b, effort, work);

@@ -199,7 +199,7 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
     deviation_result r;
     const auto stopped = [&] {
         r = {};
-        r.cancelled = true;
+        r.status = treeform::status::cancelled;
         return r;
     };
     const auto found = distances_to(b, from.points, work, 0.0, options.both_ways ? 0.4 : 0.7);

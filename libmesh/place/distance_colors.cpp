@@ -26,11 +26,11 @@ color color_of(double d, double low, double high) {
 
 }  // namespace
 
-std::vector<double> distances_in_file(const body_set& bodies, std::size_t number,
-                                      std::span<const double> distances) {
-    const file_body& body = bodies.bodies[number];
-    const prepared_mesh& shape = bodies.shapes[number];
-    const mesh& file = bodies.file_of(number).content.mesh;
+std::vector<double> body_set::distances_in_file(std::size_t number,
+                                                std::span<const double> distances) const {
+    const file_body& body = bodies[number];
+    const prepared_mesh& shape = shapes[number];
+    const mesh& file = file_of(number).content.mesh;
     std::vector<double> all(file.points.size(), std::nan(""));
     const std::span<const face> faces = shape.view().faces;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
@@ -49,7 +49,7 @@ void color_distances(mesh_file& file, std::span<const double> distances, double 
             "treeform::color_distances: a distance for each point is needed");
     if (!(low <= 0.0 && 0.0 <= high))
         throw std::invalid_argument("treeform::color_distances: 0 is not from low to high");
-    element& rows = obtain_element(file.attributes, "vertex", distances.size());
+    element& rows = file.attributes.obtain("vertex", distances.size());
     std::array<std::vector<std::uint8_t>, 3> channels;
     for (auto& one : channels) one.reserve(distances.size());
     for (const double d : distances) {
@@ -58,9 +58,8 @@ void color_distances(mesh_file& file, std::span<const double> distances, double 
             channels[k].push_back(static_cast<std::uint8_t>(std::lround(mixed[k])));
     }
     constexpr const char* names[] = {"red", "green", "blue"};
-    for (std::size_t k = 0; k < 3; ++k)
-        set_column(rows, make_column<std::uint8_t>(names[k], channels[k]));
-    set_column(rows, make_column<double>("distance", distances));
+    for (std::size_t k = 0; k < 3; ++k) rows.set(column::of<std::uint8_t>(names[k], channels[k]));
+    rows.set(column::of<double>("distance", distances));
 }
 
 }  // namespace treeform

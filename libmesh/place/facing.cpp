@@ -94,13 +94,13 @@ const facing& facing_of(const prepared_mesh& mesh) {
 }
 
 inside_sides sides_beside(const shape& of, std::uint32_t face) {
-    inside_sides sides = facing_of(of.whose()).of(face);
+    inside_sides sides = facing_of(of.prepared()).of(face);
     if (of.mirrored()) std::swap(sides.front, sides.behind);
     return sides;
 }
 
 bool looks_inward(const shape& of, std::uint32_t face) {
-    if (of.whose().is_cloud() || !of.closed()) return false;
+    if (of.prepared().is_cloud() || !of.closed()) return false;
     const inside_sides sides = sides_beside(of, face);
     return sides.front && !sides.behind;
 }

@@ -76,7 +76,7 @@ class region_finder {
     region_finder(mesh_view mesh, feature_kind kind, const feature_options& options)
         : mesh_(mesh), kind_(kind), options_(options), across_(faces_across(mesh)) {
         const auto box = bounding_box(mesh.points);
-        tolerance_ = options.tolerance.value_or(box ? 1e-4 * diagonal(*box) : 0.0);
+        tolerance_ = options.tolerance.value_or(box ? 1e-4 * box->diagonal() : 0.0);
         for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
             const point3 n = double_area(mesh, f);
             const double size = std::sqrt(dot(n, n));
@@ -257,23 +257,6 @@ std::optional<mesh_feature> feature_at(mesh_view mesh, feature_kind kind, std::u
     check(mesh, options);
     check_face(mesh, number);
     return region_finder(mesh, kind, options).around(number);
-}
-
-std::optional<mesh_feature> feature_at(mesh_view mesh, feature_kind kind, const point3& near,
-                                       const feature_options& options) {
-    check(mesh, options);
-    if (!detail::base::is_finite(near))
-        throw std::invalid_argument("treeform::feature_at: the point is not finite");
-    std::uint32_t best = none;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-        const double d = closest_point(detail::base::triangle_of(mesh, f), near).squared_distance;
-        if (!(d < least)) continue;
-        least = d;
-        best = f;
-    }
-    if (best == none) return std::nullopt;
-    return region_finder(mesh, kind, options).around(best);
 }
 
 std::optional<mesh_feature> fit_feature(mesh_view mesh, feature_kind kind,

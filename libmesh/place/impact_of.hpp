@@ -3,11 +3,17 @@
 /// When a mesh in motion meets another, or comes near it, with the trees of both.
 
 #include <libmesh/base/effort.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tree/tree.hpp>
 
 namespace treeform::detail::place {
+
+/// The greatest double that is not beyond the exact time of a contact.
+///
+/// \pre `contact` was returned by `time_of_impact` for `motion`
+[[nodiscard]] double time_not_beyond(const sweep_contact& contact, const point3& motion);
 
 /// As `time_of_impact`; `cancelled`, too, where the effort does not suffice.
 ///

@@ -1,7 +1,9 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/quickhull.hpp>
@@ -9,7 +11,6 @@
 #include <libmesh/place/stability.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/rounding.hpp>
 
 #include <algorithm>
@@ -406,7 +407,8 @@ std::optional<laid_flat> lay_flat(const mesh_ref& given, const lay_flat_options&
     put_down(laid, mesh, ids, plane, move, options);
     laid.contact = detail::place::contact_with_bed({laid.points, mesh.faces});
     laid.certificate.precision = options.precision;
-    laid.certificate.max_displacement = max_displacement(mesh.points, laid.matrix, laid.points);
+    laid.certificate.max_displacement =
+        detail::max_displacement(mesh.points, laid.matrix, laid.points);
     work.reach(1.0);
     return laid;
 }

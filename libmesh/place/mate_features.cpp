@@ -1,3 +1,4 @@
+#include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_ref.hpp>
@@ -154,9 +155,9 @@ class feature_mover {
                               .vertices = options_.vertices,
                               .progress = work_.part(0.1, 0.8)});
         if (at) {
-            at.matrix = after(at.matrix, from);
+            at.matrix = at.matrix.after(from);
             at.certificate.max_displacement =
-                max_displacement(moving_.view().points, at.matrix, at.points);
+                detail::max_displacement(moving_.view().points, at.matrix, at.points);
         } else {
             at.points.assign(moving_.view().points.begin(), moving_.view().points.end());
         }
@@ -180,7 +181,8 @@ class feature_mover {
         }
         at.end = placement_end::stays;
         at.matrix = seat;
-        at.certificate.max_displacement = max_displacement(moving_.view().points, seat, points);
+        at.certificate.max_displacement =
+            detail::max_displacement(moving_.view().points, seat, points);
         at.points = std::move(points);
         return at;
     }

@@ -3,6 +3,7 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/place/barycentric.hpp>
 #include <libmesh/place/measure_of.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -60,7 +61,7 @@ weights by_area(const triangle3& t, const point3& p) {
 }
 
 surface_point surface_point_of(mesh_view mesh, std::uint32_t face, const point3& p) {
-    return {face, p, barycentric_weights(triangle_of(mesh, face), p)};
+    return {face, p, detail::place::barycentric_weights(triangle_of(mesh, face), p)};
 }
 
 bool boxes_meet(mesh_view a, mesh_view b) {
@@ -73,7 +74,8 @@ bool boxes_meet(mesh_view a, mesh_view b) {
 
 }  // namespace
 
-std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t, const point3& p) {
+std::array<double, 3> detail::place::barycentric_weights(const std::array<point3, 3>& t,
+                                                         const point3& p) {
     // Areas of a sliver say little, an edge of it then says more: what gives the point best is
     // taken.
     weights best = on_edge(t, 0, 1, p);

@@ -63,7 +63,8 @@ const char* name_of(standing how) {
     return names[static_cast<std::size_t>(how)];
 }
 
-std::string relation_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
+std::string placement::relation_in_words(const body_set& moving, const body_set& fixed) const {
+    const placement& at = *this;
     std::string how = name_of(at.at_place);
     if (at.on_bed) return how + (at.at_place == standing::clear ? " of the bed" : " the bed");
     if (!at.nearest) return how;

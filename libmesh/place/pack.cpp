@@ -1,3 +1,4 @@
+#include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/filling.hpp>
@@ -214,7 +215,8 @@ packing pack(const mesh_refs& given_parts, const pack_options& options) {
     double room = 0.0;
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         const packed_part& part = found.parts[i];
-        moved = std::max(moved, max_displacement(parts[i].view().points, part.matrix, part.points));
+        moved = std::max(
+            moved, detail::max_displacement(parts[i].view().points, part.matrix, part.points));
         if (part.placed)
             room += shapes[i].room;
         else

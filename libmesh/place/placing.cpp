@@ -1,10 +1,11 @@
+#include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/length_of.hpp>
 #include <libmesh/place/mate_motion.hpp>
-#include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/placing.hpp>
-#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/separation_search.hpp>
+#include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/rounding.hpp>
 
@@ -49,7 +50,7 @@ void check(const placing_options& o) {
 
 placing::placing(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
                  const placing_options& options)
-    : whose_(moving),
+    : prepared_(moving),
       moving_(moving, options.vertices),
       among_(fixed, options.vertices),
       options_(options),
@@ -89,7 +90,7 @@ placement placing::finished() {
     certificate& known = result_.certificate;
     if (placed())
         known.max_displacement =
-            max_displacement(whose_.view().points, result_.matrix, result_.points);
+            detail::max_displacement(prepared_.view().points, result_.matrix, result_.points);
     switch (result_.end) {
         case placement_end::no_coordinates:
             known.status = status::not_certified;
@@ -160,14 +161,14 @@ void placing::settle(const chosen_parts& known, const point3& motion, double tim
     const bool forward = effort != nullptr;  // out of something
     const chosen_parts parts =
         known.parts.empty() ? among_.on_the_way(*box_, motion, time, options_.clearance) : known;
-    settle_among_options options{.precision = options_.precision,
-                                 .clearance = options_.clearance,
-                                 .forward = forward,
-                                 .close_in = close_in,
-                                 .effort = effort,
-                                 .progress = work_.part(0.6, 0.85)};
+    snap_options options{.precision = options_.precision,
+                         .clearance = options_.clearance,
+                         .forward = forward,
+                         .close_in = close_in,
+                         .effort = effort,
+                         .progress = work_.part(0.6, 0.85)};
     if (result_.bed && end != placement_end::stays && !forward) options.floor = result_.bed;
-    auto settled = settle_among(whose_, parts.parts, motion, time, options);
+    auto settled = snap_to_representable(prepared_, parts.parts, motion, time, options);
     over();
     result_.statistics.backed_off = settled.backed_off;
     if (!settled.good) {
@@ -282,10 +283,10 @@ void placing::separate() {
         leave(parts, effort);
         result_.effort = effort.so_far();
         if (!placed()) return;
-        const box3 there = *box_of_faces({result_.points, whose_.view().faces});
+        const box3 there = *box_of_faces({result_.points, prepared_.view().faces});
         if (!among_.others_around(there, options_.clearance, parts)) return;
         reach =
-            std::max({2.0 * reach, result_.travel + options_.clearance, diagonal(*box_) * 0x1p-6});
+            std::max({2.0 * reach, result_.travel + options_.clearance, box_->diagonal() * 0x1p-6});
         forget_place();
     }
 }
@@ -293,16 +294,16 @@ void placing::separate() {
 /// To the first place that can be written at which the mesh is clear of these.
 void placing::leave(const chosen_parts& parts, base::effort& effort) {
     effort.hold(0.5);  // for the judgments
-    const moves_apart found = find_moves_apart(moving_, parts.parts,
-                                               {.clearance = options_.clearance,
-                                                .normals = options_.normals,
-                                                .face_pairs = options_.face_pairs,
-                                                .effort = &effort,
-                                                .progress = work_.part(0.2, 0.6)});
+    const separations found = search_separations(moving_, parts.parts,
+                                                 {.clearance = options_.clearance,
+                                                  .normals = options_.normals,
+                                                  .face_pairs = options_.face_pairs,
+                                                  .effort = &effort,
+                                                  .progress = work_.part(0.2, 0.6)});
     over();
     effort.hold(0.0);
     bool tried = false;
-    for (const move_apart& move : found.moves) {
+    for (const separation& move : found.moves) {
         if (move.time > longest_) break;
         tried = true;
         settle(parts, move.direction, move.time, placement_end::moved_apart, false, &effort);
@@ -319,7 +320,7 @@ void placing::forget_place() {
     result_.on_bed = false;
     result_.contacts.clear();
     result_.contact_count = 0;
-    result_.points.assign(whose_.view().points.begin(), whose_.view().points.end());
+    result_.points.assign(prepared_.view().points.begin(), prepared_.view().points.end());
     result_.matrix = {};
     result_.direction = {};
     result_.travel = 0.0;
@@ -327,17 +328,17 @@ void placing::forget_place() {
 
 /// What is true at the place, in the coordinates that are written.
 void placing::look_at_place() {
-    const mesh_view here = whose_.view();
+    const mesh_view here = prepared_.view();
     const mesh_view there{result_.points, here.faces};
     const bool moved = !std::equal(here.points.begin(), here.points.end(), result_.points.begin());
     std::optional<tree<3>> own;
     if (moved && !among_.empty()) own = build_face_tree(there);
-    const shape at = own ? shape(whose_, result_.points, *own, options_.vertices) : moving_;
+    const shape at = own ? shape(prepared_, result_.points, *own, options_.vertices) : moving_;
     if (moved) {
         if (!among_.empty()) {
             const box3 box = *box_of_faces(there);
             result_.nearest =
-                among_.nearest(at, box, radius(diagonal(box) * 0x1p-10), work_.part(0.85, 1.0));
+                among_.nearest(at, box, radius(box.diagonal() * 0x1p-10), work_.part(0.85, 1.0));
             over();
         }
         result_.at_place = standing_of(result_.nearest);

@@ -83,7 +83,7 @@ class placing {
     void leave(const chosen_parts& parts, base::effort& effort);
     void forget_place();
 
-    const prepared_mesh& whose_;
+    const prepared_mesh& prepared_;
     shape moving_;
     surroundings among_;
     placing_options options_;

@@ -159,7 +159,7 @@ bool plate::apart(const resident& a, const resident& b) {
         both.min[k] = std::min(both.min[k], b.box.min[k]);
         both.max[k] = std::max(both.max[k], b.box.max[k]);
     }
-    const double error = 0x1p-48 * diagonal(both);
+    const double error = 0x1p-48 * both.diagonal();
     const auto found = nearness::closest_points(a.mesh(), a.faces_tree, b.mesh(), b.faces_tree,
                                                 spacing + 2.0 * error);
     if (found && !(found->distance > 0.0 && found->distance - error >= spacing)) return false;
@@ -177,7 +177,7 @@ bool plate::fits(const resident& one) {
 /// The least distance of the part, moved by `by`, to these; `most` when it is more.
 double plate::distance_to(const std::vector<const resident*>& others, const turned& part,
                           const point3& by, double most) const {
-    const transformed<3> moved(part.faces, translation<3>(by));
+    const transformed<3> moved(part.faces, transform<3>::translation(by));
     for (const resident* r : others) {
         const auto found =
             nearness::closest_points(part.part.mesh(), moved, r->mesh(), r->faces_tree, most);

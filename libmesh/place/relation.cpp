@@ -1,12 +1,12 @@
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/facing.hpp>
 #include <libmesh/place/point_sides.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct pair_searches {
                                                  const mesh_intersection_options& options) {
         auto found = detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(),
                                                            options, effort);
-        stopped = stopped || found.cancelled;
+        stopped = stopped || found.status == treeform::status::cancelled;
         return found;
     }
 };
@@ -45,7 +45,8 @@ struct pair_searches {
 /// The first face that passes through one of the other mesh.
 std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
                                         const progress_callback& progress, pair_searches& how) {
-    if (a.whose().is_cloud() || b.whose().is_cloud()) return std::nullopt;  // points only touch
+    if (a.prepared().is_cloud() || b.prepared().is_cloud())
+        return std::nullopt;  // points only touch
     mesh_intersection_options options;
     options.first_only = true;
     options.kinds = pair_kind::crossing;

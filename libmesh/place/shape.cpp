@@ -17,13 +17,13 @@ namespace treeform::detail::place {
 
 mesh_view shape::joined() const {
     // A cloud bounds nothing, joined or not.
-    if (vertices_ == vertex_identity::by_index || whose_->is_cloud()) return mesh();
-    return weld::join_faces(*whose_).of(mesh());
+    if (vertices_ == vertex_identity::by_index || prepared_->is_cloud()) return mesh();
+    return weld::join_faces(*prepared_).of(mesh());
 }
 
 bool shape::closed() const {
     if (vertices_ == vertex_identity::by_index) return !find_open_edge(mesh());
-    return intersect::is_closed(*whose_);
+    return intersect::is_closed(*prepared_);
 }
 
 void check_operand(const std::string& function, const std::string& operand, mesh_view mesh) {

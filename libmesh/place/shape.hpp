@@ -20,16 +20,20 @@ class shape {
   public:
     explicit shape(const prepared_mesh& mesh,
                    vertex_identity vertices = vertex_identity::by_coordinates)
-        : whose_(&mesh), points_(mesh.view().points), vertices_(vertices) {}
+        : prepared_(&mesh), points_(mesh.view().points), vertices_(vertices) {}
     /// `mesh` with its points `there`, moved or, if so, mirrored.
     /// \pre `faces` is `build_face_tree` of that
     shape(const prepared_mesh& mesh, points_view there, const tree<3>& faces,
           vertex_identity vertices = vertex_identity::by_coordinates, bool mirrored = false)
-        : whose_(&mesh), points_(there), faces_(&faces), vertices_(vertices), mirrored_(mirrored) {}
+        : prepared_(&mesh),
+          points_(there),
+          faces_(&faces),
+          vertices_(vertices),
+          mirrored_(mirrored) {}
 
-    [[nodiscard]] mesh_view mesh() const { return {points_, whose_->view().faces}; }
+    [[nodiscard]] mesh_view mesh() const { return {points_, prepared_->view().faces}; }
     [[nodiscard]] const tree<3>& faces() const {
-        return faces_ ? *faces_ : build_face_tree(*whose_);
+        return faces_ ? *faces_ : build_face_tree(*prepared_);
     }
     /// The mesh with corners that are one vertex by one number.
     [[nodiscard]] mesh_view joined() const;
@@ -37,10 +41,10 @@ class shape {
     [[nodiscard]] bool closed() const;
     [[nodiscard]] vertex_identity vertices() const { return vertices_; }
     [[nodiscard]] bool mirrored() const { return mirrored_; }
-    [[nodiscard]] const prepared_mesh& whose() const { return *whose_; }
+    [[nodiscard]] const prepared_mesh& prepared() const { return *prepared_; }
 
   private:
-    const prepared_mesh* whose_;
+    const prepared_mesh* prepared_;
     points_view points_;
     const tree<3>* faces_ = nullptr;
     vertex_identity vertices_;

@@ -1,4 +1,5 @@
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/sweep_among.hpp>
 

@@ -1,6 +1,8 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/impact_of.hpp>
@@ -84,13 +86,13 @@ std::optional<bool> meets_at_start(mesh_view a, const tree<3>& tree_a, mesh_view
     const auto first = detail::intersect::mesh_intersections(
         a, tree_a, b, tree_b,
         {.move_a = options.move_a, .move_b = options.move_b, .first_only = true}, effort);
-    if (first.cancelled) return std::nullopt;
+    if (first.status == treeform::status::cancelled) return std::nullopt;
     return !first.pairs.empty();
 }
 
 }  // namespace
 
-double time_not_beyond(const sweep_contact& contact, const point3& motion) {
+double detail::place::time_not_beyond(const sweep_contact& contact, const point3& motion) {
     const auto beyond = [&](double time) {
         return compare_cut(contact.from, motion, contact.until, time) < 0;
     };

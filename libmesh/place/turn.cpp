@@ -1,3 +1,4 @@
+#include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_ref.hpp>
@@ -155,7 +156,8 @@ class turning {
         now.end = end;
         now.matrix = there;
         now.certificate.precision = options_.precision;
-        now.certificate.max_displacement = max_displacement(moving_.view().points, there, points);
+        now.certificate.max_displacement =
+            detail::max_displacement(moving_.view().points, there, points);
         now.points = std::move(points);
         if (now.contacts.empty()) {
             now.contacts = std::move(contacts_);

@@ -39,7 +39,7 @@ double slack_of(const shape& moving, std::span<const shape> parts, const unit_ax
 }
 
 /// Two faces near each other, `a` of the mesh that turns.
-struct near_faces {
+struct near_pair {
     std::uint32_t a, b;
     closest_between_triangles at;
     std::size_t part;
@@ -47,7 +47,7 @@ struct near_faces {
 
 /// The faces near each other at some angle.
 struct near_state {
-    std::vector<near_faces> pairs{};
+    std::vector<near_pair> pairs{};
     double all_within = 0.0;  ///< all pairs of faces nearer than this are there
     bool full = false;        ///< as many as were asked for: there may be more
 };
@@ -119,7 +119,7 @@ class turn_searching {
                                     options_.radius
                               : trial;
             const bool by_number = state.full;
-            for (const near_faces& pair : state.pairs) {
+            for (const near_pair& pair : state.pairs) {
                 nearest = std::min(nearest, std::sqrt(pair.at.squared_distance));
                 step = std::min(step, free_angle(there, pair));
             }
@@ -181,7 +181,7 @@ class turn_searching {
     /// and w its offset from the axis: for f in [0, pi] by no more than
     /// f max(0, u . v) + f^2 / 2 max(0, -u . w). That holds for any u of length 1; which one is
     /// taken only decides how far the step leads.
-    [[nodiscard]] double free_angle(const transform<3>& there, const near_faces& pair) const {
+    [[nodiscard]] double free_angle(const transform<3>& there, const near_pair& pair) const {
         const triangle3 a = face_at(there, pair.a);
         const triangle3 b = triangle_of(parts_[pair.part].mesh(), pair.b);
         const gap_across across = widest_gap(a, b, pair.at);
@@ -199,16 +199,16 @@ class turn_searching {
 
     [[nodiscard]] std::vector<placement_contact> contacts_at(const near_state& state,
                                                              double nearest) const {
-        std::vector<near_faces> near;
+        std::vector<near_pair> near;
         const double within = nearest + std::max(options_.tolerance, 2.0 * slack_);
-        for (const near_faces& pair : state.pairs)
+        for (const near_pair& pair : state.pairs)
             if (std::sqrt(pair.at.squared_distance) <= within) near.push_back(pair);
-        std::sort(near.begin(), near.end(), [](const near_faces& x, const near_faces& y) {
+        std::sort(near.begin(), near.end(), [](const near_pair& x, const near_pair& y) {
             return std::tuple(x.part, x.a, x.b) < std::tuple(y.part, y.a, y.b);
         });
         near.resize(std::min(near.size(), options_.limit));
         std::vector<placement_contact> contacts;
-        for (const near_faces& pair : near) {
+        for (const near_pair& pair : near) {
             const point3 way = minus(pair.at.on_a, pair.at.on_b);
             const double size = length_of(way);
             const point3 normal = size > 0.0 ? scaled(way, 1.0 / size) : point3{};

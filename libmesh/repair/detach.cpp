@@ -16,8 +16,8 @@
 namespace treeform::detail::repair {
 namespace {
 
-// Of float32, tried first: some programs make floats of doubles, and some join what is nearer than a
-// micrometer (OpenSCAD: 2^-20).
+// Of float32, tried first: some programs make floats of doubles, and some join what is nearer than
+// a micrometer (OpenSCAD: 2^-20).
 constexpr double wide_steps = 32.0;
 constexpr int least_doublings = 6;    // 2, 4, 8 ... steps of the coordinates
 constexpr double farthest = 0x1p-11;  // of the diagonal, where that is more
@@ -103,7 +103,7 @@ class detacher {
     [[nodiscard]] int most_doublings() const {
         int most = least_doublings;
         const auto box = bounding_box(solid_.points);
-        while (box && std::ldexp(step_, most) < farthest * diagonal(*box)) ++most;
+        while (box && std::ldexp(step_, most) < farthest * box->diagonal()) ++most;
         while (most > 0 && steps(most - 1) > limit_) --most;
         return most;
     }
@@ -233,17 +233,17 @@ class detacher {
     }
 
     void mark_meeting(const std::vector<std::uint32_t>& vertices) {
-        std::vector<std::uint8_t> sound(solid_.faces.size(), 1);
+        std::vector<std::uint8_t> certified(solid_.faces.size(), 1);
         bool any = false;
         for (const std::uint32_t v : vertices) {
             if (!twins_.at(v).on_trial || twins_.at(v).broke) continue;
             any = true;
-            for (const std::uint32_t f : stars_[v]) sound[f] = 0;
+            for (const std::uint32_t f : stars_[v]) certified[f] = 0;
         }
         if (!any) return;
         // Vertices that still are at one place are one: what touches there is nothing new.
         const round::surface_faults faults =
-            round::find_faults({solid_.points, joined_}, {.sound = sound, .solid = true});
+            round::find_faults({solid_.points, joined_}, {.certified = certified, .solid = true});
         const auto blame = [&](std::uint32_t f) {
             for (const std::uint32_t corner : solid_.faces[f])
                 if (const auto at = twins_.find(corner); at != twins_.end() && at->second.on_trial)

@@ -171,7 +171,7 @@ void make_fair(working_mesh& mesh, const open_rim& rim, const std::vector<face>&
     std::vector<point3> around;
     for (const std::uint32_t p : rim.points) around.push_back(mesh.points[p]);
     const box3 box = *bounding_box(around);
-    const double most = diagonal(box);
+    const double most = box.diagonal();
     const bool is_near = std::all_of(begin, mesh.points.end(), [&](const point3& p) {
         for (std::size_t k = 0; k < 3; ++k)
             if (!(p[k] > box.min[k] - most && p[k] < box.max[k] + most)) return false;

@@ -44,7 +44,7 @@ std::vector<double> lost_areas(mesh_view given, std::span<const std::uint32_t> g
     std::vector<std::uint8_t> is_there(gone.size(), 0);
     if (!made.faces.empty()) {
         const auto nearest =
-            closest_point(made, middles, 1e-6 * diagonal(*bounding_box(made.points)));
+            closest_point(made, middles, 1e-6 * bounding_box(made.points)->diagonal());
         for (std::size_t i = 0; i < gone.size(); ++i) is_there[i] = nearest[i] ? 1 : 0;
     }
     if (const mesh solid = closed_part(made); !solid.faces.empty()) {

@@ -1,5 +1,6 @@
 #include <libmesh/repair/edge_parts.hpp>
 #include <libmesh/repair/orient_faces.hpp>
+#include <libmesh/topology/select_faces.hpp>
 #include <libmesh/weld/edge_uses.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -22,12 +23,12 @@ class turned_sets {
         std::iota(parent_.begin(), parent_.end(), 0U);
     }
 
-    struct place {
+    struct root_of_face {
         std::uint32_t root;
         bool turned;
     };
 
-    [[nodiscard]] place find(std::uint32_t f) {
+    [[nodiscard]] root_of_face find(std::uint32_t f) {
         std::uint32_t root = f;
         bool turned = false;
         while (parent_[root] != root) {
@@ -46,7 +47,7 @@ class turned_sets {
     }
 
     void join(std::uint32_t f, std::uint32_t g, bool against) {
-        const place a = find(f), b = find(g);
+        const root_of_face a = find(f), b = find(g);
         const bool turned = a.turned ^ b.turned ^ against;
         if (a.root == b.root) {
             if (turned) one_sided_[a.root] = 1;

@@ -27,7 +27,7 @@ constexpr std::size_t listed_pairs = 100;
 constexpr int tries_of_ring = 4;
 constexpr int tries_with_border = 3;
 
-enum class fate : std::uint8_t {
+enum class removal_outcome : std::uint8_t {
     stays,
     refilled,  ///< deleted, and the hole is filled
     gone       ///< deleted, and the hole stays
@@ -49,7 +49,7 @@ class remover {
     remover(mesh_view given, const resolve_options& options)
         : options_(options),
           given_{points_in_use(given), {given.faces.begin(), given.faces.end()}},
-          fates_(given_.faces.size(), fate::stays),
+          outcomes_(given_.faces.size(), removal_outcome::stays),
           few_(given_.faces.size(), 0),
           tries_(given_.faces.size(), 0) {
         if (options.precision == precision::float32) to_floats();
@@ -108,7 +108,7 @@ class remover {
         for (std::uint32_t f = 0; f < count; ++f) part_of_[f] = parts.root(f);
         const std::vector<std::uint8_t> deleted = copies_to_delete(given_.faces, part_of_, edges_);
         for (std::uint32_t f = 0; f < count; ++f)
-            if (deleted[f] != 0) fates_[f] = fate::gone;
+            if (deleted[f] != 0) outcomes_[f] = removal_outcome::gone;
         build();
         std::vector<std::uint8_t> ends(count, 0);
         const directed_edges edges(now_);
@@ -131,8 +131,8 @@ class remover {
     void build() {
         now_.clear();
         result_.face_source.clear();
-        for (std::uint32_t f = 0; f < fates_.size(); ++f) {
-            if (fates_[f] != fate::stays) continue;
+        for (std::uint32_t f = 0; f < outcomes_.size(); ++f) {
+            if (outcomes_[f] != removal_outcome::stays) continue;
             now_.push_back(given_.faces[f]);
             result_.face_source.push_back(f);
         }
@@ -180,18 +180,18 @@ class remover {
     /// In the order of their lowest faces.
     void find_patches() {
         constexpr std::uint32_t none = directed_edges::none;
-        const auto count = static_cast<std::uint32_t>(fates_.size());
+        const auto count = static_cast<std::uint32_t>(outcomes_.size());
         base::union_find linked(count);
         for (std::uint32_t f = 0; f < count; ++f) {
-            if (fates_[f] != fate::refilled) continue;
+            if (outcomes_[f] != removal_outcome::refilled) continue;
             for_neighbors(f, [&](std::uint32_t g) {
-                if (fates_[g] == fate::refilled) linked.join(f, g);
+                if (outcomes_[g] == removal_outcome::refilled) linked.join(f, g);
             });
         }
         patches_.clear();
         std::vector<std::uint32_t> number(count, none);
         for (std::uint32_t f = 0; f < count; ++f) {
-            if (fates_[f] != fate::refilled) continue;
+            if (outcomes_[f] != removal_outcome::refilled) continue;
             std::uint32_t& patch = number[linked.root(f)];
             if (patch == none) {
                 patch = static_cast<std::uint32_t>(patches_.size());
@@ -212,8 +212,9 @@ class remover {
         const auto found =
             self_intersections(now(), {.vertices = vertex_identity::by_index,
                                        .progress = base::part_of(options_.progress, done, done_)});
-        if (found.cancelled) result_.certificate.status = status::cancelled;
-        if (found.cancelled) return false;
+        if (found.status == treeform::status::cancelled)
+            result_.certificate.status = status::cancelled;
+        if (found.status == treeform::status::cancelled) return false;
         for (const std::uint32_t f : find_defects(now()).degenerate_faces) complain(f, f);
         for (const face_pair& pair : found.pairs)
             if (!is_let_be(pair)) complain(pair.a, pair.b);
@@ -253,7 +254,7 @@ class remover {
             fail(patch, given_.faces[f]);
         } else if (is_closed_[beside] != 0) {
             few_[f] = 1;
-            fates_[f] = fate::refilled;
+            outcomes_[f] = removal_outcome::refilled;
         }
     }
     /// Edges next to patches that have lost their second face.
@@ -277,10 +278,11 @@ class remover {
         for (std::size_t f = 0; f < few.size(); ++f) {
             if (few[f] == 0) continue;
             few_[f] = 1;
-            fates_[f] = fate::refilled;
+            outcomes_[f] = removal_outcome::refilled;
         }
         for (const auto& [f, g] : pairs_)
-            if (is_closed_[f] == is_closed_[g]) fates_[f] = fates_[g] = fate::refilled;
+            if (is_closed_[f] == is_closed_[g])
+                outcomes_[f] = outcomes_[g] = removal_outcome::refilled;
     }
 
     /// Makes holes wider whose filling has failed. Where that does not help, or it is late, and the
@@ -298,7 +300,7 @@ class remover {
             if (!is_open || (tries < tries_with_border && !is_late)) continue;
             rings_[p] = 0;
             for (const std::uint32_t f : patches_[p])
-                fates_[f] = few_[f] != 0 ? fate::gone : fate::stays;
+                outcomes_[f] = few_[f] != 0 ? removal_outcome::gone : removal_outcome::stays;
         }
         widen();
     }
@@ -308,10 +310,11 @@ class remover {
         for (const auto& [patch, point] : places_)
             rings[point] = std::max(rings[point], rings_[patch]);
         for (std::uint8_t most = *std::ranges::max_element(rings); most > 0; --most)
-            for (std::uint32_t f = 0; f < fates_.size(); ++f) {
+            for (std::uint32_t f = 0; f < outcomes_.size(); ++f) {
                 const auto [a, b, c] = given_.faces[f];
                 if (rings[a] != most && rings[b] != most && rings[c] != most) continue;
-                if (fates_[f] == fate::stays) fates_[f] = fate::refilled;
+                if (outcomes_[f] == removal_outcome::stays)
+                    outcomes_[f] = removal_outcome::refilled;
                 for (const std::uint32_t p : given_.faces[f])
                     rings[p] = std::max(rings[p], static_cast<std::uint8_t>(most - 1));
             }
@@ -351,12 +354,12 @@ class remover {
 
     const resolve_options& options_;
     mesh given_;
-    directed_edges edges_{{}};             ///< of the faces given
-    std::vector<std::uint32_t> part_of_;   ///< by face: the lowest face of its part
-    std::vector<std::uint8_t> is_closed_;  ///< by face: whether its part has no border
-    std::vector<fate> fates_;              ///< by face
-    std::vector<std::uint8_t> few_;        ///< by face: without it and its like no pair is left
-    std::vector<std::uint8_t> tries_;      ///< by face: to fill the hole
+    directed_edges edges_{{}};               ///< of the faces given
+    std::vector<std::uint32_t> part_of_;     ///< by face: the lowest face of its part
+    std::vector<std::uint8_t> is_closed_;    ///< by face: whether its part has no border
+    std::vector<removal_outcome> outcomes_;  ///< by face
+    std::vector<std::uint8_t> few_;          ///< by face: without it and its like no pair is left
+    std::vector<std::uint8_t> tries_;        ///< by face: to fill the hole
     std::vector<std::vector<std::uint32_t>> patches_{};
 
     std::vector<face> now_;                     ///< faces that stay, then those that fill

@@ -1,5 +1,6 @@
 #include <libmesh/base/certify.hpp>
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/base/require_share.hpp>
 #include <libmesh/base/used_points.hpp>
@@ -26,10 +27,8 @@
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/rounding.hpp>
-#include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 namespace treeform {
@@ -119,8 +118,8 @@ class repairer {
             for (face& f : mesh_.faces)
                 for (std::uint32_t& corner : f)
                     corner = equal->first_of_new[equal->new_of_old[corner]];
-        diagonal_ = 0.0;
-        if (const auto box = bounding_box(mesh_.points)) diagonal_ = diagonal(*box);
+        const auto box = bounding_box(mesh_.points);
+        diagonal_ = box ? box->diagonal() : 0.0;
     }
 
     void join() {
@@ -257,15 +256,16 @@ class repairer {
     [[nodiscard]] bool is_clean() {
         if (!options_.resolve) return true;
         if (options_.precision == precision::float32 &&
-            max_displacement(mesh_.points, transform<3>{},
-                             rounded(mesh_.points, precision::float32)) > 0.0)
+            detail::max_displacement(mesh_.points, transform<3>{},
+                                     rounded(mesh_.points, precision::float32)) > 0.0)
             return false;
         const auto found =
             self_intersections(mesh_.view(), {.vertices = vertex_identity::by_index,
                                               .first_only = true,
                                               .progress = part_of(options_.progress, 0.1, 0.4)});
-        if (found.cancelled) result_.certificate.status = status::cancelled;
-        return !found.cancelled && found.pairs.empty();
+        if (found.status == treeform::status::cancelled)
+            result_.certificate.status = status::cancelled;
+        return found.status != treeform::status::cancelled && found.pairs.empty();
     }
 
     [[nodiscard]] detail::repair::edge_facts known_edges() const {

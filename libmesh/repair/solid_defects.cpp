@@ -83,8 +83,8 @@ solid_defects find_solid_defects(const mesh_ref& of, const progress_callback& pr
     mesh joined = joined_usable(given, found.unusable_faces);
     const auto met =
         self_intersections(joined, {.vertices = vertex_identity::by_index, .progress = progress});
-    if (met.cancelled) {
-        found.cancelled = true;
+    if (met.status == treeform::status::cancelled) {
+        found.status = treeform::status::cancelled;
         return found;
     }
     found.meeting_pairs = met.pairs.size();

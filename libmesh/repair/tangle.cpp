@@ -18,7 +18,7 @@ bool is_tangle(mesh_view mesh, double most, const progress_callback& progress) {
         mesh, {.vertices = vertex_identity::by_index, .limit = 0, .progress = progress});
     const std::uint64_t pairs =
         std::accumulate(found.counts.begin(), found.counts.end(), std::uint64_t{0});
-    return !found.cancelled &&
+    return found.status != treeform::status::cancelled &&
            static_cast<double>(pairs) > most * static_cast<double>(mesh.faces.size());
 }
 

@@ -76,9 +76,9 @@ class rounding {
         result_.certificate.status = status::out_of_range;
         if (settle()) {
             first_move_ = result_.certificate.max_displacement = moved_most_;
-            const bool sound = check();
-            if (vanished_ || !sound) remember_parts();
-            if (!sound && !is_cancelled()) mend();
+            const bool certified = check();
+            if (vanished_ || !certified) remember_parts();
+            if (!certified && !is_cancelled()) mend();
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
         if (vanished_) detail::round::drop_unused_points(result_.surface, point_of_);
@@ -129,22 +129,22 @@ class rounding {
         }
     }
 
-    /// Sound faces at edges where the rest of the surface is, or where it ends, are to stay.
+    /// Certified faces at edges where the rest of the surface is, or where it ends, are to stay.
     void fix_rim() {
         const std::vector<std::uint32_t> all =
             detail::base::numbers_below(result_.surface.faces.size());
         fixed_.assign(all.size(), 0);
         detail::round::near_edges(result_.surface, all).for_each([&](auto uses) {
-            if (uses.size() == 1 && sound_[uses[0].place] != 0)
+            if (uses.size() == 1 && certified_[uses[0].place] != 0)
                 std::atomic_ref(fixed_[uses[0].place]).store(1, std::memory_order_relaxed);
         });
     }
 
-    /// Whether the surface is sound without them.
+    /// Whether the surface is certified without them.
     bool take_out_slivers(double reach, double height) {
         std::vector<face_pair> bad = pairs_;
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
-            if (sound_.empty() || sound_[f] == 0) bad.push_back({f, f});
+            if (certified_.empty() || certified_[f] == 0) bad.push_back({f, f});
         detail::round::slivers_removed left =
             detail::round::remove_slivers(result_.surface, bad,
                                           {.reach = reach,
@@ -156,15 +156,16 @@ class rounding {
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
         joined_ += left.moved;
-        std::vector<std::uint8_t> sound;
+        std::vector<std::uint8_t> certified;
         for (std::size_t f = 0; f < left.faces.size(); ++f) {
-            if (!sound_.empty())
-                sound.push_back(left.is_new[f] != 0 ? std::uint8_t{0} : sound_[left.face_of[f]]);
+            if (!certified_.empty())
+                certified.push_back(left.is_new[f] != 0 ? std::uint8_t{0}
+                                                        : certified_[left.face_of[f]]);
             left.face_of[f] = result_.face_of[left.face_of[f]];
         }
         result_.surface.faces = std::move(left.faces);
         result_.face_of = std::move(left.face_of);
-        sound_ = std::move(sound);
+        certified_ = std::move(certified);
         moved_ = std::numeric_limits<double>::infinity();
         vanished_ = true;
         return check();
@@ -295,12 +296,15 @@ class rounding {
             [&](std::size_t count) {
                 detail::base::parallel_invoke(
                     [&] { detail::base::resize_all(count, now.faces, face_of); },
-                    [&] { detail::base::resize_all(exact_.sound.empty() ? 0 : count, sound_); });
+                    [&] {
+                        detail::base::resize_all(exact_.certified.empty() ? 0 : count, certified_);
+                    });
             },
             [&](std::size_t f, std::size_t place) {
                 now.faces[place] = renumbered(f);
                 face_of[place] = result_.face_of[f];
-                if (!sound_.empty()) sound_[place] = stays_sound(f, now.points, now.faces[place]);
+                if (!certified_.empty())
+                    certified_[place] = stays_certified(f, now.points, now.faces[place]);
             });
         vanished_ = vanished_ || face_of.size() < exact.size();
         result_.face_of = std::move(face_of);
@@ -329,9 +333,9 @@ class rounding {
     }
 
     /// Whether what is known of an exact face holds of it as `rounded`: no corner has moved.
-    [[nodiscard]] std::uint8_t stays_sound(std::size_t f, points_view points,
-                                           const face& rounded) const {
-        if (exact_.sound[f] == 0 || !to_float32()) return exact_.sound[f];
+    [[nodiscard]] std::uint8_t stays_certified(std::size_t f, points_view points,
+                                               const face& rounded) const {
+        if (exact_.certified[f] == 0 || !to_float32()) return exact_.certified[f];
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t p = exact_.faces[f][i];
             if (p >= exact_.given.size() || !(exact_.given[p] == points[rounded[i]])) return 0;
@@ -341,17 +345,17 @@ class rounding {
 
     /// Whether the rounded surface is as promised; else which faces are not.
     ///
-    /// Faces that were found to be sound in these very coordinates are not held against each other
-    /// again: nothing that is asked of two faces depends on a third. Their common corners have one
-    /// number as before, as points with equal coordinates have. Joining points keeps a closed
-    /// surface closed, whichever faces vanish by it; that is looked at again all the same, at the
-    /// edges of all other faces.
+    /// Faces that were found to be certified in these very coordinates are not held against each
+    /// other again: nothing that is asked of two faces depends on a third. Their common corners
+    /// have one number as before, as points with equal coordinates have. Joining points keeps a
+    /// closed surface closed, whichever faces vanish by it; that is looked at again all the same,
+    /// at the edges of all other faces.
     bool check() {
         const mesh& now = result_.surface;
         result_.certificate.meeting.clear();
         result_.certificate.meeting_count = 0;
         detail::round::surface_faults faults =
-            detail::round::find_faults(now, {.sound = sound_,
+            detail::round::find_faults(now, {.certified = certified_,
                                              .solid = options_.solid,
                                              .moved = moved_,
                                              .rest = options_.rest,
@@ -362,9 +366,9 @@ class rounding {
         for (const std::uint32_t f : faults.degenerate) complain(f, f);
         for (const face_pair& pair : pairs_) complain(pair.a, pair.b);
         for (const std::uint32_t f : faults.turned) complain(f, f);
-        const bool sound = result_.certificate.meeting_count == 0 && !faults.open;
-        result_.certificate.status = sound ? status::ok : status::not_certified;
-        return sound;
+        const bool certified = result_.certificate.meeting_count == 0 && !faults.open;
+        result_.certificate.status = certified ? status::ok : status::not_certified;
+        return certified;
     }
 
     void complain(std::uint32_t f, std::uint32_t g) {
@@ -396,9 +400,9 @@ class rounding {
             std::iota(face_of_cut.begin(), face_of_cut.end(), 0U);
             exact_.faces = std::move(cut.faces);
         }
-        exact_.sound.resize(face_of_cut.size());
+        exact_.certified.resize(face_of_cut.size());
         for (std::size_t f = 0; f < face_of_cut.size(); ++f)
-            exact_.sound[f] = cut.whole[face_of_cut[f]];
+            exact_.certified[f] = cut.whole[face_of_cut[f]];
         std::vector<std::uint32_t> face_of(face_of_cut.size());
         for (std::size_t f = 0; f < face_of.size(); ++f)
             face_of[f] = result_.face_of[cut.covers_of(face_of_cut[f]).front().face];
@@ -415,9 +419,9 @@ class rounding {
     /// By face of the surface given, from 0 on in the order of their lowest faces; or empty.
     std::vector<std::uint32_t> part_of_;
     std::vector<point3> place_of_part_;
-    std::vector<std::uint8_t> sound_;    ///< by face, or empty
-    std::vector<face_pair> pairs_{};     ///< of faces that meet
-    std::vector<std::uint8_t> fixed_{};  ///< by face, or empty
+    std::vector<std::uint8_t> certified_;  ///< by face, or empty
+    std::vector<face_pair> pairs_{};       ///< of faces that meet
+    std::vector<std::uint8_t> fixed_{};    ///< by face, or empty
     std::size_t faces_given_;
     mesh before_{};  ///< as `exact_` was given, in doubles, once something is mended
     double first_move_ = 0.0;

@@ -26,7 +26,7 @@ struct exact_surface {
     /// [F], or empty: 1 for faces that have been found, in the coordinates given, to have an area
     /// and to meet each other in common corners and edges only; their corners are given points. As
     /// long as they stay where they are, they are not held against each other again.
-    std::vector<std::uint8_t> sound{};
+    std::vector<std::uint8_t> certified{};
 };
 
 struct round_options {
@@ -36,9 +36,9 @@ struct round_options {
     bool solid = true;
     /// What rounding has broken is mended until nothing meets or no move may be as far as:
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// Where the surface has more faces: how often these wind around what. They are sound, stay where
-    /// they are, and none of them meets a box of a face that is not sound. Faces at an edge with them
-    /// are not touched, and what would have to be cut is not mended.
+    /// Where the surface has more faces: how often these wind around what. They are certified, stay
+    /// where they are, and none of them meets a box of a face that is not certified. Faces at an
+    /// edge with them are not touched, and what would have to be cut is not mended.
     detail::round::winding_of_rest rest{};
     progress_callback progress{};
 };
@@ -71,7 +71,7 @@ struct rounded_surface {
 ///
 /// Every point is rounded once, to nearest; given points stay bit for bit unless float32 is asked
 /// for. Then the surface is checked with the exact predicates: every face that has moved, or is not
-/// known to be sound, against all others. Where it is broken, it is mended in rounds:
+/// certified, against all others. Where it is broken, it is mended in rounds:
 /// - What all but touches is joined, and slivers are taken out, as long as less meets by that
 ///   (`remove_slivers`).
 /// - What meets all the same is cut along each other (`arrange_faces`), of a solid what it does not

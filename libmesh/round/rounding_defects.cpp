@@ -15,14 +15,14 @@ namespace {
 
 using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Ascending; none where stopped, which `cancelled` then says.
-pairs meeting_pairs(mesh_view mesh, const progress_callback& progress, bool& cancelled) {
+/// Ascending; none where stopped, which `end` then says.
+pairs meeting_pairs(mesh_view mesh, const progress_callback& progress, status& end) {
     const self_intersection_options options{
         .vertices = vertex_identity::by_index,
         .kinds = pair_kinds::all - pair_kind::touching - pair_kind::degenerate,
         .progress = progress};
     const self_intersection_result found = self_intersections(mesh, options);
-    cancelled = cancelled || found.cancelled;
+    if (found.status != status::ok) end = found.status;
     pairs result;
     result.reserve(found.pairs.size());
     for (const face_pair& pair : found.pairs) result.emplace_back(pair.a, pair.b);
@@ -69,9 +69,9 @@ rounding_defects find_rounding_defects(mesh_view mesh, points_view placed,
             "treeform::find_rounding_defects: not as many points as the mesh has");
     const mesh_view there{placed, mesh.faces};
     rounding_defects harm;
-    const pairs now = meeting_pairs(there, progress, harm.cancelled);
-    if (!now.empty() && !harm.cancelled)
-        harm.meeting = count_new(now, meeting_pairs(mesh, progress, harm.cancelled));
+    const pairs now = meeting_pairs(there, progress, harm.status);
+    if (!now.empty() && harm.status != treeform::status::cancelled)
+        harm.meeting = count_new(now, meeting_pairs(mesh, progress, harm.status));
     const std::vector<std::uint32_t> flat = find_defects(there).degenerate_faces;
     if (!flat.empty()) harm.collapsed = count_new(flat, find_defects(mesh).degenerate_faces);
     return harm;

@@ -1,3 +1,5 @@
+#include <libmesh/base/max_displacement.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/rounding.hpp>
 
@@ -17,8 +19,10 @@ rounding_effects& rounding_effects::operator+=(const rounding_effects& other) {
     return *this;
 }
 
-rounding_effects effects_of_rounding(const prepared_mesh& mesh, const transform<3>& by,
+rounding_effects effects_of_rounding(const mesh_ref& given, const transform<3>& by,
                                      points_view placed, const rounding_options& options) {
+    const detail::base::prepared_ref held(given);
+    const prepared_mesh& mesh = held;
     const mesh_view moving = mesh.view();
     if (placed.size() != moving.points.size())
         throw std::invalid_argument(
@@ -26,24 +30,19 @@ rounding_effects effects_of_rounding(const prepared_mesh& mesh, const transform<
     const bool to_float32 =
         options.after == precision::float32 && options.before == precision::float64;
     rounding_effects found;
-    found.max_displacement = treeform::max_displacement(moving.points, by, placed);
+    found.max_displacement = detail::max_displacement(moving.points, by, placed);
     found.step = coordinate_step(placed, options.after);
     const auto box = bounding_box(moving.points);
     found.noticeable = found.max_displacement > 0.0 &&
-                       (to_float32 || found.max_displacement > 1e-6 * (box ? diagonal(*box) : 0));
+                       (to_float32 || found.max_displacement > 1e-6 * (box ? box->diagonal() : 0));
     const bool coarser = found.step > coordinate_step(moving.points, options.before);
     if (!coarser || !(found.max_displacement > 0.0) || mesh.is_cloud()) return found;
     const rounding_defects defects = find_rounding_defects(moving, placed, options.progress);
     found.compared = true;
     found.collapsed = defects.collapsed;
     found.meeting = defects.meeting;
-    if (defects.cancelled) found.status = status::cancelled;
+    if (defects.status == treeform::status::cancelled) found.status = status::cancelled;
     return found;
-}
-
-rounding_effects effects_of_rounding(mesh_view moving, const transform<3>& by, points_view placed,
-                                     const rounding_options& options) {
-    return effects_of_rounding(prepared_mesh::borrow(moving), by, placed, options);
 }
 
 }  // namespace treeform

@@ -41,7 +41,7 @@ surface_faults all_faults(mesh_view surface, const surface_check& check) {
     surface_faults result;
     self_intersection_result found = self_intersections(
         surface, {.vertices = vertex_identity::by_index, .progress = check.progress});
-    result.cancelled = found.cancelled;
+    result.cancelled = found.status == treeform::status::cancelled;
     if (result.cancelled) return result;
     result.pairs = std::move(found.pairs);
     result.degenerate = find_defects(surface).degenerate_faces;
@@ -69,7 +69,7 @@ aabb<double, 3> box_of(points_view points, const face& f) {
 
 /// `doubted` and the faces whose boxes meet one of theirs, ascending: all others meet none of
 /// them, not even in a corner.
-ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::uint8_t> sound) {
+ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::uint8_t> certified) {
     const std::vector<face> asked = faces_of(surface, doubted);
     const tree<3> tree = build_face_tree({surface.points, asked});
     std::vector<aabb<double, 3>> boxes(chunk_count(asked.size(), light_grain));
@@ -92,7 +92,7 @@ ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::u
     grid.finish();
     const auto is_near = [&](std::size_t f) {
         const auto& [a, b, c] = surface.faces[f];
-        if (sound[f] == 0) return true;
+        if (certified[f] == 0) return true;
         if (!grid.may_meet(cell[a], cell[b], cell[c])) return false;
         const auto box = box_of(surface.points, surface.faces[f]);
         return overlaps(box, reach) && search_any(tree, box, [](std::uint32_t) { return true; });
@@ -106,16 +106,16 @@ ids with_neighbors(mesh_view surface, const ids& doubted, std::span<const std::u
     return base::flattened(std::move(found));
 }
 
-/// Whether an edge of a face that is not sound is open. At edges of sound faces alone nothing has
-/// changed.
-bool is_open(const near_edges& edges, std::span<const std::uint8_t> sound) {
+/// Whether an edge of a face that is not certified is open. At edges of certified faces alone
+/// nothing has changed.
+bool is_open(const near_edges& edges, std::span<const std::uint8_t> certified) {
     std::atomic<bool> open{false};
     edges.for_each([&](std::span<const near_edges::use> uses) {
         std::int64_t sum = 0;
         bool doubted = false;
         for (const near_edges::use& use : uses) {
             sum += use.way;
-            doubted = doubted || sound[edges.faces()[use.place]] == 0;
+            doubted = doubted || certified[edges.faces()[use.place]] == 0;
         }
         if (doubted && sum != 0) open = true;
     });
@@ -125,17 +125,17 @@ bool is_open(const near_edges& edges, std::span<const std::uint8_t> sound) {
 }  // namespace
 
 surface_faults find_faults(mesh_view surface, const surface_check& check) {
-    if (check.sound.empty()) return all_faults(surface, check);
+    if (check.certified.empty()) return all_faults(surface, check);
     const std::size_t count = surface.faces.size();
     ids doubted;
     base::compact(
-        count, [&](std::size_t f) { return check.sound[f] == 0; },
+        count, [&](std::size_t f) { return check.certified[f] == 0; },
         [&](std::size_t found) { doubted.resize(found); },
         [&](std::size_t f, std::size_t place) { doubted[place] = static_cast<std::uint32_t>(f); });
     surface_faults result;
     if (doubted.empty()) return result;
-    const ids near =
-        doubted.size() > count / 2 ? all_of(count) : with_neighbors(surface, doubted, check.sound);
+    const ids near = doubted.size() > count / 2 ? all_of(count)
+                                                : with_neighbors(surface, doubted, check.certified);
     const std::vector<face> faces = faces_of(surface, near);
     const mesh_view part{surface.points, faces};
     self_intersection_result found;
@@ -149,13 +149,13 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
         [&] {
             if (check.solid) edges.emplace(surface, near);
         });
-    result.cancelled = found.cancelled;
+    result.cancelled = found.status == treeform::status::cancelled;
     if (result.cancelled) return result;
     for (const face_pair& pair : found.pairs)
         result.pairs.push_back({near[pair.a], near[pair.b], pair.kind});
     for (std::uint32_t& f : result.degenerate) f = near[f];
     if (!check.solid) return result;
-    result.open = is_open(*edges, check.sound);
+    result.open = is_open(*edges, check.certified);
     find_turned(surface, *edges, check, result);
     return result;
 }

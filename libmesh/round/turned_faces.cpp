@@ -1,4 +1,4 @@
-#include <libmesh/arrange/way_out.hpp>
+#include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/arrange/winding_beside.hpp>
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_math.hpp>
@@ -56,18 +56,18 @@ std::vector<std::uint32_t> find_turned_faces(mesh_view surface, const near_edges
     const aabb<double, 3> box = box_of_root(tree);
     const auto corners = [&](std::uint32_t f) { return base::triangle_of(surface, f); };
     std::vector<std::uint8_t> is_turned(first.size() - 1, 0);
-    for_chunks(is_turned.size(), parts_a_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t part = begin; part < end; ++part) {
-                       const triangle3 t = corners(near.faces()[loose[first[part]][1]]);
-                       const auto [line, ahead] = arrange::find_way_out({t[0], t[1], t[2]}, t, box);
-                       std::int64_t winding = arrange::winding_beside(
-                           tree, corners, line, arrange::way_along(line, ahead), ahead);
-                       if (rest) winding += rest(line, ahead);
-                       const bool in_front = (line.faces() > 0) == ahead;
-                       is_turned[part] = winding != (in_front ? 0 : 1);
-                   }
-               });
+    for_chunks(
+        is_turned.size(), parts_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t part = begin; part < end; ++part) {
+                const triangle3 t = corners(near.faces()[loose[first[part]][1]]);
+                const auto [line, ahead] = arrange::find_escape_ray({t[0], t[1], t[2]}, t, box);
+                std::int64_t winding = arrange::winding_beside(
+                    tree, corners, line, arrange::way_along(line, ahead), ahead);
+                if (rest) winding += rest(line, ahead);
+                const bool in_front = (line.faces() > 0) == ahead;
+                is_turned[part] = winding != (in_front ? 0 : 1);
+            }
+        });
     std::vector<std::uint32_t> turned;
     for (std::size_t part = 0; part < is_turned.size(); ++part)
         for (std::size_t i = first[part]; is_turned[part] != 0 && i < first[part + 1]; ++i)

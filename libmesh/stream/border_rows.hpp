@@ -35,7 +35,7 @@ using border_row = std::array<std::uint64_t, border_numbers>;
 [[nodiscard]] inline asked_point asked_of(numbers row) { return {row[0], point_of(row), row[4]}; }
 
 [[nodiscard]] inline bool has_leader(const border_point& b) {
-    return b.kind() == border_kind::leaning || b.kind() == border_kind::link;
+    return b.kind() == border_kind::provisional || b.kind() == border_kind::link;
 }
 
 /// Returns the number of rows.

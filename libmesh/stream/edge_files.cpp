@@ -30,7 +30,7 @@ std::uint64_t count_threes(const std::vector<Edge>& uses) {
 }  // namespace
 
 template <class Edge>
-edge_files<Edge>::edge_files(const work_folder& folder, const team& all, std::string name,
+edge_files<Edge>::edge_files(const work_folder& folder, const communicator& all, std::string name,
                              std::uint64_t uses, std::uint64_t memory)
     : folder_(folder),
       all_(all),
@@ -59,7 +59,7 @@ std::filesystem::path edge_files<Edge>::path(std::size_t bucket, std::size_t ran
 }
 
 template <class Edge>
-std::uint64_t edge_files<Edge>::count_nonmanifold(pacer& pace) {
+std::uint64_t edge_files<Edge>::count_nonmanifold(cancellable_progress& pace) {
     state_writer mine;
     for (record_writer<Edge>& writer : writers_) store_count(writer.finish_unsynced(), mine);
     std::vector<std::vector<record_count>> counts;  // of [a] process in [b] bucket
@@ -77,7 +77,7 @@ std::uint64_t edge_files<Edge>::count_nonmanifold(pacer& pace) {
 template <class Edge>
 std::uint64_t edge_files<Edge>::count_bucket(std::size_t bucket,
                                              const std::vector<std::vector<record_count>>& counts,
-                                             pacer& pace) const {
+                                             cancellable_progress& pace) const {
     std::vector<Edge> uses;
     for (std::size_t r = 0; r < counts.size(); ++r) {
         record_reader<Edge> reader(path(bucket, r), counts[r][bucket], bytes_at_a_time);

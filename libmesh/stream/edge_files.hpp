@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Counts edges of more than two faces, of more faces than memory holds, which each of a team has some
+/// Counts edges of more than two faces, of more faces than memory holds, which each rank has some
 /// of.
 
-#include <libmesh/stream/pacer.hpp>
+#include <libmesh/stream/cancellable_progress.hpp>
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/record_file.hpp>
-#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -39,15 +39,15 @@ using placed_edge = std::array<std::uint64_t, 3>;  ///< by the places of its end
     return {from[0] << 32 | from[1], from[2] << 32 | to[0], to[1] << 32 | to[2]};
 }
 
-/// All uses of an edge go to the same of several buckets, each of which memory holds. Each of a team
+/// All uses of an edge go to the same of several buckets, each of which memory holds. Each rank
 /// has a file for its uses of a bucket, and counts a share of the buckets.
 template <class Edge>
 class TREEFORM_API edge_files {
   public:
-    /// For at most `uses` of edges by all of a team. Files are called `name` and numbers. About
+    /// For at most `uses` of edges by all ranks. Files are called `name` and numbers. About
     /// `memory` bytes are held.
-    edge_files(const work_folder& folder, const team& all, std::string name, std::uint64_t uses,
-               std::uint64_t memory);
+    edge_files(const work_folder& folder, const communicator& all, std::string name,
+               std::uint64_t uses, std::uint64_t memory);
     ~edge_files();
     edge_files(const edge_files&) = delete;
     edge_files& operator=(const edge_files&) = delete;
@@ -56,15 +56,15 @@ class TREEFORM_API edge_files {
     void put(const Edge& edge) {
         writers_[static_cast<std::size_t>((mixed(edge) >> 32) * writers_.size() >> 32)].put(edge);
     }
-    /// How many edges more than two faces have, of those of all of the team. Call it once, after all
-    /// were put; all come here. \throws stream_error, cancelled
-    [[nodiscard]] std::uint64_t count_nonmanifold(pacer& pace);
+    /// How many edges more than two faces have, of those of all ranks. Call it once, after all
+    /// were put. Collective: every rank must call this. \throws stream_error, cancelled
+    [[nodiscard]] std::uint64_t count_nonmanifold(cancellable_progress& pace);
 
   private:
     [[nodiscard]] std::filesystem::path path(std::size_t bucket, std::size_t rank) const;
     [[nodiscard]] std::uint64_t count_bucket(std::size_t bucket,
                                              const std::vector<std::vector<record_count>>& counts,
-                                             pacer& pace) const;
+                                             cancellable_progress& pace) const;
     static std::uint64_t mixed(std::uint64_t edge) { return edge * 0x9e3779b97f4a7c15; }
     static std::uint64_t mixed(const placed_edge& edge) {
         std::uint64_t sum = 0;
@@ -73,7 +73,7 @@ class TREEFORM_API edge_files {
     }
 
     const work_folder& folder_;
-    const team& all_;
+    const communicator& all_;
     std::string name_;
     std::vector<record_writer<Edge>> writers_{};  ///< for each bucket
     std::size_t most_;                            ///< uses held at a time

@@ -17,8 +17,8 @@ constexpr std::size_t bytes_at_once = std::size_t{1} << 20;
 
 }  // namespace
 
-fs::path part_path(const fs::path& to, const team* all, const fs::path& part) {
-    return all == nullptr || all->leads() ? fs::path(to.string() + ".unfinished") : part;
+fs::path part_path(const fs::path& to, const communicator* all, const fs::path& part) {
+    return all == nullptr || all->is_root() ? fs::path(to.string() + ".unfinished") : part;
 }
 
 void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, std::uint64_t at,
@@ -33,7 +33,7 @@ void copy_bytes(const fs::path& from, std::uint64_t first, const fs::path& to, s
     }
 }
 
-text_out::text_out(fs::path to, const team* all, const fs::path& part)
+text_out::text_out(fs::path to, const communicator* all, const fs::path& part)
     : target_(std::move(to)), path_(part_path(target_, all, part)), all_(all) {
     fs::remove(path_);
 }
@@ -59,17 +59,17 @@ void text_out::commit() {
         state_writer mine;
         mine.text(path_.string());
         mine.number(written_);
-        std::vector<state_reader> told = all_->exchange(mine);
-        const fs::path whole = told.front().text();
-        std::uint64_t at = told.front().number();
+        std::vector<state_reader> received = all_->exchange(mine);
+        const fs::path whole = received.front().text();
+        std::uint64_t at = received.front().number();
         for (std::size_t r = 1; r < all_->rank(); ++r) {
-            static_cast<void>(told[r].text());
-            at += told[r].number();
+            static_cast<void>(received[r].text());
+            at += received[r].number();
         }
-        if (!all_->leads()) copy_bytes(path_, 0, whole, at, written_);
-        all_->meet();
+        if (!all_->is_root()) copy_bytes(path_, 0, whole, at, written_);
+        all_->barrier();
     }
-    if (all_ == nullptr || all_->leads())
+    if (all_ == nullptr || all_->is_root())
         fs::rename(path_, target_);
     else
         fs::remove(path_);

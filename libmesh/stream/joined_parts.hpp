@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// One file of the parts that each of a team writes.
+/// One file of the parts that each rank writes.
 
-#include <libmesh/stream/team.hpp>
+#include <libmesh/stream/communicator.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -15,20 +15,21 @@ namespace treeform::detail::stream {
 void copy_bytes(const std::filesystem::path& from, std::uint64_t first,
                 const std::filesystem::path& to, std::uint64_t at, std::uint64_t count);
 
-/// Where one writes its part of a file, the first of a team the whole: `part` is that of another.
-[[nodiscard]] std::filesystem::path part_path(const std::filesystem::path& to, const team* all,
+/// Where one writes its part of a file, rank 0 the whole: `part` is that of another.
+[[nodiscard]] std::filesystem::path part_path(const std::filesystem::path& to,
+                                              const communicator* all,
                                               const std::filesystem::path& part);
 
 /// Text on its way to a file.
 class text_out {
   public:
-    /// `all` is the team whose members write a part each, the others in `part`; none: it is written
+    /// `all` are the ranks that write a part each, the others in `part`; none: it is written
     /// here.
-    text_out(std::filesystem::path to, const team* all, const std::filesystem::path& part);
+    text_out(std::filesystem::path to, const communicator* all, const std::filesystem::path& part);
 
     /// \throws io_error
     void write(std::string_view text);
-    /// Finishes the file. All come here. \throws io_error
+    /// Finishes the file. Collective: every rank must call this. \throws io_error
     void commit();
 
   private:
@@ -36,7 +37,7 @@ class text_out {
 
     std::filesystem::path target_;
     std::filesystem::path path_;
-    const team* all_;
+    const communicator* all_;
     std::string held_{};
     std::uint64_t written_ = 0;
 };

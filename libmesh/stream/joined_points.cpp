@@ -20,14 +20,14 @@ mesh_file file_of(const mesh_file& header, point_block points) {
     file.warnings.clear();
     file.mesh.points = std::move(points.points);
     if (!points.properties.columns.empty())
-        obtain_element(file.attributes, "vertex", 0) = std::move(points.properties);
+        file.attributes.obtain("vertex", 0) = std::move(points.properties);
     return file;
 }
 
 bool same_columns(const mesh_file& a, const mesh_file& b) {
     const element none;
-    const element* const x = find_element(a.attributes, "vertex");
-    const element* const y = find_element(b.attributes, "vertex");
+    const element* const x = a.attributes.find("vertex");
+    const element* const y = b.attributes.find("vertex");
     return std::ranges::equal((x == nullptr ? none : *x).columns,
                               (y == nullptr ? none : *y).columns,
                               [](const column& c, const column& d) {
@@ -46,7 +46,7 @@ void clear_rows(mesh_file& file) {
 
 }  // namespace
 
-joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team& all)
+joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const communicator& all)
     : inputs_(inputs), as_las_(as_las), known_(look_at_records(inputs.paths, how(), all)) {
     std::vector<mesh_file> firsts;
     for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
@@ -73,7 +73,7 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const team
 /// Of a file that is not unpacked yet, zeros in its place: what it is does not matter.
 point_block joined_points::read_first(std::uint64_t count) {
     point_block first;
-    const element* const vertices = find_element(reader_->header().attributes, "vertex");
+    const element* const vertices = reader_->header().attributes.find("vertex");
     if (vertices == nullptr || formats_.back() != io::name_of(io::pcd_encoding::compressed)) {
         reader_->read(first, 1);
         return first;
@@ -145,7 +145,7 @@ void joined_points::fit(point_block& block) {
         const std::vector<std::string> names(2);
         mesh_file file = join(std::move(both), names, {.mixed = true});
         block.points = std::move(file.mesh.points);
-        block.properties = std::move(obtain_element(file.attributes, "vertex", 0));
+        block.properties = std::move(file.attributes.obtain("vertex", 0));
     }
     if (!is_rounded()) return;
     single_ = fits_single(block.points);

@@ -4,7 +4,7 @@
 
 #include <libmesh/io/las_grid_choice.hpp>
 #include <libmesh/io/point_blocks.hpp>
-#include <libmesh/stream/team.hpp>
+#include <libmesh/stream/communicator.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
@@ -22,12 +22,12 @@ namespace treeform::detail::stream {
 class joined_points {
   public:
     /// Reads what precedes the points of each file, and text once, of which each of `all` reads its
-    /// share of the bytes; of several also points with lists. All come here. With `as_las`,
-    /// coordinates become those that a LAS file with the first one's scale and offset holds, or with
-    /// those that are set.
+    /// share of the bytes; of several also points with lists. Collective: every rank must call
+    /// this. With `as_las`, coordinates become those that a LAS file with the first one's scale and
+    /// offset holds, or with those that are set.
     ///
     /// \throws io_error, std::invalid_argument as `join`
-    joined_points(const cloud_inputs& inputs, bool as_las, const team& all);
+    joined_points(const cloud_inputs& inputs, bool as_las, const communicator& all);
 
     /// Of all files together, without points.
     [[nodiscard]] const mesh_file& header() const { return head_; }

@@ -74,7 +74,7 @@ class mean_point {
 
 packed_points::packed_points(const mesh_file& header) {
     std::size_t bytes = 3 * sizeof(double);
-    if (const element* const vertices = find_element(header.attributes, "vertex"))
+    if (const element* const vertices = header.attributes.find("vertex"))
         for (std::size_t c = 0; c < vertices->columns.size(); ++c) {
             const column& from = vertices->columns[c];
             if (from.role != column_role::data || from.list_length) continue;
@@ -108,8 +108,8 @@ void packed_points::unpack(numbers from, point_block& block, std::size_t point) 
     }
 }
 
-kept_rows::kept_rows(pacer& pace, const work_folder& folder, const team& all, const tile_task& task,
-                     tile_steps& steps, tiles_welded& w)
+kept_rows::kept_rows(cancellable_progress& pace, const work_folder& folder, const communicator& all,
+                     const tile_task& task, tile_steps& steps, tiles_welded& w)
     : folder_(folder),
       all_(all),
       keep_(task.options.keep),
@@ -122,11 +122,11 @@ kept_rows::kept_rows(pacer& pace, const work_folder& folder, const team& all, co
       has_all_(all.is_alone()) {
     gather(pace, steps, w);
     choose(pace);
-    tell_givers();
+    send_to_givers();
     w.max_displacement = all.most(longest_move(pace));
 }
 
-void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
+void kept_rows::gather(cancellable_progress& pace, tile_steps& steps, const tiles_welded& w) {
     tile_steps::leaders leaders(steps, all_, w);
     joined_points& source = steps.source();
     source.rewind(w.points);
@@ -148,7 +148,7 @@ void kept_rows::gather(pacer& pace, tile_steps& steps, const tiles_welded& w) {
 }
 
 /// Of points of equal keys the first is kept, as by `kept_points`.
-void kept_rows::choose(pacer& pace) {
+void kept_rows::choose(cancellable_progress& pace) {
     row_writer rows(path(all_.rank()), piece);
     mean_point mean(packed_);
     std::vector<std::uint64_t> best;
@@ -185,25 +185,25 @@ void kept_rows::choose(pacer& pace) {
 }
 
 void kept_rows::share_rows(const record_count& mine) {
-    state_writer told;
-    store_count(mine, told);
-    told.number(single_ ? 1 : 0);
-    for (state_reader& one : all_.exchange(told)) {
+    state_writer sent;
+    store_count(mine, sent);
+    sent.number(single_ ? 1 : 0);
+    for (state_reader& one : all_.exchange(sent)) {
         counts_.push_back(load_count(one));
         single_ = one.number() != 0 && single_;
     }
 }
 
-void kept_rows::tell_givers() {
+void kept_rows::send_to_givers() {
     changes_.send();
     for (row_reader& from : changes_.received())
         for (; !from.empty(); from.pop()) givers_.keep(from.front()[1]);
 }
 
-void kept_rows::tell_first(const tiles_welded& w) {
+void kept_rows::gather_first(const tiles_welded& w) {
     if (has_all_) return;
     next_.reset();
-    has_all_ = all_.leads();
+    has_all_ = all_.is_root();
     if (!has_all_) return;
     givers_ = w.kept;
     for (row_reader& from : changes_.received_by_all())
@@ -213,7 +213,7 @@ void kept_rows::tell_first(const tiles_welded& w) {
         }
 }
 
-double kept_rows::longest_move(pacer& pace) {
+double kept_rows::longest_move(cancellable_progress& pace) {
     weld::longest_move longest;
     rewind();
     std::uint64_t count = 0;

@@ -2,7 +2,7 @@
 /// \file
 /// What is kept of groups of several points, where it is not simply the first of them.
 
-#include <libmesh/stream/posted_rows.hpp>
+#include <libmesh/stream/all_to_all.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <cstddef>
@@ -34,17 +34,17 @@ class packed_points {
     std::vector<field> fields_{};
 };
 
-/// The rows that stand for the groups of several points, by ascending number of their first. Of a
-/// team, each has those of the first points that it is told of.
+/// The rows that stand for the groups of several points, by ascending number of their first. Of
+/// several ranks, each has those of the first points that it is told of.
 class kept_rows {
   public:
     /// Reads the points that the process is told of. Replaces the longest move of `w` by that to
-    /// what is kept. All of `all` come here.
-    kept_rows(pacer& pace, const work_folder& folder, const team& all, const tile_task& task,
-              tile_steps& steps, tiles_welded& w);
+    /// what is kept. Collective: every rank must call this.
+    kept_rows(cancellable_progress& pace, const work_folder& folder, const communicator& all,
+              const tile_task& task, tile_steps& steps, tiles_welded& w);
 
-    /// The first of a team gets the rows of all. \pre it has been told of all points
-    void tell_first(const tiles_welded& w);
+    /// Rank 0 gets the rows of all. \pre it has been told of all points
+    void gather_first(const tiles_welded& w);
 
     /// Whether the point gives its properties to what is kept.
     [[nodiscard]] bool gives(std::uint64_t point) const { return givers_.keeps(point); }
@@ -59,23 +59,23 @@ class kept_rows {
     void replace(point_block& block, std::size_t point);
 
   private:
-    void gather(pacer& pace, tile_steps& steps, const tiles_welded& w);
-    void choose(pacer& pace);
-    void tell_givers();
+    void gather(cancellable_progress& pace, tile_steps& steps, const tiles_welded& w);
+    void choose(cancellable_progress& pace);
+    void send_to_givers();
     void share_rows(const record_count& mine);
-    [[nodiscard]] double longest_move(pacer& pace);
+    [[nodiscard]] double longest_move(cancellable_progress& pace);
     [[nodiscard]] std::size_t owner_of(std::uint64_t point) const {
         return all_.owner_of(point, points_);
     }
     [[nodiscard]] std::filesystem::path path(std::size_t rank) const;
 
     const work_folder& folder_;
-    const team& all_;
+    const communicator& all_;
     weld_keep keep_;
     std::uint64_t points_;
     packed_points packed_;
     shared_sorter members_;  ///< leader, number, key, and the packed point
-    posted_rows changes_;    ///< first points of groups, and those that give instead
+    all_to_all changes_;     ///< first points of groups, and those that give instead
     kept_points givers_;
     bool single_ = true;
     bool has_all_;

@@ -9,14 +9,14 @@ namespace {
 
 using io::las_grid_choice;
 
-void look_at_all(las_grid_choice& choice, const pass_of_points& each, const team& all) {
+void look_at_all(las_grid_choice& choice, const pass_of_points& each, const communicator& all) {
     each([&](points_view some) { choice.look(some); });
-    state_writer told;
+    state_writer sent;
     for (const las_grid_choice::range& r : choice.ranges()) {
-        told.real(r.low);
-        told.real(r.high);
+        sent.real(r.low);
+        sent.real(r.high);
     }
-    for (state_reader& one : all.exchange(told))
+    for (state_reader& one : all.exchange(sent))
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double low = one.real();
             choice.add(axis, {low, one.real()});
@@ -24,15 +24,15 @@ void look_at_all(las_grid_choice& choice, const pass_of_points& each, const team
 }
 
 /// Whether all agree that the scales hold all points.
-bool try_on_all(las_grid_choice& choice, const pass_of_points& each, const team& all) {
+bool try_on_all(las_grid_choice& choice, const pass_of_points& each, const communicator& all) {
     each([&](points_view some) { choice.try_on(some); });
-    state_writer told;
-    told.number(choice.must_try_again() ? 1 : 0);
-    for (const int d : choice.tried()) told.number(static_cast<std::uint64_t>(d));
+    state_writer sent;
+    sent.number(choice.must_try_again() ? 1 : 0);
+    for (const int d : choice.tried()) sent.number(static_cast<std::uint64_t>(d));
     bool agreed = true;
     las_grid_choice::digits most{};
     std::vector<las_grid_choice::digits> tried;
-    for (state_reader& one : all.exchange(told)) {
+    for (state_reader& one : all.exchange(sent)) {
         agreed = one.number() == 0 && agreed;
         las_grid_choice::digits& of_one = tried.emplace_back();
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -47,7 +47,8 @@ bool try_on_all(las_grid_choice& choice, const pass_of_points& each, const team&
 
 }  // namespace
 
-las_header las_grid_of(const pass_of_points& each, const team& all, const io::las_grid_wish& wish) {
+las_header las_grid_of(const pass_of_points& each, const communicator& all,
+                       const io::las_grid_wish& wish) {
     las_grid_choice choice;
     look_at_all(choice, each, all);
     while (!try_on_all(choice, each, all)) {
@@ -57,8 +58,8 @@ las_header las_grid_of(const pass_of_points& each, const team& all, const io::la
     return header;
 }
 
-las_header las_grid_of(joined_points& points, const team& all, const share& mine, pacer& pace,
-                       const io::las_grid_wish& wish) {
+las_header las_grid_of(joined_points& points, const communicator& all, const share& mine,
+                       cancellable_progress& pace, const io::las_grid_wish& wish) {
     const auto each = [&](const std::function<void(points_view)>& take) {
         point_block block;
         points.rewind(mine);

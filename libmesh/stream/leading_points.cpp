@@ -14,7 +14,7 @@ constexpr std::uint64_t held_bytes = std::uint64_t{1} << 22;
 point_block block_like(const mesh_file& header, std::size_t points) {
     point_block block;
     block.points.resize(points);
-    if (const element* const vertices = find_element(header.attributes, "vertex"))
+    if (const element* const vertices = header.attributes.find("vertex"))
         block.properties = *vertices;
     io::resize_columns(block.properties, points);
     return block;
@@ -22,15 +22,16 @@ point_block block_like(const mesh_file& header, std::size_t points) {
 
 }  // namespace
 
-leading_points::leading_points(const work_folder& folder, const team& all, const std::string& name,
-                               const mesh_file& header, std::uint64_t mine, std::uint64_t together)
-    : header_(header), packed_(header), posted_(folder, all, name, packed_.width(), held_bytes) {
-    state_writer told;
-    told.number(mine);
+leading_points::leading_points(const work_folder& folder, const communicator& all,
+                               const std::string& name, const mesh_file& header, std::uint64_t mine,
+                               std::uint64_t together)
+    : header_(header), packed_(header), exchanged_(folder, all, name, packed_.width(), held_bytes) {
+    state_writer sent;
+    sent.number(mine);
     std::vector<std::uint64_t> parts;  // where they begin
     std::uint64_t before = 0;
     std::uint64_t first = 0;
-    for (state_reader& one : all.exchange(told)) {
+    for (state_reader& one : all.exchange(sent)) {
         if (parts.size() == all.rank()) first = before;
         parts.push_back((before + together - 1) / together * together);
         before += one.number();
@@ -47,18 +48,18 @@ void leading_points::take_off(point_block& block) {
     for (std::uint32_t i = 0; i < some; ++i) {
         row_.clear();
         packed_.pack(block, i, row_);
-        posted_.put(to_, row_);
+        exchanged_.put(to_, row_);
     }
     left_ -= some;
     std::vector<std::uint32_t> rest(block.points.size() - some);
     std::iota(rest.begin(), rest.end(), some);
     block.points.erase(block.points.begin(), block.points.begin() + some);
-    block.properties = gather(block.properties, rest);
+    block.properties = block.properties.gathered(rest);
 }
 
 void leading_points::give(const std::function<void(const point_block&)>& write) {
-    posted_.send();
-    for (row_reader& from : posted_.received())
+    exchanged_.send();
+    for (row_reader& from : exchanged_.received())
         while (!from.empty()) {
             std::vector<std::uint64_t> rows;
             const std::size_t most = points_a_block * packed_.width();
@@ -70,7 +71,7 @@ void leading_points::give(const std::function<void(const point_block&)>& write) 
                                i);
             write(block);
         }
-    posted_.remove_received();
+    exchanged_.remove_received();
 }
 
 }  // namespace treeform::detail::stream

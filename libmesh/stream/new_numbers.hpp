@@ -2,7 +2,7 @@
 /// \file
 /// The numbers that points have when they are welded.
 
-#include <libmesh/stream/pacer.hpp>
+#include <libmesh/stream/cancellable_progress.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace treeform::detail::stream {
 /// belong to; asked for one by one, from the first point that the process is told of on.
 class new_numbers {
   public:
-    /// All of `all` come here, each with its points.
-    new_numbers(pacer& pace, const work_folder& folder, const team& all, tile_steps& steps,
-                tiles_welded& welded);
+    /// Collective: every rank must call this, with its points.
+    new_numbers(cancellable_progress& pace, const work_folder& folder, const communicator& all,
+                tile_steps& steps, tiles_welded& welded);
 
     [[nodiscard]] std::uint64_t of(std::uint64_t point);
 
   private:
-    void ask_others(pacer& pace, const work_folder& folder, const team& all,
+    void ask_others(cancellable_progress& pace, const work_folder& folder, const communicator& all,
                     const tile_steps& steps);
 
     tiles_welded& welded_;

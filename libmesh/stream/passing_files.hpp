@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Files that all of a team see for some time.
+/// Files that all ranks see for some time.
 
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/record_file.hpp>
-#include <libmesh/stream/team.hpp>
 
 #include <filesystem>
 #include <system_error>
@@ -12,10 +12,10 @@
 
 namespace treeform::detail::stream {
 
-/// The first of the team makes them, and removes them at the end, whatever that is.
+/// Rank 0 makes them, and removes them at the end, whatever that is.
 class passing_files {
   public:
-    explicit passing_files(const team& all) : all_(all) {}
+    explicit passing_files(const communicator& all) : all_(all) {}
     passing_files(const passing_files&) = delete;
     passing_files& operator=(const passing_files&) = delete;
     ~passing_files() {
@@ -26,14 +26,14 @@ class passing_files {
     /// Makes an empty one, in the place of what a killed run has left. Others see it when they have
     /// been told of it. \throws stream_error
     void add(std::filesystem::path file) {
-        if (!all_.leads()) return;
+        if (!all_.is_root()) return;
         std::filesystem::remove(file);
         files_.push_back(std::move(file));
         append_to(files_.back(), {});
     }
 
   private:
-    const team& all_;
+    const communicator& all_;
     std::vector<std::filesystem::path> files_{};
 };
 

@@ -19,14 +19,14 @@ void with_properties(point_block& block, const Look& look) {
 }
 
 bool is_whole(const attributes& properties, const std::string& name) {
-    const element* const vertices = find_element(properties, "vertex");
-    const column* const c = vertices == nullptr ? nullptr : find_column(*vertices, name);
+    const element* const vertices = properties.find("vertex");
+    const column* const c = vertices == nullptr ? nullptr : vertices->find(name);
     return c != nullptr && c->role == column_role::data &&
            (c->type == scalar_type::int64 || c->type == scalar_type::uint64);
 }
 
 void refuse_lists(const mesh_file& header) {
-    if (const element* const vertices = find_element(header.attributes, "vertex"))
+    if (const element* const vertices = header.attributes.find("vertex"))
         for (const column& c : vertices->columns)
             if (c.list_length)
                 throw std::invalid_argument(
@@ -44,8 +44,8 @@ point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
                              .keep_by = o.keep_by,
                              .order = o.order,
                              .order_by = o.order_by};
-    const element* const faces = find_element(header.attributes, "face");
-    conditions_ = weld_conditions(header.attributes, faces != nullptr && faces->rows > 0, asked);
+    const element* const faces = header.attributes.find("face");
+    conditions_ = asked.conditions(header.attributes, faces != nullptr && faces->rows > 0);
     std::vector<weld::agreement::condition> all;
     for (const weld_condition& c : conditions_) {
         if (!(c.tolerance >= 0.0) || !std::isfinite(c.tolerance))
@@ -86,7 +86,7 @@ void point_keys::choice_of(point_block& block, std::vector<std::uint64_t>& to) c
     take(block, choice_, to);
 }
 
-void point_keys::take(point_block& block, const place& p, std::vector<std::uint64_t>& to) {
+void point_keys::take(point_block& block, const key_column& p, std::vector<std::uint64_t>& to) {
     to.assign(block.points.size(), 0);
     if (p.property.empty()) return;
     with_properties(block, [&](const attributes& properties) {

@@ -30,16 +30,16 @@ class point_keys {
     void choice_of(point_block& block, std::vector<std::uint64_t>& to) const;
 
   private:
-    struct place {
+    struct key_column {
         std::string property{};
         bool lowest = true;
     };
-    static void take(point_block& block, const place& p, std::vector<std::uint64_t>& to);
+    static void take(point_block& block, const key_column& p, std::vector<std::uint64_t>& to);
 
     std::vector<weld_condition> conditions_{};
     weld::agreement agree_{};
-    place order_{};
-    place choice_{};
+    key_column order_{};
+    key_column choice_{};
 };
 
 }  // namespace treeform::detail::stream

@@ -28,7 +28,7 @@ point3 placed_points::at(std::uint32_t point) {
     return p;
 }
 
-shared_points::shared_points(const work_folder& folder, const team& all, std::size_t count,
+shared_points::shared_points(const work_folder& folder, const communicator& all, std::size_t count,
                              std::uint64_t memory)
     : folder_(folder), rank_(all.rank()), looks_(memory) {
     for (std::size_t r = 0; r <= all.size(); ++r)

@@ -5,7 +5,7 @@
 #include <libmesh/io/face_rows.hpp>
 #include <libmesh/io/scratch.hpp>
 #include <libmesh/io/source.hpp>
-#include <libmesh/stream/team.hpp>
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/work_folder.hpp>
 
 #include <cstddef>
@@ -52,11 +52,11 @@ class placed_points : public io::point_store {
     std::size_t held_ = 0;  ///< bytes since memory was given back
 };
 
-/// In a file of each of a team.
+/// In a file of each rank.
 class shared_points : public io::point_store {
   public:
     /// Of `count` points, the process puts those of its `io::file_part`.
-    shared_points(const work_folder& folder, const team& all, std::size_t count,
+    shared_points(const work_folder& folder, const communicator& all, std::size_t count,
                   std::uint64_t memory);
 
     void put(points_view points) override;

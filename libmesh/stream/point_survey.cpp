@@ -21,8 +21,8 @@ std::uint64_t mix(std::uint64_t h) {
     return h ^ h >> 31;
 }
 
-/// Of points with keys, those whose key is hashed to zeros at the end, one a key: as many zeros as it
-/// takes to have room for them. Patterns in a file do not show in it.
+/// Of points with keys, those whose key is hashed to zeros at the end, one a key: as many zeros as
+/// it takes to have room for them. Patterns in a file do not show in it.
 class sampler {
   public:
     explicit sampler(std::size_t most) : most_(most) { chosen_.reserve(most); }
@@ -124,10 +124,10 @@ void add_survey(cloud_survey& sum, const cloud_survey& one) {
     sum.warnings.insert(sum.warnings.end(), one.warnings.begin(), one.warnings.end());
 }
 
-/// What all have seen, in the place of what one has. Where some could not read, all throw what is wrong
-/// first in the cloud.
-void unite(const team& all, const std::string& failure, point_survey& survey, sampler& chosen,
-           sampler& places, std::size_t most) {
+/// What all have seen, in the place of what one has. Where some could not read, all throw what is
+/// wrong first in the cloud.
+void unite(const communicator& all, const std::string& failure, point_survey& survey,
+           sampler& chosen, sampler& places, std::size_t most) {
     state_writer mine;
     mine.text(failure);
     store(survey, mine);
@@ -159,8 +159,8 @@ std::uint64_t cube_of(const point3& p, double tolerance) {
     return weld::cube_map::hash(index(p.x), index(p.y), index(p.z));
 }
 
-point_survey survey(joined_points& points, const team& all, const share& mine,
-                    std::optional<double> tolerance, std::size_t most, pacer& pace) {
+point_survey survey(joined_points& points, const communicator& all, const share& mine,
+                    std::optional<double> tolerance, std::size_t most, cancellable_progress& pace) {
     point_survey result;
     cloud_survey& s = result.cloud;
     sampler chosen(std::max(most / all.size(), std::size_t{1} << 12));

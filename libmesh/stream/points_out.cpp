@@ -10,7 +10,7 @@ namespace treeform::detail::stream {
 namespace fs = std::filesystem;
 
 points_out::points_out(const weld_stream_outputs::file& to, const mesh_file& header,
-                       std::uint64_t count, const team* all, const fs::path& part,
+                       std::uint64_t count, const communicator* all, const fs::path& part,
                        std::size_t most_corners)
     : target_(to.path),
       path_(all == nullptr ? to.path : part_path(to.path, all, part)),
@@ -28,7 +28,7 @@ void points_out::write(const point_block& block, const std::vector<std::uint32_t
     if (rows.empty()) return;
     some_.points.clear();
     for (const std::uint32_t row : rows) some_.points.push_back(block.points[row]);
-    some_.properties = gather(block.properties, rows);
+    some_.properties = block.properties.gathered(rows);
     if (leading_) leading_->take_off(some_);
     writer_.write(some_);
 }
@@ -67,7 +67,7 @@ void points_out::write(tile_faces& faces, bool all) {
         const std::uint64_t mine = writer_.end_part();
         const std::uint64_t points = all_->sum(mine);
         // That of the first one becomes the whole: the points of others are ahead of its rows.
-        if (all_->leads()) writer_.leave_room(points - mine);
+        if (all_->is_root()) writer_.leave_room(points - mine);
     }
     faces.give(writer_, all, all_ == nullptr);
 }
@@ -90,35 +90,35 @@ write_result points_out::commit() {
     mine.real(result.max_displacement);
     mine.text(path_.string());
     mine.text(head);
-    std::vector<state_reader> told = all_->exchange(mine);
+    std::vector<state_reader> received = all_->exchange(mine);
     std::uint64_t at = part.head;
     std::uint64_t rows_at = part.head;
     fs::path whole;
     std::vector<std::string> heads;
-    for (std::size_t r = 0; r < told.size(); ++r) {
-        const std::uint64_t bytes = told[r].number();
-        const std::uint64_t rows_of_one = told[r].number();
+    for (std::size_t r = 0; r < received.size(); ++r) {
+        const std::uint64_t bytes = received[r].number();
+        const std::uint64_t rows_of_one = received[r].number();
         rows_at += bytes;
         if (r < all_->rank()) {
             at += bytes;
             rows_at += rows_of_one;
         }
-        result.max_displacement = std::max(result.max_displacement, told[r].real());
-        const std::string path = told[r].text();
+        result.max_displacement = std::max(result.max_displacement, received[r].real());
+        const std::string path = received[r].text();
         if (r == 0) whole = path;
-        if (bytes > 0) heads.push_back(told[r].text());
+        if (bytes > 0) heads.push_back(received[r].text());
     }
     if (heads.empty()) heads.push_back(head);
-    if (!all_->leads()) {
+    if (!all_->is_root()) {
         copy_bytes(path_, part.head, whole, at, part.points);
         copy_bytes(path_, part.head + part.points, whole, rows_at, rows);
     }
-    if (all_->leads()) {
+    if (all_->is_root()) {
         const std::string joined = point_writer::join_heads(heads);
         write_to(whole, 0, std::as_bytes(std::span(joined)));
     }
-    all_->meet();
-    if (all_->leads())
+    all_->barrier();
+    if (all_->is_root())
         fs::rename(whole, target_);
     else
         fs::remove(path_);

@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// Points on their way to a file, of which each of a team may write a part.
+/// Points on their way to a file, of which each rank may write a part.
 
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/leading_points.hpp>
 #include <libmesh/stream/passing_files.hpp>
-#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/tile_faces.hpp>
 #include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -22,15 +22,16 @@ namespace treeform::detail::stream {
 /// Rows of a block on their way to a file of points.
 class points_out {
   public:
-    /// `all` is the team whose members write a part each; none: the file is written here.
+    /// `all` are the ranks that write a part each; none: the file is written here.
     points_out(const weld_stream_outputs::file& to, const mesh_file& header, std::uint64_t count,
-               const team* all, const std::filesystem::path& part, std::size_t most_corners = 0);
+               const communicator* all, const std::filesystem::path& part,
+               std::size_t most_corners = 0);
 
     [[nodiscard]] static write_options options_of(const weld_stream_outputs::file& to);
 
     void write(const point_block& block, const std::vector<std::uint32_t>& rows);
     void write(const point_block& block);
-    /// The process has `mine` of the points. All come here.
+    /// The process has `mine` of the points. Collective: every rank must call this.
     void start_part(const work_folder& folder, const mesh_file& header, const std::string& name,
                     std::uint64_t mine);
     void write(tile_faces& faces, bool all);
@@ -42,7 +43,7 @@ class points_out {
 
     std::filesystem::path target_;
     std::filesystem::path path_;
-    const team* all_;
+    const communicator* all_;
     point_writer writer_;
     std::optional<leading_points> leading_{};
     std::optional<passing_files> values_{};  ///< of all parts, where they share them

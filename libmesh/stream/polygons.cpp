@@ -26,7 +26,7 @@ class rejoiner {
             file_.stored_face[f] = face();
         }
         for (element& e : file_.attributes.elements)
-            if (e.name == "face") e = gather(e, first_triangle_);
+            if (e.name == "face") e = e.gathered(first_triangle_);
         for (part& part : file_.attributes.parts)
             part.first_face = part.first_face < file_.stored_face.size()
                                   ? file_.stored_face[part.first_face]

@@ -2,8 +2,8 @@
 /// \file
 /// Files of rows of 64-bit numbers, as many a row as their user says, and rows sorted on the disk.
 
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/record_file.hpp>
-#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/work_folder.hpp>
 
 #include <cstddef>
@@ -23,8 +23,8 @@ using row_writer = record_writer<std::uint64_t>;  ///< rows one after the other
 /// Rows of a file, one by one.
 class row_reader {
   public:
-    /// `expected` counts the numbers. `bytes` are read at a time, about. A share of the rows that is
-    /// not all is not checked.
+    /// `expected` counts the numbers. `bytes` are read at a time, about. A share of the rows that
+    /// is not all is not checked.
     row_reader(std::filesystem::path path, record_count expected, std::size_t width,
                std::size_t bytes, const share& some = {})
         : reader_(std::move(path), expected, bytes, width), width_(width) {

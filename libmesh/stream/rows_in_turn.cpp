@@ -18,15 +18,15 @@ struct row_range {
 
 class turns {
   public:
-    turns(const team& all, const file_of_rows& of) : all_(all), of_(of) {}
+    turns(const communicator& all, const file_of_rows& of) : all_(all), of_(of) {}
 
     [[nodiscard]] std::vector<io::row_place> take(
         const std::function<void(const row_block&)>& take_block,
         const std::function<void(const io::point_blocks&)>& done) {
         row_range last;
-        all_.take_turns([&](state_writer& mine) { tell(mine, last.last, take_block, done); },
-                        [&](state_reader told) {
-                            last = hear(told);
+        all_.sequential([&](state_writer& mine) { tell(mine, last.last, take_block, done); },
+                        [&](state_reader received) {
+                            last = hear(received);
                             places_.push_back(last.first);
                         });
         places_.push_back(last.last);
@@ -53,12 +53,12 @@ class turns {
 
     [[nodiscard]] static row_range hear(state_reader& one) {
         if (const std::string failure = one.text(); !failure.empty()) throw io_error(failure);
-        row_range told;
-        for (io::row_place* place : {&told.first, &told.last}) {
+        row_range received;
+        for (io::row_place* place : {&received.first, &received.last}) {
             place->row = one.number();
             place->byte = one.number();
         }
-        return told;
+        return received;
     }
 
     [[nodiscard]] row_range read_share(
@@ -98,14 +98,14 @@ class turns {
         return static_cast<std::size_t>(std::min(rows / (blocks_a_share * all_.size()) + 1, most));
     }
 
-    const team& all_;
+    const communicator& all_;
     const file_of_rows& of_;
     std::vector<io::row_place> places_{};  ///< where the shares so far begin
 };
 
 }  // namespace
 
-std::vector<io::row_place> rows_in_turn(const team& all, const file_of_rows& of,
+std::vector<io::row_place> rows_in_turn(const communicator& all, const file_of_rows& of,
                                         const std::function<void(const row_block&)>& take,
                                         const std::function<void(const io::point_blocks&)>& done) {
     return turns(all, of).take(take, done);

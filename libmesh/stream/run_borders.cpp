@@ -1,7 +1,7 @@
 /// \file
-/// What lies along the borders of tiles with the rule first, in runs of slices of the ranks of points:
-/// a few megabytes of rows at a time. Each of a team settles what it can of its own tiles; then each
-/// in turn takes some bundles of what is left, and tells those behind it what theirs ask for.
+/// What lies along the borders of tiles with the rule first, in runs of slices of the ranks of
+/// points: a few megabytes of rows at a time. Each rank settles what it can of its own tiles; then
+/// each in turn takes some bundles of what is left, and tells those behind it what theirs ask for.
 
 #include <libmesh/stream/border_rows.hpp>
 #include <libmesh/stream/tile_steps.hpp>
@@ -104,8 +104,9 @@ struct held_rows {
 
 class tile_steps::run_borders {
   public:
-    explicit run_borders(const tile_steps& steps) : steps_(steps), team_(steps.team_) {
-        const share own = steps.tiles_of(team_.rank());
+    explicit run_borders(const tile_steps& steps)
+        : steps_(steps), communicator_(steps.communicator_) {
+        const share own = steps.tiles_of(communicator_.rank());
         std::vector<row_reader> rows;
         std::vector<row_reader> asked;
         for (auto t = static_cast<std::size_t>(own.first); t < own.last; ++t) {
@@ -125,7 +126,7 @@ class tile_steps::run_borders {
                    });
         if (!all_asked.empty()) fail_damaged(steps.folder_.path());
         first.finish();
-        if (team_.is_alone()) return;
+        if (communicator_.is_alone()) return;
         share_left(first);
         bring_together();
     }
@@ -156,8 +157,8 @@ class tile_steps::run_borders {
               inbox_(rows("in")),
               asked_(rows("asked")),
               again_(rows("again")),
-              dropped_(all.path(name_ + ".drops", all.team_.rank()), piece),
-              points_(all.path(name_ + ".on", all.team_.rank()), piece) {}
+              dropped_(all.path(name_ + ".drops", all.communicator_.rank()), piece),
+              points_(all.path(name_ + ".on", all.communicator_.rank()), piece) {}
 
         /// \pre `rows` are those of the bundles, and `each_asked(bundle, take)` gives, once, what
         /// is asked for of its points
@@ -192,8 +193,8 @@ class tile_steps::run_borders {
             return inbox_.next_file(bundle).count;
         }
         void finish() {
-            all_.drops_.push_back(
-                {all_.path(name_ + ".drops", all_.team_.rank()), dropped_.finish_unsynced()});
+            all_.drops_.push_back({all_.path(name_ + ".drops", all_.communicator_.rank()),
+                                   dropped_.finish_unsynced()});
             all_.move_.consider(out_.move);
             ++all_.passes_;
             left_.points = points_.finish_unsynced();
@@ -207,7 +208,7 @@ class tile_steps::run_borders {
 
       private:
         [[nodiscard]] rows_by_bundle rows(const char* what) const {
-            return {steps_.folder_, name_ + "." + what, all_.team_.rank(),
+            return {steps_.folder_, name_ + "." + what, all_.communicator_.rank(),
                     steps_.task_.options.memory / 32};
         }
         [[nodiscard]] bool is_outer(const point3& p) {
@@ -215,8 +216,9 @@ class tile_steps::run_borders {
         }
         [[nodiscard]] held_rows held() const { return {held_, steps_.border_width()}; }
 
-        /// Rows of whole slices, one at least, and more while there is room: welding them takes some
-        /// ten times as much, and many leave the caches. Returns where those begin that are left.
+        /// Rows of whole slices, one at least, and more while there is room: welding them takes
+        /// some ten times as much, and many leave the caches. Returns where those begin that are
+        /// left.
         [[nodiscard]] std::uint64_t hold(row_merge& rows, const share& of) {
             const weld::number_slices& slices = all_.slices_;
             const std::uint64_t room =
@@ -235,8 +237,8 @@ class tile_steps::run_borders {
             return of.last;
         }
 
-        /// What bundles of the run ask for: each once, in order. Of a run without all of a bundle, what
-        /// is near its own points.
+        /// What bundles of the run ask for: each once, in order. Of a run without all of a bundle,
+        /// what is near its own points.
         void receive(const share& run, border_weld& border) {
             const std::size_t width = steps_.border_width();
             const auto cuts_bundle = [&](std::uint64_t number) {
@@ -356,7 +358,7 @@ class tile_steps::run_borders {
         const double points = static_cast<double>(steps_.survey_.cloud.points);
         steps_.pace_.show("borders",
                           (passes_ + std::min(1.0, static_cast<double>(settled) / points)) /
-                              (team_.is_alone() ? 1.0 : 2.0));
+                              (communicator_.is_alone() ? 1.0 : 2.0));
     }
 
     [[nodiscard]] std::filesystem::path path(const std::string& name, std::size_t by) const {
@@ -369,7 +371,7 @@ class tile_steps::run_borders {
         store_count(first.handed_on().points, mine);
         for (const std::uint64_t end : first.handed_on().ends) mine.number(end);
         for (const record_count& count : first.handed_on().asked) store_count(count, mine);
-        for (state_reader& one : team_.exchange(mine)) {
+        for (state_reader& one : communicator_.exchange(mine)) {
             left& of = left_.emplace_back();
             of.points = load_count(one);
             for (std::uint64_t& end : of.ends) end = one.number();
@@ -385,7 +387,7 @@ class tile_steps::run_borders {
         share mine{0, 0};
         for (std::size_t b = 0; b < bundles; ++b) {
             const std::uint64_t twice_middle = ends[b] + (b == 0 ? 0 : ends[b - 1]);
-            const auto owner = static_cast<std::size_t>(static_cast<double>(team_.size()) *
+            const auto owner = static_cast<std::size_t>(static_cast<double>(communicator_.size()) *
                                                         static_cast<double>(twice_middle) /
                                                         static_cast<double>(2 * ends.back() + 1));
             mine.first += owner < rank ? 1 : 0;
@@ -398,19 +400,20 @@ class tile_steps::run_borders {
     void bring_together() {
         pass last(*this, {0, steps_.tiles_.size()}, "border.all");
         std::size_t turn = 0;
-        team_.take_turns(
+        communicator_.sequential(
             [&](state_writer& mine) {
-                const share own = bundles_of(team_.rank());
+                const share own = bundles_of(communicator_.rank());
                 last.over(own, rows_of(own), [&](std::size_t bundle, const take_asked& take) {
                     each_asked(bundle, take);
                 });
                 for (std::size_t b = 0; b < bundles; ++b) store_count(last.finish_inbox(b), mine);
             },
-            [&](state_reader told) {
+            [&](state_reader received) {
                 const share own = bundles_of(turn);
                 for (std::size_t b = 0; b < bundles; ++b) {
-                    const record_count count = load_count(told);
-                    if (turn != team_.rank() && b >= own.last) last.add_inbox(b, turn, count);
+                    const record_count count = load_count(received);
+                    if (turn != communicator_.rank() && b >= own.last)
+                        last.add_inbox(b, turn, count);
                 }
                 ++turn;
             });
@@ -443,9 +446,9 @@ class tile_steps::run_borders {
     }
 
     const tile_steps& steps_;
-    const team& team_;
+    const communicator& communicator_;
     weld::number_slices slices_{steps_.slices()};
-    std::vector<left> left_{};  ///< by each of the team
+    std::vector<left> left_{};  ///< by each rank
     std::vector<file> drops_{};
     longest_move move_{};
     int passes_ = 0;  ///< that are done

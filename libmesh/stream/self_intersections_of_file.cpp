@@ -1,7 +1,7 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/extension.hpp>
 #include <libmesh/io/point_rows.hpp>
-#include <libmesh/stream/team.hpp>
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/weld_stream.hpp>
@@ -39,8 +39,8 @@ struct stream_search::state {
         return status::ok;
     }
 
-    detail::stream::team lone{process_team{}};
-    detail::stream::pacer pace;
+    detail::stream::communicator lone{process_team{}};
+    detail::stream::cancellable_progress pace;
     work_folder folder;
     detail::stream::tile_search search;
 };
@@ -95,13 +95,13 @@ bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
 
 stream_search_result self_intersections_of_file(const fs::path& input,
                                                 const stream_search_options& options) {
-    detail::stream::pacer pace(options.progress);
-    const detail::stream::team all(options.team);
-    if (!all.leads()) all.meet();  // the first one makes the folder
+    detail::stream::cancellable_progress pace(options.progress);
+    const detail::stream::communicator all(options.team);
+    if (!all.is_root()) all.barrier();  // the first one makes the folder
     work_folder folder(folder_of(input, options), "search",
-                       all.leads() ? work_folder::use::alone : work_folder::use::member);
-    if (all.leads()) all.meet();
-    all.meet();  // or one would make again what the first one has removed
+                       all.is_root() ? work_folder::use::alone : work_folder::use::member);
+    if (all.is_root()) all.barrier();
+    all.barrier();  // or one would make again what the first one has removed
     detail::stream::tile_search search(pace, folder, all, input, options);
     stream_search_result result;
     try {
@@ -110,11 +110,11 @@ stream_search_result self_intersections_of_file(const fs::path& input,
             search.search(t, t, search.tiles());
             search.drop_faces(t);
         }
-        all.meet();
-        if (!all.leads()) return result;
+        all.barrier();
+        if (!all.is_root()) return result;
         result = search.finish();
     } catch (const detail::stream::cancelled&) {
-        result.found.cancelled = true;
+        result.found.status = treeform::status::cancelled;
         return result;
     }
     folder.remove();

@@ -53,8 +53,8 @@ std::optional<io::record_index> load_text(state_reader& state) {
 
 using parts_of_file = std::vector<std::optional<io::record_index>>;
 
-/// How many parts from the first one on are as one that knows what is ahead has seen them: those up to
-/// the first line that is uneven. Behind it less of a line is looked at.
+/// How many parts from the first one on are as one that knows what is ahead has seen them: those up
+/// to the first line that is uneven. Behind it less of a line is looked at.
 std::size_t seen_as_one(const parts_of_file& parts) {
     const auto uneven =
         std::ranges::find_if(parts, [](const auto& part) { return !part || !part->even; });
@@ -78,13 +78,13 @@ std::optional<io::record_index> joined_text(const parts_of_file& parts) {
     return all;
 }
 
-/// Points with lists: each of a team in turn reads on where the one before has ended.
-std::optional<io::record_index> look_in_turn(const std::filesystem::path& path, const team& all,
-                                             std::size_t marks) {
+/// Points with lists: each rank in turn reads on where the one before has ended.
+std::optional<io::record_index> look_in_turn(const std::filesystem::path& path,
+                                             const communicator& all, std::size_t marks) {
     parts_of_file parts;
     io::row_place next;
     bool good = true;
-    all.take_turns(
+    all.sequential(
         [&](state_writer& mine) {
             io::listed_points seen;
             try {
@@ -97,11 +97,11 @@ std::optional<io::record_index> look_in_turn(const std::filesystem::path& path, 
             store_text(good ? std::optional(std::move(seen.found)) : std::nullopt, mine);
             for (const std::uint64_t n : {seen.next.row, seen.next.byte}) mine.number(n);
         },
-        [&](state_reader told) {
-            parts.push_back(load_text(told));
+        [&](state_reader received) {
+            parts.push_back(load_text(received));
             good = good && parts.back();
-            next.row = told.number();
-            next.byte = told.number();
+            next.row = received.number();
+            next.byte = received.number();
         });
     return joined_text(parts);
 }
@@ -109,7 +109,8 @@ std::optional<io::record_index> look_in_turn(const std::filesystem::path& path, 
 }  // namespace
 
 std::vector<std::optional<io::record_index>> look_at_records(
-    const std::vector<std::filesystem::path>& paths, const io::reading& how, const team& all) {
+    const std::vector<std::filesystem::path>& paths, const io::reading& how,
+    const communicator& all) {
     const std::size_t marks =
         std::clamp<std::size_t>(4 * io::most_marks / paths.size(), 2, io::most_marks);
     const io::file_part part{all.rank(), all.size()};

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Files that each of a team looks at before any of them can read its share: at the lines of a text that
+/// Files that each rank looks at before any of them can read its share: at the lines of a text that
 /// begin in its share of the bytes, and likewise at points with lists, one after the other.
 
 #include <libmesh/io/reading.hpp>
 #include <libmesh/io/record_index.hpp>
-#include <libmesh/stream/team.hpp>
+#include <libmesh/stream/communicator.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -14,9 +14,11 @@
 
 namespace treeform::detail::stream {
 
-/// What is known of each file when all have looked; none of what is no text of points or of a PLY, and
-/// of what cannot be read: what is wrong is said where it is read from the front. All come here.
+/// What is known of each file when all have looked; none of what is no text of points or of a PLY,
+/// and of what cannot be read: what is wrong is said where it is read from the front. Collective:
+/// every rank must call this.
 [[nodiscard]] std::vector<std::optional<io::record_index>> look_at_records(
-    const std::vector<std::filesystem::path>& paths, const io::reading& how, const team& all);
+    const std::vector<std::filesystem::path>& paths, const io::reading& how,
+    const communicator& all);
 
 }  // namespace treeform::detail::stream

@@ -1,5 +1,5 @@
 /// \file
-/// What lies along the borders of tiles. With the rule chain, each of a team settles what it can of
+/// What lies along the borders of tiles. With the rule chain, each rank settles what it can of
 /// its own tiles, and then what is left is brought together, by two and two.
 
 #include <libmesh/stream/tile_steps.hpp>
@@ -14,7 +14,7 @@ namespace treeform::detail::stream {
 class tile_steps::chain_borders {
   public:
     chain_borders(const tile_steps& steps, border_weld& border) : steps_(steps), border_(border) {
-        const team& all = steps.team_;
+        const communicator& all = steps.communicator_;
         const std::size_t rank = all.rank();
         const share own = steps.tiles_of(rank);
         hands_on_.resize(all.size());
@@ -59,7 +59,7 @@ class tile_steps::chain_borders {
         each(open(), [&](const border_point& p) { border.add(p, {}, false, out); });
         for (const border_point& link : border.joined()) {
             dropped.put({link.id(), link.leader});
-            if (!steps_.team_.is_alone()) put_rows(link, {}, joined);
+            if (!steps_.communicator_.is_alone()) put_rows(link, {}, joined);
         }
         if (!whole) {
             std::optional<std::uint64_t> last;
@@ -70,7 +70,7 @@ class tile_steps::chain_borders {
             });
         }
         drops_.push_back({path(name, ".drops"), dropped.finish_unsynced()});
-        hands_on_[steps_.team_.rank()] = {path(name, ".on"), on.finish_unsynced()};
+        hands_on_[steps_.communicator_.rank()] = {path(name, ".on"), on.finish_unsynced()};
         joined_ = {path(name, ".joined"), joined.finish_unsynced()};
     }
 
@@ -84,30 +84,30 @@ class tile_steps::chain_borders {
     }
 
     [[nodiscard]] std::filesystem::path path(const std::string& name, const char* what) const {
-        return steps_.folder_.file(name + "." + std::to_string(steps_.team_.rank()) + what);
+        return steps_.folder_.file(name + "." + std::to_string(steps_.communicator_.rank()) + what);
     }
 
-    [[nodiscard]] std::vector<state_reader> tell_of(const file& f) const {
+    [[nodiscard]] std::vector<state_reader> gathered_of(const file& f) const {
         state_writer mine;
         mine.text(f.path.string());
         store_count(f.count, mine);
-        return steps_.team_.exchange(mine);
+        return steps_.communicator_.exchange(mine);
     }
-    [[nodiscard]] static file file_of(state_reader& told) {
-        const std::string path = told.text();
-        return {path, load_count(told)};
+    [[nodiscard]] static file file_of(state_reader& received) {
+        const std::string path = received.text();
+        return {path, load_count(received)};
     }
 
     /// All know where to find what each hands on.
     void share_files() {
-        std::vector<state_reader> told = tell_of(hands_on_[steps_.team_.rank()]);
-        for (std::size_t r = 0; r < told.size(); ++r) hands_on_[r] = file_of(told[r]);
+        std::vector<state_reader> received = gathered_of(hands_on_[steps_.communicator_.rank()]);
+        for (std::size_t r = 0; r < received.size(); ++r) hands_on_[r] = file_of(received[r]);
     }
 
     /// Takes what has been joined by the pass that was over the own tiles, too.
     void learn(std::size_t by) {
-        std::vector<state_reader> told = tell_of(joined_);
-        const file joined = file_of(told[by]);
+        std::vector<state_reader> received = gathered_of(joined_);
+        const file joined = file_of(received[by]);
         if (joined.path.empty()) return;
         for (row_reader rows(joined.path, joined.count, border_numbers, piece); !rows.empty();
              rows.pop())
@@ -130,7 +130,7 @@ tiles_welded tile_steps::weld_borders() {
         w.drops = weld_borders_in_runs(longest);
     else
         w.drops = chain_borders(*this, w.border).drops();
-    const share own = tiles_of(team_.rank());
+    const share own = tiles_of(communicator_.rank());
     for (auto t = static_cast<std::size_t>(own.first); t < own.last; ++t) {
         w.drops.push_back({file(t, ".drops"), tiles_[t].drops});
         longest.consider(tiles_[t].move);
@@ -140,10 +140,10 @@ tiles_welded tile_steps::weld_borders() {
             pace_.check();
         }
     }
-    w.points = told_to(team_.rank());
+    w.points = assigned_to(communicator_.rank());
     kept_points kept(w.points.size(), w.points.first);
     kept_points followed = kept;
-    if (!team_.is_alone()) tell(w, followed);
+    if (!communicator_.is_alone()) distribute(w, followed);
     follow(w, kept, followed);
     if (kept.shares_a_drop(followed))
         throw std::logic_error("a point belongs to one that was dropped");
@@ -161,16 +161,16 @@ bool tile_steps::is_outer(const point3& p, const share& tiles,
            !std::ranges::all_of(halos, [&](std::uint32_t t) { return tiles.has(t); });
 }
 
-/// By rank, and by number; the first of a team of all where others read nothing.
-share tile_steps::told_to(std::size_t rank) const {
+/// By rank, and by number; rank 0 of all where others read nothing.
+share tile_steps::assigned_to(std::size_t rank) const {
     const std::uint64_t count = survey_.cloud.points;
-    if (is_divided()) return team_.share_of(count, rank);
+    if (is_divided()) return communicator_.share_of(count, rank);
     return rank == 0 ? share{0, count} : share{count, count};
 }
 
 /// Each is told of its points: of the dropped ones, and of those that others follow.
-void tile_steps::tell(tiles_welded& w, kept_points& followed) const {
-    const std::size_t size = team_.size();
+void tile_steps::distribute(tiles_welded& w, kept_points& followed) const {
+    const std::size_t size = communicator_.size();
     const auto path = [&](const char* what, std::size_t from, std::size_t to) {
         return folder_.file(what + std::to_string(from) + "." + std::to_string(to));
     };
@@ -178,11 +178,11 @@ void tile_steps::tell(tiles_welded& w, kept_points& followed) const {
     std::vector<record_writer<tile_drop>> drops;
     std::vector<row_writer> followed_by;
     for (std::size_t r = 0; r < size; ++r) {
-        drops.emplace_back(path("drops.", team_.rank(), r), bytes);
-        followed_by.emplace_back(path("leaders.", team_.rank(), r), bytes);
+        drops.emplace_back(path("drops.", communicator_.rank(), r), bytes);
+        followed_by.emplace_back(path("leaders.", communicator_.rank(), r), bytes);
     }
     std::vector<std::uint64_t> ends;
-    for (std::size_t r = 0; r < size; ++r) ends.push_back(told_to(r).last);
+    for (std::size_t r = 0; r < size; ++r) ends.push_back(assigned_to(r).last);
     const auto owner = [&](std::uint64_t point) {
         return static_cast<std::size_t>(std::ranges::upper_bound(ends, point) - ends.begin());
     };
@@ -201,14 +201,14 @@ void tile_steps::tell(tiles_welded& w, kept_points& followed) const {
         store_count(followed_by[r].finish_unsynced(), mine);
     }
     w.drops.clear();
-    w.told.resize(size);
-    std::vector<state_reader> told = team_.exchange(mine);
+    w.sent.resize(size);
+    std::vector<state_reader> received = communicator_.exchange(mine);
     for (std::size_t from = 0; from < size; ++from)
         for (std::size_t to = 0; to < size; ++to) {
-            w.told[from].push_back({path("drops.", from, to), load_count(told[from])});
-            const record_count named = load_count(told[from]);
-            if (to != team_.rank()) continue;
-            w.drops.push_back(w.told[from][to]);
+            w.sent[from].push_back({path("drops.", from, to), load_count(received[from])});
+            const record_count named = load_count(received[from]);
+            if (to != communicator_.rank()) continue;
+            w.drops.push_back(w.sent[from][to]);
             record_reader<std::uint64_t> all(path("leaders.", from, to), named, piece);
             for (auto some = all.next(); !some.empty(); some = all.next())
                 for (const std::uint64_t leader : some) followed.drop(leader);
@@ -236,7 +236,7 @@ void tile_steps::sum_up(tiles_welded& w, const kept_points& kept, const kept_poi
     mine.number(followed.dropped());
     mine.point(longest.from());
     mine.point(longest.to());
-    for (state_reader& one : team_.exchange(mine)) {
+    for (state_reader& one : communicator_.exchange(mine)) {
         w.dropped += one.number();
         w.groups += one.number();
         const point3 from = one.point();
@@ -245,14 +245,14 @@ void tile_steps::sum_up(tiles_welded& w, const kept_points& kept, const kept_poi
     w.max_displacement = longest.length();
 }
 
-void tile_steps::tell_first(tiles_welded& w) const {
-    if (team_.is_alone() || !is_divided()) return;
+void tile_steps::gather_first(tiles_welded& w) const {
+    if (communicator_.is_alone() || !is_divided()) return;
     w.drops.clear();
     const std::uint64_t count = survey_.cloud.points;
-    w.points = team_.leads() ? share{0, count} : share{count, count};
+    w.points = communicator_.is_root() ? share{0, count} : share{count, count};
     w.kept = kept_points(w.points.size(), w.points.first);
-    if (!team_.leads()) return;
-    for (const auto& from : w.told) w.drops.insert(w.drops.end(), from.begin(), from.end());
+    if (!communicator_.is_root()) return;
+    for (const auto& from : w.sent) w.drops.insert(w.drops.end(), from.begin(), from.end());
     kept_points followed = w.kept;
     follow(w, w.kept, followed);
     if (w.followed) w.followed.emplace(std::move(followed));

@@ -45,39 +45,39 @@ class grown_face {
     std::unordered_set<std::uint32_t> many_{};
 };
 
-/// A file of records, of which each of a team has some.
+/// A file of records, of which each rank has some.
 template <class Record>
 class records_of_all {
   public:
-    records_of_all(const work_folder& folder, const team& all, const std::string& name)
+    records_of_all(const work_folder& folder, const communicator& all, const std::string& name)
         : all_(all),
           whole_(folder.file(name)),
-          path_(all.leads() ? whole_ : folder.file(name + "." + std::to_string(all.rank()))),
+          path_(all.is_root() ? whole_ : folder.file(name + "." + std::to_string(all.rank()))),
           writer_(path_, piece) {}
 
     void put(const Record& record) { writer_.put(record); }
-    /// All come here. Returns how many there are.
+    /// Collective: every rank must call this. Returns how many there are.
     std::uint64_t finish() {
         const std::uint64_t mine = writer_.finish_unsynced().records;
-        state_writer told;
-        told.number(mine);
+        state_writer sent;
+        sent.number(mine);
         std::uint64_t all = 0;
         std::uint64_t before = 0;
-        std::vector<state_reader> counts = all_.exchange(told);
+        std::vector<state_reader> counts = all_.exchange(sent);
         for (std::size_t r = 0; r < counts.size(); ++r) {
             if (r == all_.rank()) before = all;
             all += counts[r].number();
         }
-        if (!all_.leads()) {
+        if (!all_.is_root()) {
             copy_bytes(path_, 0, whole_, before * sizeof(Record), mine * sizeof(Record));
             std::filesystem::remove(path_);
         }
-        all_.meet();
+        all_.barrier();
         return all;
     }
 
   private:
-    const team& all_;
+    const communicator& all_;
     std::filesystem::path whole_;
     std::filesystem::path path_;
     record_writer<Record> writer_;
@@ -86,7 +86,7 @@ class records_of_all {
 }  // namespace
 
 tile_faces::~tile_faces() {
-    if (!steps_.all().leads()) return;
+    if (!steps_.all().is_root()) return;
     std::error_code ignored;
     for (const char* name : {renumbering_name, places_before_name, places_after_name})
         std::filesystem::remove(folder_.file(name), ignored);
@@ -116,9 +116,9 @@ void tile_faces::each_block(bool whole, const Take& take) {
     if (in_parts && left > 0) throw changed();
 }
 
-/// Each of a team does it for its points; and looks at the facets of a soup that begin with one.
+/// Each rank does it for its points; and looks at the facets of a soup that begin with one.
 void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_moves) {
-    const team& all = steps_.all();
+    const communicator& all = steps_.all();
     const share& mine = welded.points;
     new_numbers renumbered(pace_, folder_, all, steps_, welded);
     joined_points& source = steps_.source();
@@ -181,7 +181,7 @@ void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts&
     counts_ = counts;
     const std::uint64_t uses = 3 * steps_.survey().triangles;
     const std::uint64_t memory = task_.options.memory / 8;
-    const team& all = steps_.all();
+    const communicator& all = steps_.all();
     if (is_soup_)
         edges_of_soup_.emplace(folder_, all, "edges_before", uses, memory);
     else
@@ -237,15 +237,15 @@ void tile_faces::share_counts() {
     if (is_soup_) counts_.collapsed -= counts_.degenerate;  // those collapse, too
 }
 
-/// As `weld` and `rejoin_polygons` do in memory: of the fans of polygons, triangles that collapse are
-/// left out, and the others are polygons again where they are still one fan.
+/// As `weld` and `rejoin_polygons` do in memory: of the fans of polygons, triangles that collapse
+/// are left out, and the others are polygons again where they are still one fan.
 void tile_faces::carry(const row_block& from, row_block& to) {
     rows_.clear();
     to.corners.clear();
     to.first_corner.assign(1, 0);
     look_up(from.corners);
     for (std::uint32_t f = 0; f < from.rows.rows; ++f) carry_face(from, f, to);
-    to.rows = gather(from.rows, rows_);
+    to.rows = from.rows.gathered(rows_);
 }
 
 void tile_faces::look_up(std::span<const std::uint32_t> corners) {
@@ -314,11 +314,11 @@ void tile_faces::renumber(row_block& block) {
     const std::uint64_t points = steps_.survey().points;
     for (column& c : block.rows.columns)
         if (weld::numbers_points(c))
-            weld::renumber(c, 0, value_count(c), points,
+            weld::renumber(c, 0, c.size(), points,
                            [&](std::uint64_t old) { return number_of(old); });
 }
 
-void tile_faces::tell(mesh_file& head, bool all) const {
+void tile_faces::describe(mesh_file& head, bool all) const {
     for (element& e : head.attributes.elements) {
         if (e.name != "face" || e.rows == 0) continue;
         e.rows = static_cast<std::size_t>(all ? steps_.survey().faces : counts_.faces);
@@ -329,8 +329,8 @@ void tile_faces::tell(mesh_file& head, bool all) const {
                       [](const element& e) { return e.name == "face" && e.rows == 0; });
 }
 
-/// In memory, a soup has a column only where a value is not zero, and without it no element where no
-/// face is left.
+/// In memory, a soup has a column only where a value is not zero, and without it no element where
+/// no face is left.
 void tile_faces::drop_blank(element& faces) const {
     if (is_blank_) faces.columns.clear();
 }

@@ -34,13 +34,14 @@ inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
 /// Whether a file has rows behind its points.
 [[nodiscard]] bool has_rows_behind(const mesh_file& header);
 
-/// Each of a team has a share of the rows: a part of the file of about as many bytes as those of
+/// Each rank has a share of the rows: a part of the file of about as many bytes as those of
 /// others. Where that is known without reading them (`point_blocks::row_parts`, and in text), each
 /// looks at its own; else, as where faces have any number of corners, each in turn looks at what
 /// begins in its share of the bytes, and tells where that ends.
 class tile_faces {
   public:
-    tile_faces(pacer& pace, const work_folder& folder, const tile_task& task, tile_steps& steps)
+    tile_faces(cancellable_progress& pace, const work_folder& folder, const tile_task& task,
+               tile_steps& steps)
         : pace_(pace),
           folder_(folder),
           task_(task),
@@ -50,19 +51,19 @@ class tile_faces {
     tile_faces(const tile_faces&) = delete;
     tile_faces& operator=(const tile_faces&) = delete;
 
-    /// Reads all rows once. Counts faces in `survey`, which gets what is to be said of the end of the
-    /// file. All of a team come here, and to `weld`.
+    /// Reads all rows once. Counts faces in `survey`, which gets what is to be said of the end of
+    /// the file. Collective: every rank must call this and `weld`.
     /// \throws io_error for what is not as it should be, the first of it in the file; cancelled
     void look(cloud_survey& survey);
-    /// Reads the points and the rows once, each of a team its share. `rows` as for `give_back`.
+    /// Reads the points and the rows once, each rank its share. `rows` as for `give_back`.
     /// \throws stream_error, cancelled
     void weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts);
     /// How many rows `give` will write. With `all`, faces stay as they are.
-    void tell(mesh_file& head, bool all) const;
+    void describe(mesh_file& head, bool all) const;
     [[nodiscard]] std::size_t most_corners(bool all) const {
         return all ? most_corners_ : most_kept_corners_;
     }
-    /// Reads the rows once more: all of them, for one of a team; or its share, when all come here.
+    /// Reads the rows once more: all of them, on one rank; or its share, where all call this.
     /// \pre `weld` was called
     void give(point_writer& to, bool all, bool whole);
 
@@ -99,7 +100,7 @@ class tile_faces {
         return static_cast<std::uint32_t>(numbers_->at(point));
     }
 
-    pacer& pace_;
+    cancellable_progress& pace_;
     const work_folder& folder_;
     const tile_task& task_;
     tile_steps& steps_;

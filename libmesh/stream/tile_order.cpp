@@ -1,5 +1,5 @@
 /// \file
-/// The order in which points are gone through, where it is not that of the files: each of a team sorts
+/// The order in which points are gone through, where it is not that of the files: each rank sorts
 /// what it reads, and then has a range of the order.
 
 #include <libmesh/stream/tile_steps.hpp>
@@ -22,7 +22,7 @@ bool is_sampled(std::uint64_t point, std::uint64_t one_of) {
 }
 
 /// Where the ranges of all but the first begin.
-std::vector<keyed> begins_of_ranges(const team& all, const std::vector<keyed>& sample) {
+std::vector<keyed> begins_of_ranges(const communicator& all, const std::vector<keyed>& sample) {
     state_writer mine;
     mine.number(sample.size());
     for (const keyed& one : sample)
@@ -47,22 +47,24 @@ std::filesystem::path tile_steps::numbers_file(std::size_t part) const {
 }
 
 std::filesystem::path tile_steps::ranks_file() const {
-    return folder_.file("ranks." + std::to_string(team_.rank()));
+    return folder_.file("ranks." + std::to_string(communicator_.rank()));
 }
 
-/// Of a team, each looks at some parts.
+/// Of several ranks, each looks at some parts.
 bool tile_steps::has_numbers() const {
-    for (std::size_t part = team_.rank(); part < numbers_.size(); part += team_.size())
+    for (std::size_t part = communicator_.rank(); part < numbers_.size();
+         part += communicator_.size())
         if (!is_whole<std::uint64_t>(numbers_file(part), numbers_[part])) return false;
     return true;
 }
 
 void tile_steps::rank_points() {
-    const share mine = read_by(team_.rank());
+    const share mine = read_by(communicator_.rank());
     const std::uint64_t points = survey_.cloud.points;
-    const std::uint64_t one_of = points / team_.size() / samples_each + 1;
-    auto by_key = std::make_unique<row_sorter>(folder_, "keys." + std::to_string(team_.rank()),
-                                               row_sorter::shape{2, 2}, sorting_memory());
+    const std::uint64_t one_of = points / communicator_.size() / samples_each + 1;
+    auto by_key =
+        std::make_unique<row_sorter>(folder_, "keys." + std::to_string(communicator_.rank()),
+                                     row_sorter::shape{2, 2}, sorting_memory());
     std::vector<keyed> sample;
     source_.rewind(mine);
     point_block block;
@@ -73,45 +75,45 @@ void tile_steps::rank_points() {
         for (const std::uint64_t key : keys) {
             const keyed row{key, id++};
             by_key->put(row);
-            if (!team_.is_alone() && is_sampled(row[1], one_of)) sample.push_back(row);
+            if (!communicator_.is_alone() && is_sampled(row[1], one_of)) sample.push_back(row);
         }
         pace_.show("scatter", 0.4 * static_cast<double>(id - mine.first) /
-                                  static_cast<double>(points / team_.size() + 1));
+                                  static_cast<double>(points / communicator_.size() + 1));
     }
     row_merge own = by_key->sorted();
-    if (team_.is_alone()) return number_by_rank(own, 0);
-    const std::vector<keyed> begins = begins_of_ranges(team_, sample);
-    posted_rows posted(folder_, team_, "keys", 2, sorting_memory() / 2);
+    if (communicator_.is_alone()) return number_by_rank(own, 0);
+    const std::vector<keyed> begins = begins_of_ranges(communicator_, sample);
+    all_to_all by_range(folder_, communicator_, "keys", 2, sorting_memory() / 2);
     for (; !own.empty(); own.pop()) {
         const keyed row{own.front()[0], own.front()[1]};
         const auto to = std::upper_bound(begins.begin(), begins.end(), row) - begins.begin();
-        posted.put(static_cast<std::size_t>(to), row);
+        by_range.put(static_cast<std::size_t>(to), row);
     }
     by_key.reset();
-    posted.send();
-    row_merge all(posted.received(), 2);
-    number_by_rank(all, posted.rows_before());
-    posted.remove_received();
+    by_range.send();
+    row_merge all(by_range.received(), 2);
+    number_by_rank(all, by_range.rows_before());
+    by_range.remove_received();
 }
 
 /// `rank` is that of the first row.
 void tile_steps::number_by_rank(row_merge& by_key, std::uint64_t rank) {
-    shared_sorter by_number(folder_, team_, "keys.ranks", {.width = 2, .keys = 1},
+    shared_sorter by_number(folder_, communicator_, "keys.ranks", {.width = 2, .keys = 1},
                             sorting_memory());
-    row_writer in_order(numbers_file(team_.rank()), piece);
+    row_writer in_order(numbers_file(communicator_.rank()), piece);
     for (; !by_key.empty(); by_key.pop(), ++rank) {
         const std::uint64_t id = by_key.front()[1];
         in_order.put(id);
         by_number.put(owner_of(id), std::array{id, rank});
         if (rank % ranks_a_check == 0) pace_.check();
     }
-    state_writer told;
-    store_count(in_order.finish(), told);
+    state_writer sent;
+    store_count(in_order.finish(), sent);
     row_writer ranks(ranks_file(), piece);
     for (row_merge all = by_number.sorted(); !all.empty(); all.pop()) ranks.put(all.front()[1]);
     ranks_ = ranks.finish_unsynced();
     numbers_.clear();
-    for (state_reader& one : team_.exchange(told)) numbers_.push_back(load_count(one));
+    for (state_reader& one : communicator_.exchange(sent)) numbers_.push_back(load_count(one));
 }
 
 row_chain tile_steps::numbers_by_rank(const share& some) const {
@@ -137,43 +139,45 @@ kept_points tile_steps::number_kept(const kept_points& by_rank) const {
 }
 
 /// Of the ranks that a process is told of, it tells whoever is told of the numbers.
-kept_points tile_steps::number_kept_by_all(const share& told, const kept_points& by_rank) const {
-    if (team_.is_alone()) return number_kept(by_rank);
-    posted_rows dropped(folder_, team_, "dropped", 1, sorting_memory());
-    std::uint64_t rank = told.first;
-    for (row_chain all = numbers_by_rank(told); !all.empty(); all.pop(), ++rank)
+kept_points tile_steps::number_kept_by_all(const share& assigned,
+                                           const kept_points& by_rank) const {
+    if (communicator_.is_alone()) return number_kept(by_rank);
+    all_to_all dropped(folder_, communicator_, "dropped", 1, sorting_memory());
+    std::uint64_t rank = assigned.first;
+    for (row_chain all = numbers_by_rank(assigned); !all.empty(); all.pop(), ++rank)
         if (!by_rank.keeps(rank)) dropped.put(owner_of(all.front()[0]), all.front());
     dropped.send();
-    kept_points kept(told.size(), told.first);
+    kept_points kept(assigned.size(), assigned.first);
     for (row_reader& from : dropped.received())
         for (; !from.empty(); from.pop()) kept.drop(from.front()[0]);
     dropped.remove_received();
     return kept;
 }
 
-tile_steps::leaders::leaders(const tile_steps& steps, const team& all, const tiles_welded& welded)
+tile_steps::leaders::leaders(const tile_steps& steps, const communicator& all,
+                             const tiles_welded& welded)
     : border_(welded.border) {
     drops_.emplace(steps.sorted_drops(welded.drops));
     if (steps.has_order()) number(steps, all, welded.points, *drops_);
 }
 
 /// From the ranks of points and of their leaders to the numbers of both: by way of the leaders'.
-void tile_steps::leaders::number(const tile_steps& s, const team& all, const share& told,
-                                 row_merge& ranks) {
+void tile_steps::leaders::number(const tile_steps& s, const communicator& all,
+                                 const share& assigned, row_merge& ranks) {
     const auto owner = [&](std::uint64_t i) { return all.owner_of(i, s.survey_.cloud.points); };
     shared_sorter by_leader(s.folder_, all, "leaders", {.width = 2, .keys = 2}, s.sorting_memory());
     sorter_ = std::make_unique<shared_sorter>(s.folder_, all, "led", row_sorter::shape{2, 1},
                                               s.sorting_memory());
-    std::uint64_t rank = told.first;
-    for (row_chain points = s.numbers_by_rank(told); !ranks.empty(); points.pop(), ++rank) {
+    std::uint64_t rank = assigned.first;
+    for (row_chain points = s.numbers_by_rank(assigned); !ranks.empty(); points.pop(), ++rank) {
         std::optional<std::uint64_t> leader;
         for (; !ranks.empty() && ranks.front()[0] == rank; ranks.pop())
             leader = border_.leader_of(ranks.front()[1]);
         if (leader) by_leader.put(owner(*leader), std::array{*leader, points.front()[0]});
         if (rank % ranks_a_check == 0) s.pace_.check();
     }
-    rank = told.first;
-    row_chain points = s.numbers_by_rank(told);
+    rank = assigned.first;
+    row_chain points = s.numbers_by_rank(assigned);
     for (row_merge led = by_leader.sorted(); !led.empty(); led.pop()) {
         for (; rank < led.front()[0]; ++rank) points.pop();
         const std::uint64_t point = led.front()[1];

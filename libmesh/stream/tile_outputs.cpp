@@ -35,7 +35,7 @@ class output_look {
     explicit output_look(std::function<void(points_view)> take = {}) : take_(std::move(take)) {}
     /// `axes` are the coordinates whose types `head` has to be asked for.
     output_look(const mesh_file& head, const std::array<bool, 3>& axes) : axes_(axes) {
-        if (const element* e = find_element(head.attributes, "vertex")) vertices_ = *e;
+        if (const element* e = head.attributes.find("vertex")) vertices_ = *e;
     }
 
     /// Whether more points can tell more of the types.
@@ -44,7 +44,7 @@ class output_look {
     void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
         point_block some;
         for (const std::uint32_t row : rows) some.points.push_back(block.points[row]);
-        some.properties = gather(block.properties, rows);
+        some.properties = block.properties.gathered(rows);
         write(some);
     }
     void write(const point_block& block) {
@@ -57,22 +57,23 @@ class output_look {
         single_ = single_ && fits_single(block.points);
         extended_ = extended_ || io::has_extended_values(block.properties);
     }
-    void share(const team& all) {
+    void share(const communicator& all) {
         single_ = all.sum(single_ ? 0 : 1) == 0;
         extended_ = all.sum(extended_ ? 1 : 0) > 0;
         for (bool& one : outgrown_) one = all.sum(one ? 1 : 0) > 0;
     }
     /// \pre it has seen all points
-    void tell(mesh_file& head) const {
+    void describe(mesh_file& head) const {
         if (!single_) head.stored_as = precision::float64;
         if (extended_) io::extend(*head.las);
     }
-    /// As `write` chooses types when it has all points: each axis its own. `point_writer` keeps to that
-    /// only where `stored_as` is float32, so that changes; what `write` would tell of is returned.
-    [[nodiscard]] std::optional<precision> tell_types(mesh_file& head) const {
+    /// As `write` chooses types when it has all points: each axis its own. `point_writer` keeps to
+    /// that only where `stored_as` is float32, so that changes; what `write` would tell of is
+    /// returned.
+    [[nodiscard]] std::optional<precision> describe_types(mesh_file& head) const {
         if (axes_ == std::array<bool, 3>{}) return std::nullopt;
         const precision as = head.stored_as;
-        element& e = obtain_element(head.attributes, "vertex", 0);
+        element& e = head.attributes.obtain("vertex", 0);
         for (column& c : e.columns)
             if (io::is_axis(c) && outgrown_[io::axis_number(c.role)])
                 c.type = head.stored_as == precision::float32 ? scalar_type::float32
@@ -98,7 +99,7 @@ class output_look {
 /// The last pass over the input.
 class giving_back {
   public:
-    giving_back(pacer& pace, const tile_task& task, const weld_stream_outputs& asked,
+    giving_back(cancellable_progress& pace, const tile_task& task, const weld_stream_outputs& asked,
                 tile_steps& steps, tiles_welded& welded, kept_rows* rows, tile_faces* faces,
                 const work_folder& work)
         : pace_(pace),
@@ -116,13 +117,13 @@ class giving_back {
         head_.ranges = survey_.ranges;
         is_divided_ = may_divide();
         if (is_divided_) return;
-        steps.tell_first(welded);
-        if (rows != nullptr) rows->tell_first(welded);
+        steps.gather_first(welded);
+        if (rows != nullptr) rows->gather_first(welded);
     }
 
     [[nodiscard]] weld_stream_written run() {
         const bool asked = asked_.welded || asked_.removed || wants_map();
-        if (!asked || (!is_divided_ && !all_.leads())) return {};
+        if (!asked || (!is_divided_ && !all_.is_root())) return {};
         add_columns();
         look_at_outputs();
         if (asked_.removed && !removed_head_.las && is_las(*asked_.removed)) look_at_removed();
@@ -132,9 +133,9 @@ class giving_back {
     }
 
   private:
-    /// Whether each of a team writes what it is told of.
+    /// Whether each rank writes what it is told of.
     [[nodiscard]] bool may_divide() const {
-        const element* const vertices = find_element(head_.attributes, "vertex");
+        const element* const vertices = head_.attributes.find("vertex");
         const bool has_lists =
             vertices != nullptr && std::ranges::any_of(vertices->columns, [](const column& c) {
                 return c.list_length.has_value();
@@ -161,7 +162,7 @@ class giving_back {
 
     void open_files() {
         const std::uint64_t dropped = welded_.dropped;
-        const team* const parts = is_divided_ ? &all_ : nullptr;
+        const communicator* const parts = is_divided_ ? &all_ : nullptr;
         if (!asked_.map_path.empty()) map_.emplace(asked_.map_path, parts, part("map"));
         const std::uint64_t mine = welded_.points.size();
         if (asked_.removed) {
@@ -183,15 +184,14 @@ class giving_back {
     void add_columns() {
         removed_head_ = removed_head();
         if (!asked_.welded) return;
-        if (faces_ != nullptr) faces_->tell(head_, drops_nothing());
+        if (faces_ != nullptr) faces_->describe(head_, drops_nothing());
         if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
         if (!asked_.label.empty())
-            written_.label_replaced =
-                set_column(obtain_element(head_.attributes, "vertex", 0),
-                           {.name = asked_.label, .type = scalar_type::uint32});
+            written_.label_replaced = head_.attributes.obtain("vertex", 0)
+                                          .set({.name = asked_.label, .type = scalar_type::uint32});
         if (asked_.withhold)
-            set_column(obtain_element(head_.attributes, "vertex", 0),
-                       {.name = "withheld", .type = scalar_type::uint8});
+            head_.attributes.obtain("vertex", 0)
+                .set({.name = "withheld", .type = scalar_type::uint8});
     }
 
     /// Of the header only the points and what they have.
@@ -201,7 +201,7 @@ class giving_back {
         head.stored_as = head_.stored_as;
         head.las = head_.las;
         head.ranges = head_.ranges;
-        if (const element* vertices = find_element(head_.attributes, "vertex"))
+        if (const element* vertices = head_.attributes.find("vertex"))
             head.attributes.elements.push_back(*vertices);
         return head;
     }
@@ -244,18 +244,18 @@ class giving_back {
         });
         if (is_divided_) welded.share(all_);
         if (is_divided_) removed.share(all_);
-        if (of_las) welded.tell(head_);
-        if (of_las) removed.tell(removed_head_);
-        welded_as_ = welded.tell_types(head_);
-        removed_as_ = removed.tell_types(removed_head_);
+        if (of_las) welded.describe(head_);
+        if (of_las) removed.describe(removed_head_);
+        welded_as_ = welded.describe_types(head_);
+        removed_as_ = removed.describe_types(removed_head_);
     }
 
-    /// Coordinates with declared types that points may have outgrown: by their digits in text, as means,
-    /// rounded to the steps of LAS, or in another file.
+    /// Coordinates with declared types that points may have outgrown: by their digits in text, as
+    /// means, rounded to the steps of LAS, or in another file.
     [[nodiscard]] std::array<bool, 3> axes_asked(const std::optional<weld_stream_outputs::file>& to,
                                                  const mesh_file& head, bool means) const {
         std::array<bool, 3> asked{};
-        const element* const vertices = find_element(head.attributes, "vertex");
+        const element* const vertices = head.attributes.find("vertex");
         if (!to || vertices == nullptr) return asked;
         const write_options options = points_out::options_of(*to);
         const io::known_format& format = io::find_format(to->path, options);
@@ -274,7 +274,7 @@ class giving_back {
 
     [[nodiscard]] bool las_is_asked() const {
         const auto may_extend = [](const mesh_file& head) {
-            const element* const vertices = find_element(head.attributes, "vertex");
+            const element* const vertices = head.attributes.find("vertex");
             return vertices != nullptr && !io::is_extended(*head.las) &&
                    std::ranges::any_of(vertices->columns, [](const column& c) {
                        return c.name == "classification" || c.name == "return_number" ||
@@ -293,7 +293,7 @@ class giving_back {
 
     /// The steps of LAS that hold the dropped points, where no other file has any.
     void look_at_removed() {
-        const team& all = is_divided_ ? all_ : lone_;
+        const communicator& all = is_divided_ ? all_ : lone_;
         output_look seen;
         const auto each = [&](const std::function<void(points_view)>& take) {
             seen = output_look(take);
@@ -306,7 +306,7 @@ class giving_back {
         removed_head_.las = las_grid_of(
             each, all, {asked_.removed->options.las_scale, asked_.removed->options.las_offset});
         seen.share(all);
-        seen.tell(removed_head_);
+        seen.describe(removed_head_);
     }
 
     void give_all() {
@@ -370,15 +370,15 @@ class giving_back {
         block.properties.rows = block.points.size();
         if (!asked_.label.empty()) {
             const std::vector<std::uint32_t> groups(groups_.begin(), groups_.end());
-            set_column(block.properties, make_column<std::uint32_t>(asked_.label, groups));
+            block.properties.set(column::of<std::uint32_t>(asked_.label, groups));
         }
         if (!asked_.withhold) return;
         std::vector<std::uint8_t> flags(block.points.size());
-        const column* const before = find_column(block.properties, "withheld");
+        const column* const before = block.properties.find("withheld");
         for (std::size_t i = 0; i < flags.size(); ++i)
-            flags[i] = before != nullptr && !before->list_length && number_at(*before, i) != 0.0;
+            flags[i] = before != nullptr && !before->list_length && before->number(i) != 0.0;
         for (const std::uint32_t row : gone_) flags[row] = 1;
-        set_column(block.properties, make_column<std::uint8_t>("withheld", flags));
+        block.properties.set(column::of<std::uint8_t>("withheld", flags));
     }
 
     /// The groups of the points of a block.
@@ -387,10 +387,10 @@ class giving_back {
         for (std::size_t row = 0; row < count; ++row) groups_[row] = numbers_->of(first_ + row);
     }
 
-    pacer& pace_;
+    cancellable_progress& pace_;
     const tile_task& task_;
     const work_folder& work_;
-    const team& all_;
+    const communicator& all_;
     const weld_stream_outputs& asked_;
     const cloud_survey& survey_;
     tile_steps& steps_;
@@ -406,7 +406,7 @@ class giving_back {
     std::optional<points_out> result_{};
     std::optional<text_out> map_{};
     std::optional<new_numbers> numbers_{};
-    const team lone_{process_team{}};
+    const communicator lone_{process_team{}};
     bool is_divided_ = false;
     std::uint64_t first_ = 0;  ///< number of the block's first point
     std::uint64_t given_ = 0;
@@ -426,14 +426,14 @@ void remove_leftovers(const work_folder& folder) {
     }
 }
 
-weld_stream_written give_back(pacer& pace, const tile_task& task,
+weld_stream_written give_back(cancellable_progress& pace, const tile_task& task,
                               const weld_stream_outputs& outputs, tile_steps& steps,
                               tiles_welded& welded, kept_rows* rows, tile_faces* faces,
                               const work_folder& folder) {
     state_writer state;
     state.number(outputs.unfinished.size());
     for (const fs::path& path : outputs.unfinished) state.text(fs::absolute(path).string());
-    if (steps.all().leads()) folder.store(leftovers, state);
+    if (steps.all().is_root()) folder.store(leftovers, state);
     return giving_back(pace, task, outputs, steps, welded, rows, faces, folder).run();
 }
 

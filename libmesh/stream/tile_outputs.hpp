@@ -17,7 +17,7 @@ void remove_leftovers(const work_folder& folder);
 ///
 /// \throws io_error; stream_error, also where the input has changed meanwhile; cancelled;
 ///         std::logic_error where points in are not points kept and points removed
-[[nodiscard]] weld_stream_written give_back(pacer& pace, const tile_task& task,
+[[nodiscard]] weld_stream_written give_back(cancellable_progress& pace, const tile_task& task,
                                             const weld_stream_outputs& outputs, tile_steps& steps,
                                             tiles_welded& welded, kept_rows* rows,
                                             tile_faces* faces, const work_folder& folder);

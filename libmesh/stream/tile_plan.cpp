@@ -65,7 +65,8 @@ void tile_steps::plan() {
     point_survey::part uncrowded = uncrowded_sample();
     const bool crowded = 4 * uncrowded.points.size() <= 3 * survey_.sample.points.size();
     if (!survey_.places) survey_.places = std::move(uncrowded);
-    const std::uint64_t least = memory_to_stream(source_.header(), survey_.cloud.points);
+    const std::uint64_t least =
+        weld_stream_options::memory_to_stream(source_.header(), survey_.cloud.points);
     std::optional<planned> best;
     if (least <= task_.memory || task_.options.points_per_tile > 0) {
         if (crowded && rule() == weld_rule::first) best = plan_by(true);
@@ -124,8 +125,9 @@ std::optional<tile_steps::planned> tile_steps::plan_by(bool by_places) const {
         double most;       ///< points in a tile, about
         double with_halo;  ///< points of all tiles, of all points
     };
-    // Of a team, all have several, and so about the same.
-    const double several = team_.is_alone() ? all : all / (8.0 * static_cast<double>(team_.size()));
+    // Of several ranks, all have several, and so about the same.
+    const double several =
+        communicator_.is_alone() ? all : all / (8.0 * static_cast<double>(communicator_.size()));
     for (const way w : {way{std::min({0.25 * room, std::max(small, all / tiles), several}), 1.1},
                         way{std::min(0.25 * room, several), 1.5}, way{room, 4.0}}) {
         cut_sizes sizes;
@@ -166,7 +168,8 @@ tile_steps::planned tile_steps::plan_for_least_memory() const {
 
 void tile_steps::check_before_look() {
     const auto points = source_.count();
-    const std::uint64_t least = points ? memory_to_stream(source_.header(), *points) : 0;
+    const std::uint64_t least =
+        points ? weld_stream_options::memory_to_stream(source_.header(), *points) : 0;
     const std::string of_tiles = " for the tiles in " + folder_.path().string();
     if (!task_.options.shared && finds_tiles()) {
         const bool all_finished = survey_.cloud.unfinished.empty();
@@ -197,7 +200,8 @@ void tile_steps::check_before_tile() const {
 
 void tile_steps::check_before_borders() const {
     const std::uint64_t needed =
-        std::max(needs_of_rest(), memory_to_stream(source_.header(), survey_.cloud.points));
+        std::max(needs_of_rest(),
+                 weld_stream_options::memory_to_stream(source_.header(), survey_.cloud.points));
     if (needed > task_.memory) fail_for_memory(needed);
 }
 

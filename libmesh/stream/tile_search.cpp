@@ -123,14 +123,16 @@ void add_counts(self_intersection_result& sum, const self_intersection_result& o
 
 }  // namespace
 
-tile_search::tile_search(pacer& pace, const work_folder& folder, const team& of,
-                         std::filesystem::path input, stream_search_options options)
+tile_search::tile_search(cancellable_progress& pace, const work_folder& folder,
+                         const communicator& of, std::filesystem::path input,
+                         stream_search_options options)
     : pace_(pace),
       folder_(folder),
       all_(of),
       input_(std::move(input)),
       options_(std::move(options)) {
-    const std::uint64_t all = options_.memory == 0 ? default_memory() : options_.memory;
+    const std::uint64_t all =
+        options_.memory == 0 ? weld_stream_options::default_memory() : options_.memory;
     memory_ = all - std::min(base_bytes, all / 2);
 }
 
@@ -147,7 +149,7 @@ void tile_search::drop_faces(std::size_t tile) const {
         std::filesystem::remove(faces_file(tile, r));
 }
 
-/// With room for tiles that are larger than the sample said, and some tiles for each of a team.
+/// With room for tiles that are larger than the sample said, and some tiles for each rank.
 std::size_t tile_search::tile_count(std::uint64_t faces) const {
     std::uint64_t most = options_.faces_per_tile;
     if (most == 0) {
@@ -162,17 +164,17 @@ void tile_search::scatter() {
     const bool had_plan = has_plan();
     if (all_.sum(is_known() ? 0 : 1) == 0) return;
     forget_tiles();
-    if (all_.leads()) folder_.clear();
-    all_.meet();
+    if (all_.is_root()) folder_.clear();
+    all_.barrier();
     try {
         if (!give_tiles(false)) static_cast<void>(give_tiles(true));
         survey_.started_anew = had_plan;
         check_memory();
-        if (all_.leads()) store_plan();
-        all_.meet();
+        if (all_.is_root()) store_plan();
+        all_.barrier();
     } catch (...) {  // half of the faces are of no use
         forget_tiles();
-        if (all_.leads() && !others_read_) folder_.clear();
+        if (all_.is_root() && !others_read_) folder_.clear();
         throw;
     }
     if (options_.step_done) options_.step_done();
@@ -232,9 +234,9 @@ bool tile_search::give_tiles(bool in_turn) {
     return !failed;
 }
 
-/// Gives each of a team its part of the rows of a PLY. Where these are only alike if the first one is
-/// like the others, any error from then on may come from one that is not. Returns whether all have been
-/// read in turn, so that none can come.
+/// Gives each rank its part of the rows of a PLY. Where these are only alike if the first one is
+/// like the others, any error from then on may come from one that is not. Returns whether all have
+/// been read in turn, so that none can come.
 bool tile_search::share_rows(const io::face_rows& rows, bool in_turn,
                              const io::record_index* known) const {
     if (all_.is_alone() || !rows.go_to) return true;
@@ -425,7 +427,7 @@ void tile_search::search_as(std::size_t tile) {
     };
     self_intersection_result all = self_intersections(
         m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
-    if (all.cancelled) throw cancelled{};
+    if (all.status == treeform::status::cancelled) throw cancelled{};
     survey_.found.tree_seconds += all.tree_seconds;  // of the tiles that this process searches
     survey_.found.pair_seconds += all.pair_seconds;
     const std::string pairs_name = work_folder::own_name(std::to_string(tile) + ".pairs");

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// The faces of a file in tiles on the disk, and the pairs of each tile; each step is found done
-/// when it has been.
+/// The faces of a file in tiles on the disk, and the pairs of each tile. Steps are idempotent; a
+/// restart skips finished ones.
 
 #include <libmesh/io/face_rows.hpp>
-#include <libmesh/stream/pacer.hpp>
+#include <libmesh/stream/cancellable_progress.hpp>
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/space_cells.hpp>
-#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
@@ -55,11 +55,11 @@ void store_search(const stream_search_result& s, state_writer& state);
 
 class tile_search {
   public:
-    tile_search(pacer& pace, const work_folder& folder, const team& of, std::filesystem::path input,
-                stream_search_options options);
+    tile_search(cancellable_progress& pace, const work_folder& folder, const communicator& of,
+                std::filesystem::path input, stream_search_options options);
 
-    /// Gives each tile its faces, or knows from an earlier run that they have them. Of a team, each
-    /// gives those of its part of the file.
+    /// Gives each tile its faces, or knows from an earlier run that they have them. Of several
+    /// ranks, each gives those of its part of the file.
     /// \throws io_error, stream_error, cancelled
     void scatter();
     /// Whether `scatter` has been done, here or elsewhere.
@@ -83,13 +83,13 @@ class tile_search {
     [[nodiscard]] std::string identity() const;
     void store_plan() const;
     [[nodiscard]] bool take_over();
-    /// What is stored of a tile; none where it is not finished. With `check`, of what it names, each
-    /// byte is looked at.
+    /// What is stored of a tile; none where it is not finished. With `check`, of what it names,
+    /// each byte is looked at.
     [[nodiscard]] std::optional<tile_found> load(std::size_t tile, bool check) const;
     void store(std::size_t tile, const tile_found& found) const;
 
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
-    /// Returns false where faces could not be read; where all have been read in turn, all of a team
+    /// Returns false where faces could not be read; where all have been read in turn, all ranks
     /// throw then.
     [[nodiscard]] bool give_tiles(bool in_turn);
     [[nodiscard]] bool share_rows(const io::face_rows& rows, bool in_turn,
@@ -108,9 +108,9 @@ class tile_search {
     template <class Real>
     void search_as(std::size_t tile);
 
-    pacer& pace_;
+    cancellable_progress& pace_;
     const work_folder& folder_;
-    const team& all_;
+    const communicator& all_;
     std::filesystem::path input_;
     stream_search_options options_;
     std::uint64_t memory_;  ///< what is left for faces
@@ -119,8 +119,8 @@ class tile_search {
     bool others_read_ = false;  ///< what is in the folder
     vertex_identity vertices_{};
     std::optional<space_cells> cells_{};
-    std::vector<std::vector<record_count>> faces_{};  ///< of each tile, that each of a team gave it
-    std::vector<std::uint64_t> firsts_{};             ///< triangle of each of the team
+    std::vector<std::vector<record_count>> faces_{};  ///< of each tile, that each rank gave it
+    std::vector<std::uint64_t> firsts_{};             ///< triangle of each rank
 };
 
 }  // namespace treeform::detail::stream

@@ -74,37 +74,38 @@ void tile_steps::look() {
     } else {
         const bool anew = has_plan();
         const std::vector<std::filesystem::path> damaged = survey_.cloud.damaged;
-        if (team_.leads()) folder_.clear();
+        if (communicator_.is_root()) folder_.clear();
         tiles_.clear();
         unpack();
         if (source_.lacks_las_grid())
-            source_.set_las_grid(las_grid_of(source_, team_, read_by(team_.rank()), pace_,
+            source_.set_las_grid(las_grid_of(source_, communicator_, read_by(communicator_.rank()),
+                                             pace_,
                                              {task_.options.las_scale, task_.options.las_offset}));
         const std::size_t most = std::bit_floor(
             std::clamp<std::uint64_t>(task_.options.memory / bytes_of_sample, 1U << 12, 1U << 18));
         survey_ = stream::survey(
-            source_, team_, read_by(team_.rank()),
+            source_, communicator_, read_by(communicator_.rank()),
             task_.options.relative ? std::nullopt : std::optional(task_.options.tolerance), most,
             pace_);
         survey_.cloud.started_anew = anew;
         survey_.cloud.damaged = damaged;
         set_tolerance();
-        if (team_.leads()) plan();
+        if (communicator_.is_root()) plan();
         share_cuts();
     }
     say_plan();
 }
 
 void tile_steps::unpack() {
-    if (!unpacked_) unpacked_.emplace(folder_, team_, task_.inputs, source_, pace_);
+    if (!unpacked_) unpacked_.emplace(folder_, communicator_, task_.inputs, source_, pace_);
 }
 
-/// As the first of a team has planned.
+/// As rank 0 has planned.
 void tile_steps::share_cuts() {
     state_writer mine;
-    if (team_.leads()) store_cuts(*cuts_, mine);
-    std::vector<state_reader> told = team_.exchange(mine);
-    if (!team_.leads()) cuts_ = load_cuts(told.front(), tolerance_);
+    if (communicator_.is_root()) store_cuts(*cuts_, mine);
+    std::vector<state_reader> received = communicator_.exchange(mine);
+    if (!communicator_.is_root()) cuts_ = load_cuts(received.front(), tolerance_);
 }
 
 bool tile_steps::has_plan() const { return folder_.load(plan_name).has_value(); }
@@ -119,7 +120,7 @@ void tile_steps::store_plan() const {
     store_cuts(*cuts_, state);
     state.number(needs_.tiles);
     state.number(needs_.borders);
-    state.number(team_.size());
+    state.number(communicator_.size());
     for (const tile& t : tiles_) {
         for (const record_count& part : t.points) store_count(part, state);
         state.number(t.own);
@@ -178,27 +179,28 @@ bool tile_steps::finds_tiles() {
     return whole;
 }
 
-/// Of a team, each looks at some tiles.
+/// Of several ranks, each looks at some tiles.
 bool tile_steps::take_over() {
     bool whole = load_plan();
     const std::size_t all = whole ? tiles_.size() : 0;
     state_writer mine;
-    for (std::size_t t = team_.rank(); t < all; t += team_.size())
+    for (std::size_t t = communicator_.rank(); t < all; t += communicator_.size())
         whole = find_tile(t, true) && whole;
     whole = has_numbers() && whole;
     mine.number(whole ? 1 : 0);
-    for (std::size_t t = team_.rank(); t < all; t += team_.size())
+    for (std::size_t t = communicator_.rank(); t < all; t += communicator_.size())
         mine.number(tiles_[t].finished ? 1 : 0);
     mine.number(survey_.cloud.damaged.size());
     for (const std::filesystem::path& path : survey_.cloud.damaged) mine.text(path.string());
-    std::vector<state_reader> told = team_.exchange(mine);
-    for (state_reader& one : told) whole = one.number() != 0 && whole;
+    std::vector<state_reader> received = communicator_.exchange(mine);
+    for (state_reader& one : received) whole = one.number() != 0 && whole;
     survey_.cloud.damaged.clear();
     for (std::size_t t = 0; t < all; ++t) {
-        const bool finished = told[t % told.size()].number() != 0;
-        if (finished && t % told.size() != team_.rank()) whole = load_tile(t, false) && whole;
+        const bool finished = received[t % received.size()].number() != 0;
+        if (finished && t % received.size() != communicator_.rank())
+            whole = load_tile(t, false) && whole;
     }
-    for (state_reader& one : told)
+    for (state_reader& one : received)
         for (std::uint64_t left = one.number(); left > 0 && one.whole(); --left)
             survey_.cloud.damaged.push_back(one.text());
     scattered_ = survey_.cloud.continued = whole;

@@ -74,9 +74,9 @@ class unpacked {
 
 }  // namespace
 
-tile_steps::tile_steps(pacer& pace, const work_folder& folder, const tile_task& task,
-                       const team& all, joined_points& source, const point_keys& keys)
-    : pace_(pace), folder_(folder), task_(task), team_(all), source_(source), keys_(keys) {}
+tile_steps::tile_steps(cancellable_progress& pace, const work_folder& folder, const tile_task& task,
+                       const communicator& all, joined_points& source, const point_keys& keys)
+    : pace_(pace), folder_(folder), task_(task), communicator_(all), source_(source), keys_(keys) {}
 
 void tile_steps::step_done() const {
     if (task_.options.step_done) task_.options.step_done();
@@ -104,7 +104,7 @@ std::size_t tile_steps::bytes_per_reader() const {
 
 void tile_steps::set_tolerance() {
     const std::optional<box3>& box = survey_.cloud.box;
-    const double share = task_.options.relative ? (box ? diagonal(*box) : 0.0) : 1.0;
+    const double share = task_.options.relative ? (box ? box->diagonal() : 0.0) : 1.0;
     tolerance_ = share * task_.options.tolerance;
     survey_.cloud.tolerance = tolerance_;
 }
@@ -120,10 +120,10 @@ std::filesystem::path tile_steps::points_file(std::size_t t, std::size_t part) c
 }
 
 share tile_steps::read_by(std::size_t rank) const {
-    if (team_.is_alone()) return {};
+    if (communicator_.is_alone()) return {};
     const auto count = source_.count();
     if (!count) return rank == 0 ? share{} : share{0, 0};
-    return team_.share_of(*count, rank);
+    return communicator_.share_of(*count, rank);
 }
 
 share tile_steps::tiles_of(std::size_t rank, bool unfinished) const {
@@ -137,7 +137,7 @@ share tile_steps::tiles_of(std::size_t rank, bool unfinished) const {
     for (const tile& t : tiles_) {
         const std::uint64_t middle = before + weight_of(t) / 2;
         const auto owner =
-            static_cast<std::size_t>(static_cast<double>(team_.size()) *
+            static_cast<std::size_t>(static_cast<double>(communicator_.size()) *
                                      static_cast<double>(middle) / static_cast<double>(all));
         mine.first += owner < rank ? 1 : 0;
         mine.last += owner <= rank ? 1 : 0;
@@ -170,8 +170,8 @@ void tile_steps::scatter() {
     give_points();
     scattered_ = true;
     count_finished();
-    if (team_.leads()) store_plan();
-    team_.meet();
+    if (communicator_.is_root()) store_plan();
+    communicator_.barrier();
     step_done();
 }
 
@@ -181,13 +181,13 @@ void tile_steps::give_points() {
     std::vector<record_count> given(cuts.size());
     const auto flush = [&](std::size_t t, numbers rows) {
         const auto bytes = std::as_bytes(rows);
-        append_to(points_file(t, team_.rank()), bytes);
+        append_to(points_file(t, communicator_.rank()), bytes);
         digests[t].add(bytes);
         given[t].records += rows.size();
     };
     scattered rows(cuts.size(), static_cast<std::size_t>(std::min<std::uint64_t>(
                                     piece, task_.options.memory / 4 / cuts.size())));
-    const share mine = read_by(team_.rank());
+    const share mine = read_by(communicator_.rank());
     std::optional<row_reader> ranks;
     if (has_order()) ranks.emplace(ranks_file(), ranks_, 1, piece);
     point_block block;
@@ -213,8 +213,9 @@ void tile_steps::give_points() {
             for (const std::uint32_t t : halos)
                 rows.put(t, tile_point::make(rank, tile_role::halo, p), values_of_point, flush);
         }
-        pace_.show("scatter", static_cast<double>(id - mine.first) /
-                                  static_cast<double>(survey_.cloud.points / team_.size() + 1));
+        pace_.show("scatter",
+                   static_cast<double>(id - mine.first) /
+                       static_cast<double>(survey_.cloud.points / communicator_.size() + 1));
     }
     rows.finish(flush);
     if (has_order()) std::filesystem::remove(ranks_file());
@@ -233,7 +234,7 @@ void tile_steps::share_counts(std::uint64_t read, const std::vector<record_count
     }
     std::uint64_t all = 0;
     std::uint64_t own = survey_.cloud.non_finite;
-    for (state_reader& one : team_.exchange(mine)) {
+    for (state_reader& one : communicator_.exchange(mine)) {
         all += one.number();
         for (tile& t : tiles_) {
             t.points.push_back(load_count(one));
@@ -263,7 +264,7 @@ std::size_t tile_steps::at_a_time() const {
 /// Tiles throw into their own slots, and those that come later are then left undone.
 void tile_steps::weld_tiles() {
     pace_.show("weld", 0.0);
-    const share mine = tiles_of(team_.rank(), true);
+    const share mine = tiles_of(communicator_.rank(), true);
     const auto count = static_cast<std::size_t>(mine.size());
     std::mutex one_at_a_time;
     std::size_t finished = 0;
@@ -294,7 +295,7 @@ void tile_steps::weld_tiles() {
         for (const std::exception_ptr& error : thrown)
             if (error) std::rethrow_exception(error);
     }
-    team_.meet();
+    communicator_.barrier();
     check_finished();
 }
 
@@ -429,8 +430,8 @@ void tile_steps::weld_tile(std::size_t t) {
 
 void tile_steps::weld_held(std::size_t t, tile_files& files) {
     weld::tile_weld weld(rule(), tolerance_, keys_.agree(), slices());
-    // With the rule first few are held; or all, which doubles memory twice, up to `bytes_per_point`.
-    // Of a crowded tile it is few, however many points it has.
+    // With the rule first few are held; or all, which doubles memory twice, up to
+    // `bytes_per_point`. Of a crowded tile it is few, however many points it has.
     constexpr std::uint64_t most = std::uint64_t{1} << 17;
     const std::uint64_t all = points_of(tiles_[t]);
     weld.reserve(

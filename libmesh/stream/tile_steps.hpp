@@ -1,14 +1,15 @@
 #pragma once
 /// \file
-/// A cloud welded in tiles on the disk, step by step; each step is found done when it has been.
+/// A cloud welded in tiles on the disk, step by step; steps are idempotent: a restart skips
+/// finished ones.
 
+#include <libmesh/stream/all_to_all.hpp>
 #include <libmesh/stream/border_rows.hpp>
+#include <libmesh/stream/cancellable_progress.hpp>
 #include <libmesh/stream/joined_points.hpp>
 #include <libmesh/stream/kept_points.hpp>
-#include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/point_keys.hpp>
 #include <libmesh/stream/point_survey.hpp>
-#include <libmesh/stream/posted_rows.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/row_file.hpp>
 #include <libmesh/stream/unpacked_pcd.hpp>
@@ -58,7 +59,7 @@ struct tile_task {
 struct tiles_welded {
     tiles_welded(double tolerance, const weld::agreement& agree) : border(tolerance, agree) {}
 
-    share points{};                         ///< of whose fate the process is told
+    share points{};                         ///< of which the process gets the outcome
     kept_points kept{0};                    ///< these, by number in the files
     std::optional<kept_points> followed{};  ///< "dropped" in it: kept with others, if asked for
     border_weld border;                     ///< names the leaders
@@ -69,27 +70,28 @@ struct tiles_welded {
         std::filesystem::path path{};
         record_count count{};
     };
-    std::vector<file> drops{};  ///< that the process is told of
-    /// Of a team: those of points that [a] process tells [b] of.
-    std::vector<std::vector<file>> told{};
+    std::vector<file> drops{};  ///< that are assigned to the process
+    /// Of several ranks: those of points that [a] sends to [b].
+    std::vector<std::vector<file>> sent{};
 };
 
 /// Tiles and their borders know points by their ranks: the places they have in the order that the
 /// rule goes through them. Without an order to ask for, these are their numbers.
 class tile_steps {
   public:
-    tile_steps(pacer& pace, const work_folder& folder, const tile_task& task, const team& all,
-               joined_points& source, const point_keys& keys);
+    tile_steps(cancellable_progress& pace, const work_folder& folder, const tile_task& task,
+               const communicator& all, joined_points& source, const point_keys& keys);
 
     /// Reads the cloud once; or knows it from an earlier run, whose work will then be continued.
     /// Then says where it will be cut.
     void look();
-    /// Unpacks compressed PCD inputs, once. All of a team come here.
+    /// Unpacks compressed PCD inputs, once. Collective: every rank must call this.
     void unpack();
     [[nodiscard]] const cloud_survey& survey() const { return survey_.cloud; }
     /// For what is known of other things than points.
     [[nodiscard]] cloud_survey& survey() { return survey_.cloud; }
-    /// Whether tiles have been given their points, here or elsewhere; of theirs, nothing is looked at.
+    /// Whether tiles have been given their points, here or elsewhere; of theirs, nothing is looked
+    /// at.
     [[nodiscard]] bool has_tiles() { return scattered_ || know(); }
     /// Whether the folder has tiles, be it of another cloud or of other options.
     [[nodiscard]] bool has_plan() const;
@@ -104,22 +106,23 @@ class tile_steps {
     /// \throws stream_error with what would be enough, where memory is not
     void check_before_borders() const;
     [[nodiscard]] tiles_welded weld_borders();
-    /// Whether each of a team reads its points, and is told of them.
+    /// Whether each rank reads its points, and is told of them.
     [[nodiscard]] bool is_divided() const { return source_.count().has_value(); }
-    /// Tells the first of a team of all points, and the others of none.
-    void tell_first(tiles_welded& w) const;
+    /// Tells rank 0 of all points, and the others of none.
+    void gather_first(tiles_welded& w) const;
 
     /// The kept points that points belong to; asked for one by one, from the first on.
     class leaders {
       public:
-        /// All of `all` come here, each with its points.
-        leaders(const tile_steps& steps, const team& all, const tiles_welded& welded);
+        /// Collective: every rank must call this, with its points.
+        leaders(const tile_steps& steps, const communicator& all, const tiles_welded& welded);
         leaders(const tile_steps& steps, const tiles_welded& welded)
             : leaders(steps, steps.all(), welded) {}
         [[nodiscard]] std::uint64_t of(std::uint64_t point);
 
       private:
-        void number(const tile_steps& steps, const team& all, const share& told, row_merge& ranks);
+        void number(const tile_steps& steps, const communicator& all, const share& assigned,
+                    row_merge& ranks);
 
         const border_weld& border_;
         std::unique_ptr<shared_sorter> sorter_{};
@@ -129,14 +132,14 @@ class tile_steps {
 
     void step_done() const;
     [[nodiscard]] joined_points& source() { return source_; }
-    [[nodiscard]] const team& all() const { return team_; }
+    [[nodiscard]] const communicator& all() const { return communicator_; }
     [[nodiscard]] const point_keys& keys() const { return keys_; }
     /// For rows on their way to the disk and back.
     [[nodiscard]] std::uint64_t sorting_memory() const { return task_.options.memory / 8; }
 
   private:
     struct tile {
-        std::vector<record_count> points{};  ///< that each of a team has given it
+        std::vector<record_count> points{};  ///< that each rank has given it
         std::uint64_t own = 0;
         bool finished = false;
         record_count drops{};
@@ -231,16 +234,16 @@ class tile_steps {
     [[nodiscard]] std::vector<tiles_welded::file> weld_borders_in_runs(longest_move& longest) const;
     [[nodiscard]] bool is_outer(const point3& p, const share& tiles,
                                 std::vector<std::uint32_t>& halos) const;
-    void tell(tiles_welded& w, kept_points& followed) const;
+    void distribute(tiles_welded& w, kept_points& followed) const;
     void follow(const tiles_welded& w, kept_points& kept, kept_points& followed) const;
     void sum_up(tiles_welded& w, const kept_points& kept, const kept_points& followed,
                 longest_move longest) const;
     [[nodiscard]] kept_points number_kept(const kept_points& by_rank) const;
-    [[nodiscard]] kept_points number_kept_by_all(const share& told,
+    [[nodiscard]] kept_points number_kept_by_all(const share& assigned,
                                                  const kept_points& by_rank) const;
-    [[nodiscard]] share told_to(std::size_t rank) const;
+    [[nodiscard]] share assigned_to(std::size_t rank) const;
     [[nodiscard]] std::size_t owner_of(std::uint64_t point) const {
-        return is_divided() ? team_.owner_of(point, survey_.cloud.points) : 0;
+        return is_divided() ? communicator_.owner_of(point, survey_.cloud.points) : 0;
     }
     /// Of the points with these ranks.
     [[nodiscard]] row_chain numbers_by_rank(const share& some = {}) const;
@@ -265,10 +268,10 @@ class tile_steps {
     [[nodiscard]] std::uint64_t bytes_per_point() const;
     [[nodiscard]] std::size_t bytes_per_reader() const;
 
-    pacer& pace_;
+    cancellable_progress& pace_;
     const work_folder& folder_;
     const tile_task& task_;
-    const team& team_;
+    const communicator& communicator_;
     joined_points& source_;
     const point_keys& keys_;
     std::optional<unpacked_inputs> unpacked_{};

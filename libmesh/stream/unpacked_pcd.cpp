@@ -26,8 +26,8 @@ void tell(const io::lzf_place& at, bool good, state_writer& to) {
 
 }  // namespace
 
-std::uint64_t unpack_in_turn(const fs::path& pcd, const fs::path& to, const team& all,
-                             pacer& pace) {
+std::uint64_t unpack_in_turn(const fs::path& pcd, const fs::path& to, const communicator& all,
+                             cancellable_progress& pace) {
     const io::source in = io::source::open(pcd, io::scratch_place::file);
     const io::packed_pcd packed = io::find_packed_pcd(in, io::read_pcd_header(in));
     io::lzf_place at;
@@ -36,7 +36,7 @@ std::uint64_t unpack_in_turn(const fs::path& pcd, const fs::path& to, const team
         in.release_before(packed.bytes.data() + at.packed);
         pace.check();
     };
-    all.take_turns(
+    all.sequential(
         [&](state_writer& mine) {
             // What is read and made: where little is packed, much is made.
             const std::uint64_t end = all.end_of_turn(packed.bytes.size() + packed.size);
@@ -44,18 +44,19 @@ std::uint64_t unpack_in_turn(const fs::path& pcd, const fs::path& to, const team
                                                 packed.size, put);
             tell(at, good, mine);
         },
-        [&](state_reader told) {
-            if (told.number() == 0) packed.fail_damaged(in);
-            at.packed = static_cast<std::size_t>(told.number());
-            at.unpacked = static_cast<std::size_t>(told.number());
-            at.last = told.text();
+        [&](state_reader received) {
+            if (received.number() == 0) packed.fail_damaged(in);
+            at.packed = static_cast<std::size_t>(received.number());
+            at.unpacked = static_cast<std::size_t>(received.number());
+            at.last = received.text();
         });
     if (at.packed != packed.bytes.size() || at.unpacked != packed.size) packed.fail_damaged(in);
     return packed.size;
 }
 
-unpacked_inputs::unpacked_inputs(const work_folder& folder, const team& all,
-                                 const cloud_inputs& inputs, joined_points& source, pacer& pace)
+unpacked_inputs::unpacked_inputs(const work_folder& folder, const communicator& all,
+                                 const cloud_inputs& inputs, joined_points& source,
+                                 cancellable_progress& pace)
     : files_(all) {
     std::vector<fs::path> unpacked(inputs.paths.size());
     for (std::size_t i = 0; i < unpacked.size(); ++i) {

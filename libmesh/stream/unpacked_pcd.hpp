@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Compressed PCD files, unpacked once for all of a team.
+/// Compressed PCD files, unpacked once for all ranks.
 
+#include <libmesh/stream/cancellable_progress.hpp>
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/joined_points.hpp>
-#include <libmesh/stream/pacer.hpp>
 #include <libmesh/stream/passing_files.hpp>
-#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
@@ -14,20 +14,21 @@
 
 namespace treeform::detail::stream {
 
-/// Unpacks what is packed in `pcd` to an empty file that the first of the team has made. What a byte
-/// stands for is known when those ahead are, so each in turn unpacks its share, counted in bytes read and
-/// made, and tells the next one where it has come to. All come here. Returns how many bytes it became.
+/// Unpacks what is packed in `pcd` to an empty file that rank 0 has made. What a byte
+/// stands for is known when those ahead are, so each in turn unpacks its share, counted in bytes
+/// read and made, and tells the next one where it has come to. Collective: every rank must call
+/// this. Returns how many bytes it became.
 ///
 /// \throws io_error, all of them the same where the packed bytes are damaged; stream_error, cancelled
 std::uint64_t unpack_in_turn(const std::filesystem::path& pcd, const std::filesystem::path& to,
-                             const team& all, pacer& pace);
+                             const communicator& all, cancellable_progress& pace);
 
 /// The unpacked inputs in a folder, from where they are read until the end.
 class unpacked_inputs {
   public:
-    /// All come here. \throws as `unpack_in_turn`
-    unpacked_inputs(const work_folder& folder, const team& all, const cloud_inputs& inputs,
-                    joined_points& source, pacer& pace);
+    /// Collective: every rank must call this. \throws as `unpack_in_turn`
+    unpacked_inputs(const work_folder& folder, const communicator& all, const cloud_inputs& inputs,
+                    joined_points& source, cancellable_progress& pace);
 
     /// That they take in the folder.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }

@@ -68,8 +68,8 @@ mesh_file head_of(const mesh_file& file) {
 
 weld_result weld_triangles(const mesh_file& file, const weld_options& options) {
     // Joining a soup's corners would make the edges that `keep_manifold` is to prevent.
-    const bool soup = !file.indexed && !options.keep_manifold &&
-                      find_element(file.attributes, "vertex") == nullptr;
+    const bool soup =
+        !file.indexed && !options.keep_manifold && file.attributes.find("vertex") == nullptr;
     weld_result welded =
         soup ? weld_soup(file, options) : weld(file.mesh, file.attributes, options);
     if (welded.status != status::cancelled) check_counts(file, welded, options);
@@ -83,7 +83,7 @@ file_weld_result weld(const mesh_file& file, const weld_options& options) {
     weld_result welded;
     if (has_polygons) {
         mesh_file triangles = file;
-        split_polygons(triangles);
+        triangles.split_polygons();
         welded = weld_triangles(triangles, options);
     } else {
         welded = weld_triangles(file, options);
@@ -106,19 +106,20 @@ file_weld_result weld(const mesh_file& file, const weld_options& options) {
     return result;
 }
 
-void withhold(mesh_file& file, const file_weld_result& welded) {
+void file_weld_result::withhold(mesh_file& file) const {
+    const file_weld_result& welded = *this;
     const std::vector<std::uint32_t>& group_of = welded.groups.group_of_point;
     if (group_of.size() != file.mesh.points.size())
         throw std::invalid_argument("treeform::withhold: the result of another number of points");
-    element& vertices = obtain_element(file.attributes, "vertex", group_of.size());
-    const column* const before = find_column(vertices, "withheld");
+    element& vertices = file.attributes.obtain("vertex", group_of.size());
+    const column* const before = vertices.find("withheld");
     const bool has_flags = before != nullptr && !before->list_length;
     std::vector<std::uint8_t> flags(group_of.size());
     for (std::uint32_t p = 0; p < flags.size(); ++p) {
-        const bool was = has_flags && number_at(*before, p) != 0.0;
+        const bool was = has_flags && before->number(p) != 0.0;
         flags[p] = was || welded.point_of_group[group_of[p]] != p ? 1 : 0;
     }
-    set_column(vertices, make_column<std::uint8_t>("withheld", flags));
+    vertices.set(column::of<std::uint8_t>("withheld", flags));
 }
 
 std::optional<std::uint64_t> count_still_within(const mesh_file& welded,
@@ -136,15 +137,15 @@ std::optional<std::uint64_t> count_still_within(const mesh_file& welded,
     }
     weld_options again = options;
     again.keep = weld_keep::first;
-    again.same = weld_conditions(welded.attributes, !welded.mesh.faces.empty(), options);
+    again.same = options.conditions(welded.attributes, !welded.mesh.faces.empty());
     again.keep_seams = false;
     attributes properties;
-    if (const element* vertices = find_element(welded.attributes, "vertex"))
+    if (const element* vertices = welded.attributes.find("vertex"))
         if (!again.same.empty() || again.order != weld_order::given)
             properties.elements.push_back(*vertices);
-    const cloud_weld_result twice = weld(points, properties, again);
+    const weld_result twice = weld(points, properties, again);
     if (twice.status == status::cancelled) return std::nullopt;
-    return points.size() - twice.points.size();
+    return points.size() - twice.mesh.points.size();
 }
 
 }  // namespace treeform

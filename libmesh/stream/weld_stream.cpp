@@ -71,7 +71,7 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
         throw std::invalid_argument(
             "treeform::weld_stream: the tolerance must be finite and not negative");
     inputs = named(std::move(inputs));
-    if (options.memory == 0) options.memory = default_memory();
+    if (options.memory == 0) options.memory = weld_stream_options::default_memory();
     const std::uint64_t memory = options.memory;
     options.memory = detail::stream::left_for_points(memory);
     if (options.folder.empty()) options.folder = inputs.paths.front().string() + ".tiles";
@@ -89,13 +89,13 @@ void check_soup(const mesh_file& header, const weld_stream_options& o) {
             "tolerance or by weld_rule::chain; a PLY made of it is with all options");
 }
 
-/// Whether files with these headers have the same values of what conditions look at. Coordinates are
-/// doubles in any file.
+/// Whether files with these headers have the same values of what conditions look at. Coordinates
+/// are doubles in any file.
 bool have_same_values(const mesh_file& a, const mesh_file& b,
                       const std::vector<weld_condition>& conditions) {
     const auto type_in = [](const mesh_file& header, const std::string& name) {
-        const element* const vertices = find_element(header.attributes, "vertex");
-        const column* const found = vertices == nullptr ? nullptr : find_column(*vertices, name);
+        const element* const vertices = header.attributes.find("vertex");
+        const column* const found = vertices == nullptr ? nullptr : vertices->find(name);
         return found == nullptr || found->role != column_role::data ? std::nullopt
                                                                     : std::optional(found->type);
     };
@@ -104,10 +104,10 @@ bool have_same_values(const mesh_file& a, const mesh_file& b,
     });
 }
 
-work_folder::use use_of(const weld_stream_options& o, const detail::stream::team& all) {
+work_folder::use use_of(const weld_stream_options& o, const detail::stream::communicator& all) {
     if (o.shared) return work_folder::use::shared;
-    if (!all.leads()) all.meet();  // the first one makes the folder
-    return all.leads() ? work_folder::use::alone : work_folder::use::member;
+    if (!all.is_root()) all.barrier();  // the first one makes the folder
+    return all.is_root() ? work_folder::use::alone : work_folder::use::member;
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ stream_error::stream_error(reason why, fs::path path, const std::string& text, s
 
 cloud_outline outline(const cloud_inputs& inputs, const process_team& team) {
     const cloud_inputs all = named(inputs);
-    const detail::stream::joined_points points(all, false, detail::stream::team(team));
+    const detail::stream::joined_points points(all, false, detail::stream::communicator(team));
     return {points.header(), points.count(), detail::stream::has_rows_behind(points.header())};
 }
 
@@ -130,8 +130,8 @@ struct stream_weld::state {
           pace(task.options.progress),
           folder(task.options.folder, "weld", use_of(task.options, all)),
           steps(pace, folder, task, all, source, keys) {
-        if (all.leads()) all.meet();
-        all.meet();  // or one would make again what the first one has removed
+        if (all.is_root()) all.barrier();
+        all.barrier();  // or one would make again what the first one has removed
         source.wish_las_grid({task.options.las_scale, task.options.las_offset});
         if (!detail::stream::has_rows_behind(source.header())) return;
         check_soup(source.header(), task.options);
@@ -201,7 +201,7 @@ struct stream_weld::state {
         const weld_stream_result result = run(twice, {});
         if (result.status == status::cancelled) throw detail::stream::cancelled{};
         written.still_within = result.survey.points - result.counts.kept;
-        if (all.leads()) fs::remove(whole);
+        if (all.is_root()) fs::remove(whole);
     }
 
     [[nodiscard]] static weld_stream_result run(stream_weld& work,
@@ -219,11 +219,11 @@ struct stream_weld::state {
     }
 
     detail::stream::tile_task task;
-    detail::stream::team all;
-    detail::stream::team lone{process_team{}};
+    detail::stream::communicator all;
+    detail::stream::communicator lone{process_team{}};
     detail::stream::joined_points source;
     detail::stream::point_keys keys;
-    detail::stream::pacer pace;
+    detail::stream::cancellable_progress pace;
     work_folder folder;
     std::optional<detail::stream::held_alone>
         alone{};  ///< a shared one, while tiles are made, and from `weld` on
@@ -237,7 +237,7 @@ struct stream_weld::state {
 
 stream_weld::stream_weld(cloud_inputs inputs, weld_stream_options options)
     : state_(std::make_unique<state>(std::move(inputs), std::move(options))) {
-    if (state_->all.leads() && !state_->task.options.shared)
+    if (state_->all.is_root() && !state_->task.options.shared)
         detail::stream::remove_leftovers(state_->folder);
 }
 stream_weld::~stream_weld() = default;
@@ -286,7 +286,7 @@ status stream_weld::weld() {
         }
         s.welded.emplace(s.steps.weld_borders());
         const bool is_divided = s.steps.is_divided();
-        if (s.task.options.keep != weld_keep::first && (is_divided || s.all.leads()))
+        if (s.task.options.keep != weld_keep::first && (is_divided || s.all.is_root()))
             s.rows.emplace(s.pace, s.folder, is_divided ? s.all : s.lone, s.task, s.steps,
                            *s.welded);
         s.counts = {survey().points - s.welded->dropped, s.welded->groups,
@@ -310,8 +310,8 @@ status stream_weld::write(const weld_stream_outputs& outputs) {
 const weld_stream_written& stream_weld::written() const { return state_->written; }
 
 void stream_weld::remove_folder() {
-    state_->all.meet();
-    if (state_->all.leads()) state_->folder.remove();
+    state_->all.barrier();
+    if (state_->all.is_root()) state_->folder.remove();
 }
 
 weld_stream_result weld_stream(const cloud_inputs& inputs, const weld_stream_outputs& outputs,
@@ -327,18 +327,18 @@ weld_stream_result weld_stream(const fs::path& input, const fs::path& output,
     return weld_stream(cloud_inputs{.paths = {input}}, outputs, options);
 }
 
-std::uint64_t default_memory() {
+std::uint64_t weld_stream_options::default_memory() {
     const auto pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
 }
 
-std::uint64_t memory_to_weld(const mesh_file& header, std::uint64_t points) {
+std::uint64_t weld_stream_options::memory_to_weld(const mesh_file& header, std::uint64_t points) {
     std::uint64_t properties = 0;
-    if (const element* vertices = find_element(header.attributes, "vertex"))
+    if (const element* vertices = header.attributes.find("vertex"))
         for (const column& c : vertices->columns)
             if (c.role == column_role::data) properties += size_of(c.type);
     const std::uint64_t of_points = points * (sizeof(point3) + 2 * properties + 48);
-    const element* const faces = find_element(header.attributes, "face");
+    const element* const faces = header.attributes.find("face");
     if (faces == nullptr) return of_points;
     std::uint64_t of_face = 2 * sizeof(face) + 40;
     for (const column& c : faces->columns)
@@ -346,9 +346,9 @@ std::uint64_t memory_to_weld(const mesh_file& header, std::uint64_t points) {
     return of_points + faces->rows * of_face;
 }
 
-std::uint64_t memory_to_stream(const mesh_file& header, std::uint64_t points) {
+std::uint64_t weld_stream_options::memory_to_stream(const mesh_file& header, std::uint64_t points) {
     std::uint64_t row = sizeof(point3);
-    if (const element* vertices = find_element(header.attributes, "vertex"))
+    if (const element* vertices = header.attributes.find("vertex"))
         for (const column& c : vertices->columns) row += size_of(c.type);
     constexpr std::uint64_t samples_and_buffers = std::uint64_t{6} << 20;
     const std::uint64_t blocks = 4 * row * detail::stream::points_a_block;

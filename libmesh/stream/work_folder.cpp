@@ -70,7 +70,7 @@ void work_folder::hold(use how) {
 }
 
 /// Several that wait hold nothing meanwhile, so that one of them gets it.
-void work_folder::hold_alone(pacer& pace) {
+void work_folder::hold_alone(cancellable_progress& pace) {
     constexpr auto pause = std::chrono::milliseconds(20);
     for (int left = 100; !try_to(use::alone); --left) {
         hold(use::shared);

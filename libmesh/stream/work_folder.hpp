@@ -2,7 +2,7 @@
 /// \file
 /// The folder in which a cloud larger than memory is welded; what is there outlives the process.
 
-#include <libmesh/stream/pacer.hpp>
+#include <libmesh/stream/cancellable_progress.hpp>
 #include <libmesh/stream/state_record.hpp>
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace treeform::detail::stream {
 
-/// Held by one process at a time, or shared by several. What is stored in it stays until `remove`, so
-/// that the same call can go on; a folder without anything ends with its last holder.
+/// Held by one process at a time, or shared by several. What is stored in it stays until `remove`,
+/// so that the same call can go on; a folder without anything ends with its last holder.
 class TREEFORM_API work_folder {
   public:
     enum class use : std::uint8_t {
@@ -32,7 +32,7 @@ class TREEFORM_API work_folder {
     void hold(use how);
     /// The same alone, for who shares it: waits a little for others that are about to end.
     /// \throws stream_error when it is in use; cancelled
-    void hold_alone(pacer& pace);
+    void hold_alone(cancellable_progress& pace);
     ~work_folder();
     work_folder(const work_folder&) = delete;
     work_folder& operator=(const work_folder&) = delete;
@@ -73,7 +73,9 @@ class TREEFORM_API work_folder {
 class held_alone {
   public:
     /// \throws as `work_folder::hold_alone`
-    held_alone(work_folder& folder, pacer& pace) : folder_(folder) { folder.hold_alone(pace); }
+    held_alone(work_folder& folder, cancellable_progress& pace) : folder_(folder) {
+        folder.hold_alone(pace);
+    }
     ~held_alone();
     held_alone(const held_alone&) = delete;
     held_alone& operator=(const held_alone&) = delete;

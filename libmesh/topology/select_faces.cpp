@@ -1,3 +1,4 @@
+#include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/properties.hpp>
 
 #include <stdexcept>

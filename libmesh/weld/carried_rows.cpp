@@ -17,7 +17,7 @@ namespace {
 
 void check_column(const element& e, const column& c) {
     if (c.role != column_role::data) return;
-    const std::size_t values = value_count(c);
+    const std::size_t values = c.size();
     const std::vector<std::uint64_t>& begin = c.list_begin;
     const bool fits = c.list_length
                           ? begin.size() == e.rows + 1 && begin.front() == 0 &&
@@ -31,15 +31,15 @@ constexpr std::string_view names_of_points[] = {"vertex1", "vertex2", "vertex_in
 
 void renumber_points(column& c, const std::vector<std::uint32_t>& new_of_old) {
     if (!numbers_points(c)) return;
-    for_chunks(value_count(c), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for_chunks(c.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         renumber(c, begin, end, new_of_old.size(),
                  [&](std::uint64_t old) { return new_of_old[static_cast<std::size_t>(old)]; });
     });
 }
 
 element carried(const element& e, const weld_result& welded) {
-    if (e.name == "vertex") return gather(e, welded.point_of_group);
-    if (e.name == "face") return gather(e, welded.face_of_new);
+    if (e.name == "vertex") return e.gathered(welded.point_of_group);
+    if (e.name == "face") return e.gathered(welded.face_of_new);
     element other = e;
     for (column& c : other.columns) renumber_points(c, welded.groups.group_of_point);
     return other;
@@ -63,11 +63,11 @@ void check_rows(const attributes& properties, std::size_t point_count, std::size
                    std::to_string(face_count) + " faces");
         for (const column& c : e.columns) check_column(e, c);
     }
-    if (const auto fault = fault_of(properties.corners, face_count); !fault.empty()) refuse(fault);
+    if (const auto fault = properties.corners.fault(face_count); !fault.empty()) refuse(fault);
 }
 
 attributes carry_rows(const attributes& properties, const weld_result& welded) {
-    attributes result{.corners = gather(properties.corners, welded.face_of_new),
+    attributes result{.corners = properties.corners.gathered(welded.face_of_new),
                       .parts = properties.parts,
                       .material_files = properties.material_files,
                       .texture_files = properties.texture_files,

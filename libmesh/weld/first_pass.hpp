@@ -99,7 +99,7 @@ class first_pass {
                         .salt = agree_.salt(values.data()),
                         .shared = outer,
                         .unsure = outer,
-                        .leaning = p.kind() == border_kind::leaning ? &p : nullptr};
+                        .provisional = p.kind() == border_kind::provisional ? &p : nullptr};
         if (p.kind() == border_kind::kept)
             keep(a, out);
         else
@@ -189,7 +189,7 @@ class first_pass {
         bool own = true;
         bool shared = false;  ///< others have to know of it
         bool unsure = false;  ///< some of its neighbors may be unknown here
-        const border_point* leaning = nullptr;
+        const border_point* provisional = nullptr;
     };
 
     void add(const arrival& a, tile_result& out) {
@@ -237,7 +237,8 @@ class first_pass {
     neighbors look(const arrival& a) {
         const point3& p = a.at;
         neighbors found{nearest_kept(p), nearest_kept(p), infinity, false, {}};
-        if (a.leaning != nullptr) found.kept.consider(a.leaning->leader, a.leaning->leader_at);
+        if (a.provisional != nullptr)
+            found.kept.consider(a.provisional->leader, a.provisional->leader_at);
         const auto agrees = [&](const std::vector<std::uint64_t>& values, std::size_t number) {
             return agree_.holds(a.values, values.data() + number * agree_.size());
         };
@@ -273,10 +274,10 @@ class first_pass {
             out.move.consider(a.at, kept.at());
             return;
         }
-        border_point leaning = at(a, border_kind::leaning);
-        leaning.leader = kept.id();
-        leaning.leader_at = kept.at();
-        put(leaning, a, out);
+        border_point provisional = at(a, border_kind::provisional);
+        provisional.leader = kept.id();
+        provisional.leader_at = kept.at();
+        put(provisional, a, out);
         for (const std::uint32_t number : met_open_) ask_for(open_.cells[number], a);
     }
 

@@ -160,7 +160,8 @@ std::uint64_t count_nearly_equal(points_view points, double distance) {
     return distinct - group_points(points, {.tolerance = distance}).first_of_group.size();
 }
 
-mesh join_groups(mesh_view mesh, const point_groups& groups) {
+mesh point_groups::joined(mesh_view mesh) const {
+    const point_groups& groups = *this;
     if (groups.group_of_point.size() != mesh.points.size())
         throw std::invalid_argument("treeform::join_groups: groups of " +
                                     std::to_string(groups.group_of_point.size()) + " points for " +

@@ -1,7 +1,7 @@
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/weld/moves.hpp>
 #include <libmesh/weld/reach.hpp>
-#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <array>

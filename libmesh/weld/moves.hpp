@@ -2,8 +2,8 @@
 /// \file
 /// What merging points did to their places and to the normals of faces.
 
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/predicates.hpp>
 
 #include <cstdint>
 #include <span>

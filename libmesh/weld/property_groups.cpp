@@ -17,8 +17,8 @@ using fault = weld_property_error::fault;
 using detail::attribute::column_use;
 
 const column* data_column(const attributes& properties, std::string_view name) {
-    const element* vertices = find_element(properties, "vertex");
-    const column* c = vertices == nullptr ? nullptr : find_column(*vertices, name);
+    const element* vertices = properties.find("vertex");
+    const column* c = vertices == nullptr ? nullptr : vertices->find(name);
     return c == nullptr || c->role != column_role::data ? nullptr : c;
 }
 
@@ -34,8 +34,8 @@ bool is_axis(std::string_view name) { return name == "x" || name == "y" || name 
 /// The columns that `name` stands for; empty when there are none.
 std::vector<std::string> columns_of(const attributes& properties, std::string_view name) {
     if (is_axis(name)) return {std::string(name)};
-    const element* const vertices = find_element(properties, "vertex");
-    return vertices == nullptr ? std::vector<std::string>{} : columns_called(*vertices, name);
+    const element* const vertices = properties.find("vertex");
+    return vertices == nullptr ? std::vector<std::string>{} : vertices->columns_called(name);
 }
 
 std::vector<std::string> required(const attributes& properties, option where,
@@ -52,6 +52,18 @@ std::string required_column(const attributes& properties, option where, const st
     auto columns = required(properties, where, name);
     if (columns.size() > 1) throw weld_property_error(where, fault::is_several, name);
     return std::move(columns.front());
+}
+
+/// Equality of each column of normals (nx, ny, nz), texture coordinates (u, v, s, t, texture_u,
+/// texture_v) and colors (red, green, blue, alpha) that "vertex" has, in the order of the columns.
+std::vector<weld_condition> seam_conditions(const attributes& properties) {
+    std::vector<weld_condition> found;
+    const element* vertices = properties.find("vertex");
+    if (vertices == nullptr) return found;
+    for (const column& c : vertices->columns)
+        if (c.role == column_role::data && !c.list_length && is_seam(c.name))
+            found.push_back({c.name, 0.0});
+    return found;
 }
 
 std::vector<weld_condition> kept_seams(const attributes& properties,
@@ -88,31 +100,21 @@ weld_property_error::weld_property_error(option where, fault what, std::string n
       fault_(what),
       name_(std::move(name)) {}
 
-std::vector<weld_condition> weld_conditions(const attributes& properties, bool has_faces,
-                                            const weld_options& options) {
+std::vector<weld_condition> weld_options::conditions(const attributes& properties,
+                                                     bool has_faces) const {
     std::vector<weld_condition> conditions;
-    for (const weld_condition& asked : options.same)
+    for (const weld_condition& asked : same)
         for (std::string& column : required(properties, option::same, asked.property))
             conditions.push_back({std::move(column), asked.tolerance});
-    if (!options.keep_seams) return conditions;
+    if (!keep_seams) return conditions;
     const auto asked = static_cast<std::ptrdiff_t>(conditions.size());
-    std::vector<weld_condition> seams = kept_seams(properties, options.across);
+    std::vector<weld_condition> seams = kept_seams(properties, across);
     if (!has_faces) return conditions;
     for (weld_condition& seam : seams)
         if (std::none_of(conditions.begin(), conditions.begin() + asked,
                          [&](const weld_condition& c) { return c.property == seam.property; }))
             conditions.push_back(std::move(seam));
     return conditions;
-}
-
-std::vector<weld_condition> seam_conditions(const attributes& properties) {
-    std::vector<weld_condition> found;
-    const element* vertices = find_element(properties, "vertex");
-    if (vertices == nullptr) return found;
-    for (const column& c : vertices->columns)
-        if (c.role == column_role::data && !c.list_length && is_seam(c.name))
-            found.push_back({c.name, 0.0});
-    return found;
 }
 
 std::string detail::weld::column_to_keep_by(const attributes& properties,

@@ -80,17 +80,17 @@ class chain_in_tile {
 /// Sets of numbers; each is known by its lowest, and where that is.
 class lowest_points {
   public:
-    struct place {
+    struct point_with_id {
         std::uint64_t id = 0;
         point3 at{};
     };
 
-    void join(const place& a, const place& b) {
-        const place x = shorten(a);
-        const place y = shorten(b);
+    void join(const point_with_id& a, const point_with_id& b) {
+        const point_with_id x = shorten(a);
+        const point_with_id y = shorten(b);
         if (x.id != y.id) above_[std::max(x.id, y.id)] = x.id < y.id ? x : y;
     }
-    [[nodiscard]] place lowest(place a) const {
+    [[nodiscard]] point_with_id lowest(point_with_id a) const {
         for (auto up = above_.find(a.id); up != above_.end(); up = above_.find(a.id))
             a = up->second;
         return a;
@@ -104,7 +104,7 @@ class lowest_points {
         std::vector<border_point> links;
         links.reserve(all.size());
         for (const std::uint64_t id : all) {
-            const place top = shorten({id, {}});
+            const point_with_id top = shorten({id, {}});
             links.push_back(border_point::make(id, border_kind::link));
             links.back().leader = top.id;
             links.back().leader_at = top.at;
@@ -114,8 +114,8 @@ class lowest_points {
 
   private:
     /// As `lowest`, and hangs what is on the way directly below it.
-    place shorten(place a) {
-        const place top = lowest(a);
+    point_with_id shorten(point_with_id a) {
+        const point_with_id top = lowest(a);
         for (auto up = above_.find(a.id); up != above_.end(); up = above_.find(a.id)) {
             a = up->second;
             up->second = top;
@@ -124,7 +124,7 @@ class lowest_points {
         return top;
     }
 
-    std::unordered_map<std::uint64_t, place> above_{};
+    std::unordered_map<std::uint64_t, point_with_id> above_{};
 };
 
 }  // namespace

@@ -20,7 +20,7 @@
 /// an earlier kept one of them is within the tolerance, keeps it else. This is the rule's answer:
 /// an earlier neighbor that is kept in the end was not called kept here, or it would have dropped
 /// the point, nor dropped. So it is open in its own tile, or kept there and in our halo; both
-/// ways it is in the border pass. For the same reason the leader of a leaning point is the one it
+/// ways it is in the border pass. For the same reason the leader of a provisional point is the one it
 /// leans on, or one that the border pass has seen before it.
 ///
 /// Open points are not kept apart from open ones within a fourth of the tolerance of them: one
@@ -100,10 +100,10 @@ struct tile_drop {
 };
 
 enum class border_kind : std::uint8_t {
-    open,     ///< kept or dropped: the border pass says
-    leaning,  ///< dropped, for `leader` or for a nearer one
-    kept,     ///< for others to lean on
-    link      ///< rule chain: a shared point and the lowest of its component in one tile
+    open,         ///< kept or dropped: the border pass says
+    provisional,  ///< dropped, for `leader` or for a nearer one
+    kept,         ///< for others to lean on
+    link          ///< rule chain: a shared point and the lowest of its component in one tile
 };
 
 /// What one tile leaves to the border pass about a point.

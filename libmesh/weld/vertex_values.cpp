@@ -58,8 +58,8 @@ bool keys_agree(bool whole, std::uint64_t a, std::uint64_t b, double tolerance) 
 
 vertex_values::vertex_values(points_view points, const attributes& properties,
                              const std::string& name) {
-    const element* vertices = find_element(properties, "vertex");
-    const column* c = vertices == nullptr ? nullptr : find_column(*vertices, name);
+    const element* vertices = properties.find("vertex");
+    const column* c = vertices == nullptr ? nullptr : vertices->find(name);
     if (c == nullptr || c->role != column_role::data) {
         const std::size_t axis = name.size() == 1 ? std::string_view("xyz").find(name) : 3;
         if (axis > 2) refuse_property("no vertex property '" + name + "'");
@@ -69,7 +69,7 @@ vertex_values::vertex_values(points_view points, const attributes& properties,
     if (c->list_length) refuse_property("the vertex property '" + name + "' is a list");
     const bool is_signed = c->type == scalar_type::int64;
     if (!is_signed && c->type != scalar_type::uint64) {
-        number_ = filled<double>(points.size(), [&](std::size_t i) { return number_at(*c, i); });
+        number_ = filled<double>(points.size(), [&](std::size_t i) { return c->number(i); });
         return;
     }
     whole_ = filled<std::uint64_t>(points.size(), [&](std::size_t i) {

@@ -26,7 +26,7 @@ namespace {
 [[nodiscard]] point_groups find_groups(mesh_view mesh, const attributes& properties,
                                        const weld_options& options,
                                        std::span<const std::uint32_t> order) {
-    const auto asked = weld_conditions(properties, !mesh.faces.empty(), options);
+    const auto asked = options.conditions(properties, !mesh.faces.empty());
     detail::buffer<std::uint8_t> border;
     if (options.only_borders) border = detail::weld::border_points(mesh.points.size(), mesh.faces);
     const detail::weld::conditions conditions(mesh.points, properties, options, asked,
@@ -99,15 +99,15 @@ void carry_points(points_view points, const attributes& properties, const weld_o
     if (options.keep != weld_keep::mean) return;
     const detail::weld::group_members members(result.groups);
     detail::weld::take_means(points, members, places);
-    const element* vertices = find_element(properties, "vertex");
+    const element* vertices = properties.find("vertex");
     if (vertices == nullptr) return;
-    detail::weld::take_means(*vertices, members,
-                             obtain_element(result.attributes, "vertex", places.size()));
+    detail::weld::take_means(*vertices, members, result.attributes.obtain("vertex", places.size()));
 }
 
 }  // namespace
 
-weld_result weld(mesh_view mesh, const attributes& properties, const weld_options& options) {
+weld_result weld(const mesh_ref& given, const attributes& properties, const weld_options& options) {
+    const mesh_view mesh = given.view();
     detail::base::check_faces("weld", mesh.points.size(), mesh.faces);
     detail::weld::check_rows(properties, mesh.points.size(), mesh.faces.size());
     const bool by_property =
@@ -150,25 +150,8 @@ weld_result weld(mesh_view mesh, const attributes& properties, const weld_option
     return result;
 }
 
-weld_result weld(mesh_view mesh, const weld_options& options) { return weld(mesh, {}, options); }
-
-weld_result weld(const prepared_mesh& mesh, const weld_options& options) {
-    return weld(mesh.view(), {}, options);
-}
-
-cloud_weld_result weld(points_view points, const attributes& properties,
-                       const weld_options& options) {
-    weld_result welded = weld(mesh_view{points, {}}, properties, options);
-    return {std::move(welded.mesh.points),
-            std::move(welded.attributes),
-            std::move(welded.groups),
-            std::move(welded.point_of_group),
-            welded.statistics,
-            welded.status};
-}
-
-cloud_weld_result weld(points_view points, const weld_options& options) {
-    return weld(points, {}, options);
+weld_result weld(const mesh_ref& mesh, const weld_options& options) {
+    return weld(mesh, {}, options);
 }
 
 }  // namespace treeform

@@ -50,7 +50,7 @@ box3 box_of(mesh_view mesh) {
 
 /// So far beyond the mesh that a ball passes through every face there.
 box3 box_around(const box3& mesh, double size, double offset, precision of) {
-    const double margin = 4.0 * (size + offset) + 0.25 * diagonal(mesh);
+    const double margin = 4.0 * (size + offset) + 0.25 * mesh.diagonal();
     box3 box = mesh;
     for (std::size_t k = 0; k < 3; ++k) {
         box.min[k] -= margin;
@@ -66,7 +66,7 @@ box3 box_around(const box3& mesh, double size, double offset, precision of) {
 void check_sizes(const box3& mesh, const box3& around, double offset, precision of) {
     // Volumes times squared lengths are computed.
     constexpr double largest = 0x1p150;
-    const double extent = diagonal(around);
+    const double extent = around.diagonal();
     if (!(extent < largest) || !(offset > 1.0 / largest))
         refuse("lengths of 2^150 and more, or 2^-150 and less, are not wrapped");
     // Corners have to be apart, and where they are meant to be, when they are rounded.
@@ -111,7 +111,7 @@ certificate checked(mesh_view made, precision of, detail::base::work_progress& p
     known.boundary_edges = found.open_edges;
     known.misoriented_edges = found.misoriented_edges;
     if (found.any()) known.status = status::not_certified;
-    if (found.cancelled) known.status = status::cancelled;
+    if (found.status == treeform::status::cancelled) known.status = status::cancelled;
     return known;
 }
 

@@ -43,7 +43,9 @@ class all_offered {
     void offer(const neighbor<double>& one) { kept_.push_back(one); }
     [[nodiscard]] double bound() const { return bound_; }
     [[nodiscard]] std::vector<neighbor<double>>& sorted() {
-        std::sort(kept_.begin(), kept_.end(), nearer<neighbor<double>>);
+        std::sort(
+            kept_.begin(), kept_.end(),
+            [](const neighbor<double>& a, const neighbor<double>& b) { return nearer(a, b); });
         return kept_;
     }
     void reset(double squared_radius) {

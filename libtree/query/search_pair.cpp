@@ -47,7 +47,7 @@ struct framed_node {
 
 /// A node, and where its box is.
 template <std::size_t D>
-struct place {
+struct node_location {
     unsigned height;
     std::size_t node;
     framed_node<D> parent;
@@ -127,14 +127,19 @@ class pair_traversal {
     [[nodiscard]] unsigned top_b() const { return b_.common.top(); }
     [[nodiscard]] search_statistics& seen() { return seen_; }
 
-    [[nodiscard]] place<D> at_a(unsigned height, std::size_t i) { return at(a_, height, i); }
-    [[nodiscard]] place<D> at_b(unsigned height, std::size_t i) { return at(b_, height, i); }
+    [[nodiscard]] node_location<D> at_a(unsigned height, std::size_t i) {
+        return at(a_, height, i);
+    }
+    [[nodiscard]] node_location<D> at_b(unsigned height, std::size_t i) {
+        return at(b_, height, i);
+    }
 
     /// One step down from a pair of nodes whose boxes may overlap: `inner(a, b)` for each pair of
     /// nodes below, until it returns false; for two leaf blocks `leaf(i, mask)`, primitive i of a
     /// with each of `mask` of b.
     template <class Inner, class Leaf>
-    bool open(const place<D>& a, const place<D>& b, const Inner& inner, const Leaf& leaf) {
+    bool open(const node_location<D>& a, const node_location<D>& b, const Inner& inner,
+              const Leaf& leaf) {
         ++seen_.nodes;
         if (a.height < b.height) {
             const framed_node<D> node = node_at(b_, b);
@@ -159,7 +164,7 @@ class pair_traversal {
         }
         prefetch_children(a, met, b, in_b);
         for (unsigned i = met; i != 0; i &= i - 1) {
-            const place<D> below = child(a, node_a, lowest(i));
+            const node_location<D> below = child(a, node_a, lowest(i));
             for (unsigned rest = in_b[lowest(i)]; rest != 0; rest &= rest - 1)
                 if (!inner(below, child(b, node_b, lowest(rest)))) return false;
         }
@@ -167,9 +172,12 @@ class pair_traversal {
     }
 
     /// All candidates below two nodes, until the sink is told to stop.
-    bool descend(const place<D>& a, const place<D>& b, candidate_sink& sink) {
+    bool descend(const node_location<D>& a, const node_location<D>& b, candidate_sink& sink) {
         return open(
-                   a, b, [&](const place<D>& x, const place<D>& y) { return descend(x, y, sink); },
+                   a, b,
+                   [&](const node_location<D>& x, const node_location<D>& y) {
+                       return descend(x, y, sink);
+                   },
                    [&](std::size_t i, unsigned in_b) {
                        sink.add(static_cast<std::uint32_t>(8 * a.node + i),
                                 static_cast<std::uint32_t>(8 * b.node), in_b);
@@ -187,21 +195,22 @@ class pair_traversal {
     static std::size_t lowest(unsigned bits) {
         return static_cast<std::size_t>(std::countr_zero(bits));
     }
-    static place<D> child(const place<D>& of, const framed_node<D>& node, std::size_t slot) {
+    static node_location<D> child(const node_location<D>& of, const framed_node<D>& node,
+                                  std::size_t slot) {
         return {of.height - 1, 8 * of.node + slot, node, slot};
     }
-    [[nodiscard]] framed_node<D> node_at(side& of, const place<D>& at) const {
+    [[nodiscard]] framed_node<D> node_at(side& of, const node_location<D>& at) const {
         return {&of.common.node(at.height, at.node),
                 both_ ? &of.own.node(at.height, at.node) : nullptr};
     }
-    [[nodiscard]] place<D> at(side& of, unsigned height, std::size_t i) const {
+    [[nodiscard]] node_location<D> at(side& of, unsigned height, std::size_t i) const {
         return {height,
                 i,
                 {of.common.above(height, i), both_ ? of.own.above(height, i) : nullptr},
                 height == of.common.top() ? 0 : i % 8};
     }
     /// The children of a that have a pair, and their partners, are about to be opened.
-    void prefetch_children(const place<D>& a, unsigned in_a, const place<D>& b,
+    void prefetch_children(const node_location<D>& a, unsigned in_a, const node_location<D>& b,
                            const std::array<unsigned, 8>& in_b) {
         unsigned partners = 0;
         for (unsigned i = in_a; i != 0; i &= i - 1) {
@@ -254,7 +263,7 @@ frontier expand(const two_trees<D>& trees, std::size_t enough) {
         for (const node_pair item : now.items)
             traversal.open(
                 traversal.at_a(now.height_a, item.a), traversal.at_b(now.height_b, item.b),
-                [&](const place<D>& a, const place<D>& b) {
+                [&](const node_location<D>& a, const node_location<D>& b) {
                     below.push_back(
                         {static_cast<std::uint32_t>(a.node), static_cast<std::uint32_t>(b.node)});
                     return true;

@@ -8,6 +8,7 @@
 #include "bench/pose_askers.hpp"
 #include "bench/poses.hpp"
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/nearness/closest_points.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>

@@ -4,7 +4,7 @@
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
 #include "bench/workload.hpp"
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/mesh/triangle.hpp>
 
 #include <array>

@@ -7,6 +7,7 @@
 #include "bench/peers/plain_sweep.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
+#include <libmesh/geometry/contact_order.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -134,7 +135,7 @@ job job_of(const shared_motions& given, Ask ask) {
 found_time own(const motion& m) {
     const auto contact = first_contact(m.a, m.b, m.d);
     if (!contact) return {};
-    const double time = time_not_beyond(*contact, m.d);
+    const double time = detail::place::time_not_beyond(*contact, m.d);
     return time <= 1 ? found_time(time) : std::nullopt;
 }
 

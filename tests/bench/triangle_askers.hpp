@@ -5,6 +5,7 @@
 #include "bench/peers/cgal_predicates.hpp"
 #include "bench/peers/sign_triangles.hpp"
 #include "support/stress_families.hpp"
+#include <libmesh/geometry/contact_order.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/triangle.hpp>
 

@@ -2,6 +2,7 @@
 /// Constructed points, the questions about them, and their rounding, against GMP's rationals.
 
 #include "bytes.hpp"
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/known_points.hpp>

@@ -29,7 +29,7 @@ void add(std::string& bytes, const void* data, std::size_t size) {
 
 std::string points_of(io::point_rows& rows) {
     std::string bytes;
-    const tf::element* const declared = tf::find_element(rows.head.attributes, "vertex");
+    const tf::element* const declared = rows.head.attributes.find("vertex");
     tf::element some;
     std::vector<tf::point3> points;
     do {

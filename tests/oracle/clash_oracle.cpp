@@ -4,6 +4,7 @@
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
@@ -89,7 +90,7 @@ tf::mesh without_degenerate(const tf::mesh& mesh) {
         if (!tf::collinear(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]))
             kept.push_back(f);
     }
-    return tf::join_equal_points(tf::select_faces(mesh, kept));
+    return tf::join_equal_points(tf::submesh(mesh, kept).mesh);
 }
 
 struct tally {
@@ -120,7 +121,7 @@ void compare(const cgal_part& a, const cgal_part& b, std::optional<tf::standing>
 TEST_CASE("clash: of all pairs of a kitchen's parts, those meet that do by CGAL") {
     NEEDS_MODELS();
     tf::body_set set;
-    tf::add_named_parts(set, tf::read(test::models_folder() / "scene/kitchen.obj"));
+    set.add_named_parts(tf::read(test::models_folder() / "scene/kitchen.obj"));
     REQUIRE(set.shapes.size() == 160);
     std::vector<tf::prepared_mesh> parts;
     std::vector<std::unique_ptr<cgal_part>> theirs;
@@ -168,7 +169,7 @@ TEST_CASE("check_poses: of a Franka arm in 100 poses, those links meet that do b
         for (std::size_t i = 0; i < 7; ++i)
             values.push_back({"joint" + std::to_string(i + 1),
                               source.in(test::franka_limits[i][0], test::franka_limits[i][1])});
-        const auto at = tf::link_transforms(robot, values);
+        const auto at = robot.link_transforms(values);
         for (const tf::urdf_mesh& one : robot.meshes) poses.push_back(at[one.link]);
     }
     const auto found = tf::check_poses(parts, poses);

@@ -81,7 +81,7 @@ void check_exactly(const tf::mesh& a, const tf::mesh& b) {
     const auto found = tf::deviation(a, b);
     REQUIRE(found.has_value());
     REQUIRE(found->is_signed);
-    const double size = tf::diagonal(*tf::bounding_box(b.points));
+    const double size = tf::bounding_box(b.points)->diagonal();
     std::vector<std::array<rational_point, 3>> faces;
     for (const tf::face& f : b.faces)
         faces.push_back({test::rational(b.points[f[0]]), test::rational(b.points[f[1]]),
@@ -143,11 +143,11 @@ std::vector<double> by_cloudcompare(const tf::mesh& a, const tf::mesh& b) {
     std::vector<double> distances;
     if (std::system(command.c_str()) == 0 && std::filesystem::exists(folder / "out.ply")) {
         const tf::mesh_file out = tf::read(folder / "out.ply");
-        if (const tf::element* const rows = tf::find_element(out.attributes, "vertex"))
+        if (const tf::element* const rows = out.attributes.find("vertex"))
             for (const tf::column& c : rows->columns)
                 if (c.name.find("C2M") != std::string::npos)
                     for (std::size_t i = 0; i < out.mesh.points.size(); ++i)
-                        distances.push_back(tf::number_at(c, i));
+                        distances.push_back(c.number(i));
     }
     std::filesystem::remove_all(folder);
     return distances;
@@ -181,7 +181,7 @@ TEST_CASE(
           "clean/spot_23k.obj", "clean/koala_100k.obj"}) {
         CAPTURE(name);
         const tf::mesh b = tf::join_equal_points(tf::read(folder / name).mesh);
-        const double size = tf::diagonal(*tf::bounding_box(b.points));
+        const double size = tf::bounding_box(b.points)->diagonal();
         tf::mesh a = points_near(source, b, 0.01 * size, 5000);
         // It computes in float32: give it what it can hold.
         for (tf::point3& p : a.points)

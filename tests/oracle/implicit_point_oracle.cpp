@@ -6,6 +6,7 @@
 
 #include <libmesh/exact/dyadic.hpp>
 #include <libmesh/exact/implicit_point.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -1,6 +1,7 @@
 // 3MF against lib3mf, by which most programs write and read it: what it writes is read as it is
 // meant, and what is written here it reads without a warning, to the same effect.
 
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -29,8 +30,7 @@ namespace {
 
 void set_bytes(tf::mesh_file& file, const char* element, std::size_t rows, const char* name,
                const std::vector<std::uint8_t>& values) {
-    tf::set_column(tf::obtain_element(file.attributes, element, rows),
-                   tf::make_column<std::uint8_t>(name, values));
+    file.attributes.obtain(element, rows).set(tf::column::of<std::uint8_t>(name, values));
 }
 
 #ifdef TREEFORM_LIB3MF
@@ -243,7 +243,7 @@ TEST_CASE("lib3mf writes: items and components are where their transforms put th
     REQUIRE(parts.size() == 3);
     const std::array<double, 3> volumes{48, 48, 6};
     for (std::size_t i = 0; i < 3; ++i)
-        CHECK(tf::signed_volume(tf::select_faces(file.mesh, parts[i].faces)) ==
+        CHECK(tf::signed_volume(tf::submesh(file.mesh, parts[i].faces).mesh) ==
               doctest::Approx(volumes[i]));
 }
 

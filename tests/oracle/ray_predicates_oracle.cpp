@@ -3,7 +3,7 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the calls of each in each family (default 20,000).
 
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -58,7 +58,7 @@ slice_totals slices_of_cgal(const sliced_surface& mesh, const tf::oriented_plane
                               kernel::Vector_3(plane.normal.x, plane.normal.y, plane.normal.z));
     std::vector<polyline> lines;
     slicer(cut, std::back_inserter(lines));
-    const tf::plane_frame frame = tf::frame_of(plane);
+    const tf::plane_frame frame = plane.frame();
     const auto flat = [&](const kernel::Point_3& p) {
         return tf::point2{frame.x.x * p.x() + frame.x.y * p.y() + frame.x.z * p.z(),
                           frame.y.x * p.x() + frame.y.y * p.y() + frame.y.z * p.z()};

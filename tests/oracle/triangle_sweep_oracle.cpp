@@ -4,6 +4,7 @@
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 1100, of which some meet where they
 /// are and are passed over).
 
+#include <libmesh/geometry/contact_order.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 

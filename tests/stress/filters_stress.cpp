@@ -9,7 +9,7 @@
 /// tests.
 
 #include <libmesh/exact/implicit_point.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>

@@ -97,13 +97,13 @@ void move_away(random& source, double degrees, double shift, const tf::transform
     const auto away = turn_about(axis, turn, center, way);
     for (point3& p : pair.moving) p = away(p);
     const point3 there{center.x + way.x, center.y + way.y, center.z + way.z};
-    pair.truth = tf::after(home, turn_about(axis, -turn, there, {-way.x, -way.y, -way.z}));
+    pair.truth = home.after(turn_about(axis, -turn, there, {-way.x, -way.y, -way.z}));
 }
 
 fit_pair pair_of(const std::string& name, const std::vector<point3>& points, const tf::mesh* solid,
                  std::uint64_t seed, std::size_t variant) {
     random source(1000 * seed + variant);
-    const double size = tf::diagonal(tf::bounding_box(points).value());
+    const double size = tf::bounding_box(points).value().diagonal();
     constexpr std::array<double, 3> noises{0.0, 5e-4, 2e-3};
     const double noise = noises[variant / 3 % noises.size()];
     fit_pair pair;
@@ -155,7 +155,7 @@ fit_pair sweeps(const std::vector<point3>& moving, const std::vector<point3>& fi
     if (variant > 0)
         move_away(source, static_cast<double>(variant), 0.3 * static_cast<double>(variant),
                   published, pair);
-    pair.scanner = tf::after(inverse_of(pair.truth), published)(point3{0, 0, 0});
+    pair.scanner = inverse_of(pair.truth).after(published)(point3{0, 0, 0});
     pair.right = 0.05;
     pair.turn = 0.3 * std::numbers::pi / 180.0;
     return pair;

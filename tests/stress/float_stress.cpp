@@ -103,7 +103,7 @@ TEST_CASE("models that others fail on are repaired within a thousandth of their 
         CAPTURE(name);
         const tf::mesh mesh =
             tf::join_equal_points(tf::read(folder / "selfint" / std::string(name)).mesh);
-        const double most = 1e-3 * tf::diagonal(*tf::bounding_box(mesh.points));
+        const double most = 1e-3 * tf::bounding_box(mesh.points)->diagonal();
         const tf::repair_result doubles = tf::repair(mesh);
         const tf::repair_result floats =
             tf::repair(mesh, {.precision = to_float, .max_displacement = most});

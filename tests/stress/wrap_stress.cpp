@@ -65,7 +65,7 @@ TEST_CASE("soups, fans, grids, boxes and balls") {
         CAPTURE(n);
         const tf::mesh mesh = something(source);
         const tf::box3 box = tf::bounding_box(mesh.points).value();
-        const double size = std::exp2(source.in(-5.0, 1.0)) * std::max(tf::diagonal(box), 0.1);
+        const double size = std::exp2(source.in(-5.0, 1.0)) * std::max(box.diagonal(), 0.1);
         tf::wrap_options options;
         if (source.below(2) == 0) options.offset = std::exp2(source.in(-6.0, 1.0)) * size;
         if (source.below(2) == 0) options.precision = tf::precision::float32;

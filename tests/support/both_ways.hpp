@@ -1,16 +1,16 @@
 #pragma once
 /// \file
-/// The exact surface of a set operation, found in two ways: by cutting all faces, and by leaving out
-/// what is hidden, however little that is.
+/// The exact surface of a set operation, found in two ways: by cutting all faces, and by leaving
+/// out what is hidden, however little that is.
 
-#include <libmesh/boolean/active_part.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
-#include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/near_labels.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/surface_components.hpp>
+#include <libmesh/boolean/undecided_part.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
@@ -54,7 +54,8 @@ struct surface_of_some {
     std::size_t uncut = 0;     ///< pairs of the other faces that were not looked at
 };
 
-/// As `boolean` does where operands hide each other, but always, and in boxes as small as `limits` says.
+/// As `boolean` does where operands hide each other, but always, and in boxes as small as `limits`
+/// says.
 /// \pre each operand bounds a solid
 inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
                                          const tf::boolean_expression& expression,
@@ -67,13 +68,13 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
     const std::vector<std::uint32_t> operand_of_face = joined.operand_of_face();
     detail::surface_components components(joined.all, operand_of_face,
                                           detail::find_operand_edges(joined.all, operand_of_face));
-    detail::bundled_operands bundled({}, std::make_unique<const detail::active_part>(
+    detail::bundled_operands bundled({}, std::make_unique<const detail::undecided_part>(
                                              std::move(joined), std::move(components),
                                              detail::partial_expression(expression, rule), limits));
     bundled.find_pairs({});
     const detail::bundles& all = bundled.all();
     detail::cut_faces cut = detail::cut_near(bundled, detail::cut_what::near_beside_far, {});
-    const detail::near_faces& near = cut.near;
+    const detail::interaction_zone& near = cut.near;
     const tf::arrange_faces_result& arranged = cut.arranged;
     const auto chosen =
         detail::near_labels(all, near, arranged.cut,
@@ -95,10 +96,10 @@ inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
     }
     const tf::mesh_view whole = all[0].view();
     for (std::size_t f = 0; f < whole.faces.size(); ++f) {
-        const detail::fate of = chosen.fates[f];
-        if (of != detail::fate::kept && of != detail::fate::turned) continue;
+        const detail::disposition of = chosen.dispositions[f];
+        if (of != detail::disposition::kept && of != detail::disposition::turned) continue;
         const tf::triangle3 t = triangle(whole, f);
-        const bool kept = of == detail::fate::kept;
+        const bool kept = of == detail::disposition::kept;
         add(result.chain, numbers, {t[0], kept ? t[1] : t[2], kept ? t[2] : t[1]}, t);
     }
     return result;

@@ -17,20 +17,20 @@ namespace test {
 inline tf::attributes vertex_columns(
     const std::vector<std::pair<std::string, std::vector<double>>>& list) {
     tf::attributes a;
-    tf::element& e = tf::obtain_element(a, "vertex", list.front().second.size());
+    tf::element& e = a.obtain("vertex", list.front().second.size());
     for (const auto& [name, values] : list)
-        e.columns.push_back(tf::make_column<double>(name, values));
+        e.columns.push_back(tf::column::of<double>(name, values));
     return a;
 }
 
 /// The values of a column as whole numbers; none where there is no such column.
 inline std::vector<int> whole_values(const tf::mesh_file& file, const char* element,
                                      const char* name) {
-    const tf::element* const e = tf::find_element(file.attributes, element);
-    const tf::column* const c = e == nullptr ? nullptr : tf::find_column(*e, name);
+    const tf::element* const e = file.attributes.find(element);
+    const tf::column* const c = e == nullptr ? nullptr : e->find(name);
     std::vector<int> all;
-    for (std::size_t i = 0; c != nullptr && i < tf::value_count(*c); ++i)
-        all.push_back(static_cast<int>(tf::number_at(*c, i)));
+    for (std::size_t i = 0; c != nullptr && i < c->size(); ++i)
+        all.push_back(static_cast<int>(c->number(i)));
     return all;
 }
 

@@ -35,7 +35,7 @@ point3 random_direction(random& source) {
     }
 }
 
-double diagonal_of(const tf::mesh& mesh) { return tf::diagonal(*tf::bounding_box(mesh.points)); }
+double diagonal_of(const tf::mesh& mesh) { return tf::bounding_box(mesh.points)->diagonal(); }
 
 /// A clean mesh while it is soiled: which of its faces are to come back as they are.
 struct soiler {

@@ -3,7 +3,7 @@
 /// The predicates and what they mean in GMP's integers.
 
 #include <libmesh/exact/implicit_point.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 
 #include <gmpxx.h>
 

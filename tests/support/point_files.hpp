@@ -33,10 +33,10 @@ inline tf::mesh_file cloud(std::size_t count, bool single) {
         red.push_back(static_cast<std::uint8_t>(random()));
         id.push_back(static_cast<std::int32_t>(random()));
     }
-    tf::element& e = tf::obtain_element(file.attributes, "vertex", count);
-    e.columns.push_back(tf::make_column<float>("intensity", intensity));
-    e.columns.push_back(tf::make_column<std::uint8_t>("red", red));
-    e.columns.push_back(tf::make_column<std::int32_t>("id", id));
+    tf::element& e = file.attributes.obtain("vertex", count);
+    e.columns.push_back(tf::column::of<float>("intensity", intensity));
+    e.columns.push_back(tf::column::of<std::uint8_t>("red", red));
+    e.columns.push_back(tf::column::of<std::int32_t>("id", id));
     file.attributes.comments = {"a cloud"};
     file.attributes.texture_files = {"a.png"};
     return file;

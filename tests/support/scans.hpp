@@ -108,7 +108,7 @@ inline double quantile_along(const std::vector<tf::point3>& points, const tf::po
 inline scan scan_of(const tf::mesh& solid, const scan_settings& how, random& source) {
     scan made{.whole = solid, .fixed = solid};
     const tf::box3 box = tf::bounding_box(solid.points).value();
-    const double size = tf::diagonal(box);
+    const double size = box.diagonal();
     made.home = how.from_vertices ? solid.points : spread_over(source, solid, how.points);
     const tf::point3 d = direction(source);
     const double end = quantile_along(made.home, d, how.share);
@@ -151,7 +151,7 @@ inline double error_of(const scan& of, const tf::transform<3>& back, bool symmet
         sum += (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z);
     }
     return std::sqrt(sum / static_cast<double>(ended.size())) /
-           tf::diagonal(tf::bounding_box(of.whole.points).value());
+           tf::bounding_box(of.whole.points).value().diagonal();
 }
 
 }  // namespace test

@@ -51,22 +51,21 @@ inline tf::mesh_file passed_through(const tf::mesh_file& file, const std::string
 }
 
 inline const tf::column* translated_column(const tf::mesh_file& file, std::string_view name) {
-    const tf::element* const e = tf::find_element(file.attributes, "vertex");
-    return e == nullptr ? nullptr : tf::find_column(*e, name);
+    const tf::element* const e = file.attributes.find("vertex");
+    return e == nullptr ? nullptr : e->find(name);
 }
 
 inline std::vector<double> translated_numbers(const tf::mesh_file& file, std::string_view name) {
     std::vector<double> values;
     if (const tf::column* const c = translated_column(file, name))
-        for (std::size_t i = 0; i < tf::value_count(*c); ++i)
-            values.push_back(tf::number_at(*c, i));
+        for (std::size_t i = 0; i < c->size(); ++i) values.push_back(c->number(i));
     return values;
 }
 
 template <class T>
 void add_translated(tf::mesh_file& file, const char* name, std::vector<T> values) {
-    tf::obtain_element(file.attributes, "vertex", file.mesh.points.size())
-        .columns.push_back(tf::make_column<T>(name, values));
+    file.attributes.obtain("vertex", file.mesh.points.size())
+        .columns.push_back(tf::column::of<T>(name, values));
 }
 
 inline bool is_named_in(const sentences& warnings, const std::string& property) {

@@ -6,8 +6,8 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <libmesh/boolean/cut_operand.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
-#include <libmesh/boolean/near_faces.hpp>
 #include <libmesh/boolean/near_surface.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
@@ -41,7 +41,7 @@ inline tf::boolean_result whole_boolean(const std::vector<tf::mesh>& operands,
     bundles[0] = {.known = &known, .mesh = &*known.own};
     bundles[0].operand_of_face = known.joined.operand_of_face();
     bundles[1] = {.known = &nothing, .mesh = &none};
-    detail::boolean::near_faces near;
+    detail::boolean::interaction_zone near;
     near.local = known.joined.all;
     near.face_of.resize(near.local.faces.size());
     near.point_of.resize(near.local.points.size());
@@ -62,7 +62,7 @@ inline tf::boolean_result whole_boolean(const std::vector<tf::mesh>& operands,
     }
     detail::boolean::chosen_surface chosen{
         detail::round::faces_around(arranged.cut, cells, inside),
-        detail::boolean::fates_of(bundles, near, detail::boolean::fate::dropped)};
+        detail::boolean::dispositions_of(bundles, near, detail::boolean::disposition::dropped)};
     tf::boolean_result result = std::move(
         detail::boolean::surface_of(bundles, near, arranged, std::move(chosen), options).result);
     auto manifold = detail::boolean::split_nonmanifold(std::move(result.mesh));

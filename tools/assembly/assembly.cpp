@@ -142,7 +142,7 @@ named_assembly read_assembly(job& work) {
         work.warn(file.warnings, name_of_input(path) + ": ");
         const auto timing = work.time("prepare");
         const tf::body_file& added =
-            tf::add_named_parts(all.set, std::move(file), name_of_input(path), stem_of(path));
+            all.set.add_named_parts(std::move(file), name_of_input(path), stem_of(path));
         about["faces"] = added.content.stored_faces;
         non_finite += added.left_out;
         work.warn_of_non_finite(added.left_out, added.cloud ? "point" : "face",

@@ -53,9 +53,8 @@ movable read_robot(job& work, const assembly_settings& settings) {
                                     {"faces", nullptr}});
     for (const std::string& text : all.robot->approximated) work.warn("approximated", text);
     for (const std::string& text : all.robot->skipped) work.warn("no-mesh", text);
-    tf::robot_parts found = tf::parts_of(*all.robot, [&](const std::filesystem::path& path) {
-        return read_part(work, path.string());
-    });
+    tf::robot_parts found = all.robot->parts(
+        [&](const std::filesystem::path& path) { return read_part(work, path.string()); });
     if (found.parts.empty())
         throw failure(bad_input, "no-triangles", work.name + ": no link has a mesh");
     for (tf::mesh& part : found.parts) all.shapes.emplace_back(std::move(part));
@@ -102,7 +101,7 @@ class pose_run {
                 const auto timing = work_.time("search");
                 found = tf::check_poses(all_.shapes, some, options_);
             }
-            work_.call_ended(found.cancelled);
+            work_.call_ended(found.status == tf::status::cancelled);
             clashing += found.clashing;
             boxes_apart += found.boxes_apart;
             for (const auto& one : found.poses) enter(one, results);
@@ -143,7 +142,7 @@ double diagonal_of(const movable& all) {
         if (const auto box = tf::bounding_box(one.view().points))
             corners.insert(corners.end(), {box->min, box->max});
     const auto box = tf::bounding_box(corners);
-    return box ? tf::diagonal(*box) : 0.0;
+    return box ? box->diagonal() : 0.0;
 }
 
 }  // namespace

@@ -127,8 +127,8 @@ void write_parts(job& work, const named_assembly& all, const tf::clash_result& r
     if (form.format == "ply" || form.format == "glb") {
         const tf::contact_classes classes{{}, classes_of(all, r)};
         const tf::box3 box = tf::bounding_box(file.mesh.points).value_or(tf::box3{});
-        tf::color_contacts(file, tf::classes_in_files(classes, {}, all.set),
-                           {.split_polygons = true, .halo = 0.02 * tf::diagonal(box)});
+        tf::color_contacts(file, classes.in_files({}, all.set),
+                           {.split_polygons = true, .halo = 0.02 * box.diagonal()});
     }
     std::vector<const tf::mesh_file*> inputs;
     for (const tf::body_file& one : all.set.files) inputs.push_back(&one.content);
@@ -171,7 +171,7 @@ exit_status clash_all(job& work, const assembly_settings& settings) {
     for (const tf::body_file& file : all.set.files)
         if (file.box) corners.insert(corners.end(), {file.box->min, file.box->max});
     tf::clash_options options;
-    options.clearance = settings.clearance.used(tf::diagonal(*tf::bounding_box(corners)));
+    options.clearance = settings.clearance.used(tf::bounding_box(corners)->diagonal());
     options.depths = !settings.no_depth;
     options.limit = static_cast<std::size_t>(-1);  // all are colored
     options.ignored = ignored;
@@ -181,7 +181,7 @@ exit_status clash_all(job& work, const assembly_settings& settings) {
         const auto timing = work.time("search");
         found = tf::clash(all.set.shapes, options);
     }
-    work.call_ended(found.cancelled);
+    work.call_ended(found.status == tf::status::cancelled);
     json& entry = work.entry;
     entry["parts"] = all.names.size();
     entry["clearance"]["used"] = options.clearance;

@@ -92,7 +92,7 @@ void write_distances(job& work, const deviation_settings& settings, const tf::bo
     if (settings.distances.empty() || work.options.dry_run) return;
     const auto timing = work.time("write");
     tf::mesh_file file = moving.files[0].content;
-    tf::color_distances(file, tf::distances_in_file(moving, 0, r.distances), -scale, scale);
+    tf::color_distances(file, moving.distances_in_file(0, r.distances), -scale, scale);
     output_place place(settings.distances, work.options.force);
     tf::write(place.writable(), file, {.format = "ply"});
     place.commit();
@@ -152,7 +152,7 @@ exit_status enter_measured(job& work, const deviation_settings& settings,
         found = tf::deviation(moving.shapes[0], fixed.shapes,
                               {.band = settings.band, .progress = work.progress("distances")});
     }
-    work.call_ended(found && found->cancelled);
+    work.call_ended(found && found->status == tf::status::cancelled);
     // Several solids count one by one, their distances as one surface.
     const bool same = found && fixed.shapes.size() == 1;
     enter_points(work, moving, fixed, same ? found->sides : std::nullopt);

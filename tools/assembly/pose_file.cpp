@@ -159,7 +159,7 @@ void pose_file::enter_joints(const std::string& line, std::vector<tf::transform<
             throw std::invalid_argument("the value of joint " + name + " is no number");
         values.push_back({name, value.get<double>()});
     }
-    const auto at = tf::link_transforms(*robot_, values);
+    const auto at = robot_->link_transforms(values);
     for (const std::uint32_t link : *links_) poses.push_back(at[link]);
 }
 

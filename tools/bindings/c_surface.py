@@ -166,10 +166,6 @@ BOUND = [
     Bound("weld_result", leave="attributes", names={"groups": "merged_groups"},
           counts={"group_of_point": "point_count", "first_of_group": "group_count"},
           custom={"+": [FILE]}),
-    Bound("cloud_weld_result", "weld_result", leave="attributes", names={"groups": "merged_groups"},
-          counts={"group_of_point": "point_count", "first_of_group": "group_count"},
-          custom={"points": [Member("treeform_arrays mesh", "",
-                                    "to.mesh = arrays({from.points, {}});")]}),
     Bound("file_weld_result", "weld_result", leave="file", names={"groups": "merged_groups"},
           counts={"group_of_point": "point_count", "first_of_group": "group_count"}),
     # streams.h
@@ -256,7 +252,7 @@ BOUND = [
                    "to.is_stored_elsewhere = from.role != tf::column_role::data;")],
         "values": [Member("const void* values", "[value_count] of the type",
                           "to.values = from.values.data();"),
-                   Member("size_t value_count", "", "to.value_count = tf::value_count(from);")],
+                   Member("size_t value_count", "", "to.value_count = from.size();")],
         "list_begin": [Member("const uint64_t* list_begin", "[rows + 1] of lists; else null",
                               "if (from.list_length) to.list_begin = from.list_begin.data();")]}),
     Bound("element", "rows", "part"),
@@ -333,7 +329,7 @@ CALLS = {
     # mesh.h
     "treeform_mesh_is_cloud": 'glue::need(mesh, "mesh").prepared->is_cloud()',
     "treeform_mesh_indexes_built": 'glue::need(mesh, "mesh").prepared->indexes_built()',
-    "treeform_select_faces": "tf::select_faces($mesh, $faces)",
+    "treeform_select_faces": "tf::submesh($mesh, $faces).mesh",
     "treeform_coordinate_step": "tf::coordinate_step(glue::view(mesh).points, $precision)",
     # properties.h
     "treeform_is_solid": "static_cast<bool>(tf::check_solid($mesh))",
@@ -345,8 +341,6 @@ CALLS = {
     "treeform_same_triangles":
         "tf::same_triangles(glue::view(a), glue::view(b), any_order != 0 ? tf::face_order::any : tf::face_order::kept)",
     "treeform_feature_at_face": "glue::as_list(tf::feature_at(glue::view(mesh), $kind, face, $options))",
-    "treeform_feature_at_point":
-        'glue::as_list(tf::feature_at(glue::view(mesh), $kind, glue::finite(point, "point"), $options))',
     "treeform_fit_feature": "glue::as_list(tf::fit_feature(glue::view(mesh), $kind, $faces))",
     "treeform_orient2d": 'tf::orient2d(glue::finite2(a, "a"), glue::finite2(b, "b"), '
                          'glue::finite2(c, "c"))',
@@ -412,9 +406,9 @@ CALLS = {
     # files.h
     "treeform_read": "tf::read($path, glue::text(format))",
     "treeform_file_copy": "tf::mesh_file($file)",
-    "treeform_file_split_polygons": "tf::split_polygons($file)",
+    "treeform_file_split_polygons": "$file.split_polygons()",
     "treeform_file_round_to_las": "tf::round_to_las($file)",
-    "treeform_file_round_to_float32": "tf::round_to_float32($file)",
+    "treeform_file_round_to_float32": "$file.round_to_float32()",
     "treeform_usable_part": "tf::usable_part($file.mesh, $file.stored_face, $options)",
     "treeform_files_of": "tf::files_of($paths, $content)",
 }

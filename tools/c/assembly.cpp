@@ -34,7 +34,7 @@ treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t cou
         const std::span where(reinterpret_cast<const tf::transform<3>*>(poses), pose_count * count);
         const tf::mesh_refs row = glue::refs(parts, count, "parts");
         const tf::pose_result found = tf::check_poses(row, where, how);
-        if (found.cancelled) throw glue::cancelled{};
+        glue::check(found.status);
         auto made = glue::make<treeform_poses_result>();
         std::vector<std::size_t> begin{0};
         std::vector<tf::pose_clash> all;

@@ -76,7 +76,7 @@ treeform_code treeform_carry(treeform_file* file, const treeform_carry_source* i
         if (face_of_cut_vertex)
             made.face_of_cut_vertex = elements(face_of_cut_vertex, to.mesh.points.size(),
                                                "face_of_cut_vertex", from, faces_of);
-        tf::carry(to, from, made);
+        tf::carry_sources({from.begin(), from.end()}).carry(to, made);
     });
 }
 
@@ -86,10 +86,10 @@ treeform_code treeform_carry_one(treeform_file* file, const treeform_carry_sourc
         tf::mesh_file& to = glue::need(file, "file").content;
         const glue::carry_inputs files(input, 1);
         const tf::carry_source from = files.sources()[0];
-        tf::carry(to, from,
-                  numbers(face_source, to.mesh.faces.size(), "face_source", faces_of(from)),
-                  numbers(vertex_source, to.mesh.points.size(), "vertex_source",
-                          from.file->mesh.points.size()));
+        tf::carry_sources(from).carry(
+            to, numbers(face_source, to.mesh.faces.size(), "face_source", faces_of(from)),
+            numbers(vertex_source, to.mesh.points.size(), "vertex_source",
+                    from.file->mesh.points.size()));
     });
 }
 
@@ -100,7 +100,8 @@ treeform_code treeform_face_groups(const treeform_carry_source* inputs, size_t c
         auto made = glue::make<treeform_indices>();
         const glue::carry_inputs files(inputs, count);
         const auto& found =
-            made->keep(tf::face_groups(files.sources(), by_values != 0, by_input != 0));
+            made->keep(tf::carry_sources({files.sources().begin(), files.sources().end()})
+                           .face_groups(by_values != 0, by_input != 0));
         made->value.values = found.data();
         made->value.count = found.size();
         glue::give(std::move(made), groups);
@@ -115,7 +116,7 @@ treeform_code treeform_add_source_columns(treeform_file* file, const char* name,
         (void)glue::need(name, "name");
         const std::size_t faces = to.mesh.faces.size();
         (void)glue::array(face_source, faces, "face_source");
-        tf::add_source_columns(to, name,
+        tf::set_source_columns(to, name,
                                {reinterpret_cast<const tf::operand_element*>(face_source), faces},
                                glue::texts(inputs, count, "inputs"));
     });

@@ -14,7 +14,7 @@ void add(tf::body_set& to, const tf::mesh_file& file, std::string label, treefor
     else if (kind == TREEFORM_BODY_PARTS)
         to.add_parts(file, std::move(label), name);
     else
-        tf::add_named_parts(to, file, std::move(label), name);
+        to.add_named_parts(file, std::move(label), name);
 }
 
 std::vector<std::uint32_t> faces_in_file(const tf::body_set& set, std::size_t body) {
@@ -80,8 +80,7 @@ treeform_code treeform_put_back(treeform_bodies* bodies, size_t body, const doub
                                         std::to_string(wanted));
         const tf::transform<3> by = glue::matrix(&glue::need(matrix, "matrix"));
         if (!by.finite()) throw std::invalid_argument("the matrix is not finite");
-        tf::put_back(set, body, glue::points(points, count, "points"), by,
-                     glue::precision(written_as));
+        set.put_back(body, glue::points(points, count, "points"), by, glue::precision(written_as));
         glue::give(tf::mesh_file(set.file_of(body).content), file);
     });
 }

@@ -18,14 +18,14 @@ const tf::mesh_file& content(const treeform_file* file) { return glue::need(file
 template <class T>
 tf::column column_of(const char* name, const void* values, std::size_t rows) {
     const auto* const first = static_cast<const T*>(values);
-    return tf::make_column<T>(name, glue::array(first, rows, "values"));
+    return tf::column::of<T>(name, glue::array(first, rows, "values"));
 }
 
 std::size_t rows_in(const tf::mesh_file& file, std::string_view element) {
     if (element == "vertex") return file.mesh.points.size();
     if (element == "face")
         return file.stored_face.empty() ? file.mesh.faces.size() : file.stored_faces;
-    const tf::element* const found = tf::find_element(file.attributes, element);
+    const tf::element* const found = file.attributes.find(element);
     return found ? found->rows : static_cast<std::size_t>(-1);
 }
 
@@ -55,7 +55,7 @@ std::vector<tf::named_column> glue::columns_of(const treeform_named_column* colu
 }
 
 void glue::give_written(tf::write_result from, treeform_written** out) {
-    if (from.cancelled) throw cancelled{};
+    check(from.status);
     if (!out) return;
     (void)give(std::move(from), out);
 }
@@ -113,8 +113,8 @@ treeform_code treeform_file_set_column(treeform_file* file, const char* element,
         if (wanted != static_cast<std::size_t>(-1) && wanted != rows)
             throw std::invalid_argument(std::to_string(rows) + " values of \"" + name + "\" for " +
                                         std::to_string(wanted) + " rows of \"" + of + "\"");
-        if (const tf::element* const rows_of = tf::find_element(to.attributes, of))
-            if (const tf::column* const before = tf::find_column(*rows_of, name);
+        if (const tf::element* const rows_of = to.attributes.find(of))
+            if (const tf::column* const before = rows_of->find(name);
                 before && before->role != tf::column_role::data)
                 throw std::invalid_argument("\"" + std::string(name) +
                                             "\" stands for what points and faces hold");
@@ -122,7 +122,7 @@ treeform_code treeform_file_set_column(treeform_file* file, const char* element,
             tf::with_type(glue::choice<tf::scalar_type>(type, 10, "type"),
                           [&](auto one) { return column_of<decltype(one)>(name, values, rows); });
         if (of == "face" && to.stored_face.empty()) to.stored_faces = to.mesh.faces.size();
-        tf::set_column(tf::obtain_element(to.attributes, of, rows), std::move(column));
+        to.attributes.obtain(of, rows).set(std::move(column));
     });
 }
 
@@ -140,7 +140,7 @@ treeform_code treeform_file_set_texture(treeform_file* file, const double* textu
             made.has_w = made.has_w || made.texture[i][2] != 0.0;
         }
         made.texture_of_corner.assign(corners.begin(), corners.end());
-        if (const std::string fault = tf::fault_of(made, to.mesh.faces.size()); !fault.empty())
+        if (const std::string fault = made.fault(to.mesh.faces.size()); !fault.empty())
             throw std::invalid_argument(fault);
         to.attributes.corners = std::move(made);
     });
@@ -174,7 +174,7 @@ treeform_code treeform_file_transform(treeform_file* file, const double* matrix)
         tf::mesh_file& to = glue::need(file, "file").content;
         const tf::transform<3> by = glue::matrix(&glue::need(matrix, "matrix"));
         if (!by.finite()) throw std::invalid_argument("the matrix is not finite");
-        tf::transform_file(to, by);
+        to.move(by);
     });
 }
 
@@ -193,7 +193,7 @@ treeform_code treeform_file_turn_normals(treeform_file* file, const double* matr
         tf::mesh_file& to = glue::need(file, "file").content;
         const tf::transform<3> by = glue::matrix(&glue::need(matrix, "matrix"));
         if (!by.finite()) throw std::invalid_argument("the matrix is not finite");
-        tf::transform_normals(to, by);
+        to.turn_normals(by);
     });
 }
 

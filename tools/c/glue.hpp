@@ -384,10 +384,7 @@ template <class C, class T>
     if constexpr (requires { kept.certificate; }) code = code_of(kept.certificate);
     if constexpr (requires { kept.status; }) check(kept.status);
     if constexpr (requires { kept.relation.status; }) check(kept.relation.status);
-    if constexpr (requires { kept.found.cancelled; })
-        if (kept.found.cancelled) throw cancelled{};
-    if constexpr (requires { kept.cancelled; })
-        if (kept.cancelled) throw cancelled{};
+    if constexpr (requires { kept.found.status; }) check(kept.found.status);
     fill(*made, kept, made->value);
     give(std::move(made), out);
     return code;

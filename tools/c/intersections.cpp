@@ -70,7 +70,6 @@ treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* par
             if (looked_at.triangle(f) >= to.mesh.faces.size())
                 throw std::invalid_argument("the part is not of this file");
         const auto found = glue::pairs_of(faces, pairs, count);
-        tf::color_marks(to, looked_at,
-                        tf::mark_faces(faces, found, tf::group_pairs(looked_at.mesh, found)));
+        tf::face_marks(faces, found, tf::group_pairs(looked_at.mesh, found)).color(to, looked_at);
     });
 }

@@ -87,8 +87,7 @@ treeform_code treeform_locate_in_curves(const double* points, size_t point_count
         (void)glue::array(queries, count, "queries");
         const tf::curve_view curves{{reinterpret_cast<const tf::point2*>(points), point_count},
                                     {reinterpret_cast<const tf::curve_edge*>(edges), edge_count}};
-        const tf::tree<2> tree = tf::edge_tree(curves);
-        const tf::curve_locator locator(curves, tree);
+        const tf::curve_locator locator(curves);
         const std::span all(reinterpret_cast<const tf::point2*>(queries), count);
         glue::in_pieces(count, [&](std::size_t begin, std::size_t end) {
             answer(locator.locate(all.subspan(begin, end - begin)), from(where, begin),

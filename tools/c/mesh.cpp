@@ -138,8 +138,7 @@ treeform_code treeform_join_equal_points(const treeform_mesh* mesh, treeform_mad
         const tf::mesh_view view = glue::view(mesh);
         tf::equal_points found = tf::find_equal_points(view.points);
         const tf::point_groups groups{std::move(found.new_of_old), std::move(found.first_of_new)};
-        return glue::give(glue::made_mesh{tf::join_groups(view, groups), groups.group_of_point},
-                          made);
+        return glue::give(glue::made_mesh{groups.joined(view), groups.group_of_point}, made);
     });
 }
 
@@ -185,7 +184,7 @@ treeform_code treeform_rounding_effects(const treeform_mesh* mesh, const double*
         if (found.status == tf::status::ok && o.always_compare != 0 && !found.compared) {
             const tf::rounding_defects defects =
                 tf::find_rounding_defects(view, after, how.progress);
-            if (defects.cancelled) throw glue::cancelled{};
+            glue::check(defects.status);
             found.compared = true;
             found.collapsed = defects.collapsed;
             found.meeting = defects.meeting;

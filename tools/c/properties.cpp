@@ -1,5 +1,6 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -99,6 +100,22 @@ treeform_code treeform_find_features(const treeform_mesh* mesh, treeform_feature
         auto found = tf::find_features(glue::view(mesh), which, how);
         if (stopped) throw glue::cancelled{};
         return glue::give(std::move(found), features);
+    });
+}
+
+treeform_code treeform_feature_at_point(const treeform_mesh* mesh, treeform_feature_kind kind,
+                                        const double point[3],
+                                        const treeform_feature_options* options,
+                                        treeform_features** features) {
+    return glue::guard([&] {
+        glue::start(features);
+        const tf::mesh_view view = glue::view(mesh);
+        const auto which = glue::choice<tf::feature_kind>(kind, 2, "kind");
+        const auto at = tf::closest_point(view, glue::finite(point, "point"));
+        return glue::give(
+            glue::as_list(at ? tf::feature_at(view, which, at->face, glue::read(options))
+                             : std::nullopt),
+            features);
     });
 }
 

@@ -36,9 +36,10 @@ treeform_code treeform_robot_parts_of(const treeform_robot* robot, treeform_robo
     return glue::guard([&] {
         glue::start(parts);
         auto made = glue::make<treeform_robot_parts>();
-        auto& from = made->keep(tf::parts_of(
-            glue::need(robot, "robot").content,
-            [](const std::filesystem::path& file) { return tf::as_mesh(tf::read(file)).mesh; }));
+        auto& from = made->keep(
+            glue::need(robot, "robot").content.parts([](const std::filesystem::path& file) {
+                return tf::as_mesh(tf::read(file)).mesh;
+            }));
         auto& shapes = made->keep(std::vector<tf::prepared_mesh>());
         for (tf::mesh& part : from.parts) shapes.emplace_back(std::move(part));
         auto& handles = made->keep(std::vector<treeform_mesh>(shapes.size()));
@@ -65,7 +66,7 @@ treeform_code treeform_link_transforms(const treeform_robot* robot, const char* 
         const std::span all = glue::array(values, count, "values");
         std::vector<tf::joint_value> given;
         for (std::size_t i = 0; i < count; ++i) given.push_back({names[i], all[i]});
-        const auto found = tf::link_transforms(from, given);
+        const auto found = from.link_transforms(given);
         (void)glue::array(places, 12 * found.size(), "places");
         for (std::size_t i = 0; i < found.size(); ++i) glue::copy(found[i], places + 12 * i);
     });

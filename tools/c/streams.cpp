@@ -145,20 +145,23 @@ treeform_code treeform_shared_weld_remove_folder(treeform_shared_weld* weld) {
 
 uint64_t treeform_default_memory(void) {
     std::uint64_t bytes = 0;
-    const treeform_code code = glue::guard([&] { bytes = tf::default_memory(); });
+    const treeform_code code =
+        glue::guard([&] { bytes = tf::weld_stream_options::default_memory(); });
     return code == TREEFORM_OK ? bytes : 0;
 }
 
 treeform_code treeform_memory_to_weld(const treeform_file* file, uint64_t points, uint64_t* bytes) {
     return glue::guard([&] {
-        glue::need(bytes, "bytes") = tf::memory_to_weld(glue::need(file, "file").content, points);
+        glue::need(bytes, "bytes") =
+            tf::weld_stream_options::memory_to_weld(glue::need(file, "file").content, points);
     });
 }
 
 treeform_code treeform_memory_to_stream(const treeform_file* file, uint64_t points,
                                         uint64_t* bytes) {
     return glue::guard([&] {
-        glue::need(bytes, "bytes") = tf::memory_to_stream(glue::need(file, "file").content, points);
+        glue::need(bytes, "bytes") =
+            tf::weld_stream_options::memory_to_stream(glue::need(file, "file").content, points);
     });
 }
 
@@ -222,7 +225,7 @@ treeform_code treeform_point_writer_write(treeform_point_writer* writer,
         const tf::mesh_file& from = glue::need(block, "block").content;
         tf::point_block points;
         points.points = from.mesh.points;
-        if (const tf::element* const found = tf::find_element(from.attributes, "vertex"))
+        if (const tf::element* const found = from.attributes.find("vertex"))
             points.properties = *found;
         points.properties.rows = points.points.size();
         to.write(points);

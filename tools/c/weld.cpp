@@ -43,7 +43,7 @@ treeform_code treeform_group_points(const treeform_mesh* mesh, const treeform_we
                                     treeform_weld_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        tf::cloud_weld_result groups;
+        tf::weld_result groups;
         groups.groups = tf::group_points(glue::view(mesh).points, glue::read(options));
         glue::check(groups.groups.status);
         return glue::give(std::move(groups), result);
@@ -80,6 +80,6 @@ treeform_code treeform_withhold(treeform_file* file, const treeform_weld_result*
             if (group >= w.group_count)
                 throw std::invalid_argument("group " + std::to_string(group) +
                                             " of the weld is not there");
-        tf::withhold(to, from);
+        from.withhold(to);
     });
 }

@@ -67,7 +67,7 @@ json steps_entry(const tf::repair_statistics& did, const tf::repair_options& ste
              or_null(steps.detach, json{{"moved", did.detached}, {"touching", did.touching}})}};
 }
 
-std::string deeds(const tf::repair_statistics& did) {
+std::string repair_summary(const tf::repair_statistics& did) {
     std::string text;
     const auto add = [&](std::uint64_t n, const char* one, const char* several,
                          const std::string& more = {}) {

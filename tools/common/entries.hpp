@@ -44,7 +44,7 @@ using face_numbers = std::function<std::uint32_t(std::uint32_t)>;
 /// What each step has done; null of one that was left out.
 [[nodiscard]] json steps_entry(const tf::repair_statistics& did, const tf::repair_options& steps);
 /// "1 hole filled (3 edges), 2 pairs cut", or "nothing to mend".
-[[nodiscard]] std::string deeds(const tf::repair_statistics& did);
+[[nodiscard]] std::string repair_summary(const tf::repair_statistics& did);
 /// Its message, with the face by its number in the file.
 [[nodiscard]] std::string message_of(tf::certificate known, const face_numbers& stored_face);
 

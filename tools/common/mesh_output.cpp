@@ -113,7 +113,10 @@ void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision p
 }
 
 void warn_of_ambiguous_materials(job& work, std::span<const tf::mesh_file* const> inputs) {
-    const std::vector<std::string> names = tf::ambiguous_materials(inputs);
+    std::vector<tf::carry_source> sources;
+    for (const tf::mesh_file* input : inputs) sources.push_back({input});
+    const std::vector<std::string> names =
+        tf::carry_sources(std::move(sources)).ambiguous_materials();
     if (names.empty()) return;
     work.warn("materials", "inputs with different material files name " +
                                (names.size() == 1 ? "material " + names.front()

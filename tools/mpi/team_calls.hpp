@@ -14,7 +14,7 @@ struct team_calls {
     std::size_t size = 1;
     std::vector<std::string> (*exchange)(const std::string& told) = nullptr;
     void (*leave)() = nullptr;
-    void (*abort)(int status) = nullptr;  ///< ends all of the team
+    void (*abort)(int status) = nullptr;  ///< ends all ranks
 };
 
 }  // namespace tools

@@ -15,7 +15,7 @@ std::array<std::size_t, 2> range_of(double low, double high, std::size_t size) {
     return {bound(low), bound(high)};
 }
 
-double squared_distance(const std::array<place, 2>& s, double x, double y) {
+double squared_distance(const std::array<pixel_position, 2>& s, double x, double y) {
     const double dx = s[1].x - s[0].x, dy = s[1].y - s[0].y;
     const double px = x - s[0].x, py = y - s[0].y;
     const double long2 = dx * dx + dy * dy;
@@ -43,12 +43,12 @@ void fill(picture& on, const area& box, const rgb& color, unsigned share) {
         for (std::size_t x = x0; x < x1; ++x) on.at(x, y) = blended(on.at(x, y), color, share);
 }
 
-void stroke(picture& on, std::span<const std::array<place, 2>> segments, double width,
+void stroke(picture& on, std::span<const std::array<pixel_position, 2>> segments, double width,
             const rgb& color, unsigned share) {
     if (segments.empty()) return;
-    place low = segments[0][0], high = low;
+    pixel_position low = segments[0][0], high = low;
     for (const auto& s : segments)
-        for (const place& p : s) {
+        for (const pixel_position& p : s) {
             low = {std::min(low.x, p.x), std::min(low.y, p.y)};
             high = {std::max(high.x, p.x), std::max(high.y, p.y)};
         }

@@ -44,7 +44,7 @@ struct picture {
 };
 
 /// In pixels; the middle of the first one is (0.5, 0.5).
-struct place {
+struct pixel_position {
     double x = 0.0;
     double y = 0.0;
 };
@@ -59,7 +59,7 @@ struct area {
 void fill(picture& on, const area& box, const rgb& color, unsigned share = 256);
 
 /// Segments as one shape with round ends, its rim smooth.
-void stroke(picture& on, std::span<const std::array<place, 2>> segments, double width,
+void stroke(picture& on, std::span<const std::array<pixel_position, 2>> segments, double width,
             const rgb& color, unsigned share = 256);
 
 }  // namespace tools

@@ -128,14 +128,14 @@ double width_of(const char* glyph) {
     return widest;
 }
 
-using path = std::vector<place>;
+using path = std::vector<pixel_position>;
 
 /// One round of cutting corners (Chaikin): its limit is the quadratic B-spline of the points.
 path rounder(const path& p, bool closed) {
     path result;
     if (!closed) result.push_back(p.front());
     for (std::size_t i = 0; i + 1 < p.size(); ++i) {
-        const place &a = p[i], &b = p[i + 1];
+        const pixel_position &a = p[i], &b = p[i + 1];
         if (closed || i > 0) result.push_back({0.75 * a.x + 0.25 * b.x, 0.75 * a.y + 0.25 * b.y});
         if (closed || i + 2 < p.size())
             result.push_back({0.25 * a.x + 0.75 * b.x, 0.25 * a.y + 0.75 * b.y});
@@ -144,16 +144,16 @@ path rounder(const path& p, bool closed) {
     return result;
 }
 
-void add_path(std::vector<std::array<place, 2>>& to, path points, bool curved) {
+void add_path(std::vector<std::array<pixel_position, 2>>& to, path points, bool curved) {
     if (points.empty()) return;
-    const place &first = points.front(), &last = points.back();
+    const pixel_position &first = points.front(), &last = points.back();
     const bool closed = curved && first.x == last.x && first.y == last.y;
     for (int round = 0; round < 3 && curved; ++round) points = rounder(points, closed);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) to.push_back({points[i], points[i + 1]});
 }
 
-std::vector<std::array<place, 2>> segments_of(const char* glyph) {
-    std::vector<std::array<place, 2>> segments;
+std::vector<std::array<pixel_position, 2>> segments_of(const char* glyph) {
+    std::vector<std::array<pixel_position, 2>> segments;
     path points;
     bool curved = false;
     for (; *glyph != 0; ++glyph) {
@@ -173,7 +173,7 @@ std::vector<std::array<place, 2>> segments_of(const char* glyph) {
 
 bool continues_letter(char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; }
 
-void write(picture& on, place at, std::string_view text, double size, double width,
+void write(picture& on, pixel_position at, std::string_view text, double size, double width,
            const rgb& color, unsigned share) {
     const double step = size / cap_height;
     for (const char c : text) {
@@ -181,7 +181,7 @@ void write(picture& on, place at, std::string_view text, double size, double wid
         const char* const glyph = glyph_of(static_cast<unsigned char>(c));
         auto segments = segments_of(glyph);
         for (auto& s : segments)
-            for (place& p : s) p = {at.x + step * p.x, at.y - step * p.y};
+            for (pixel_position& p : s) p = {at.x + step * p.x, at.y - step * p.y};
         stroke(on, segments, width, color, share);
         at.x += step * (width_of(glyph) + gap);
     }
@@ -196,11 +196,13 @@ double text_width(std::string_view text, double size) {
     return std::max(0.0, width - gap) * size / cap_height;
 }
 
-void draw_text(picture& on, place at, std::string_view text, double size, const rgb& color) {
+void draw_text(picture& on, pixel_position at, std::string_view text, double size,
+               const rgb& color) {
     write(on, at, text, size, std::max(1.0, line_width * size / cap_height), color, 256);
 }
 
-void draw_label(picture& on, place at, std::string_view text, double size, const rgb& color) {
+void draw_label(picture& on, pixel_position at, std::string_view text, double size,
+                const rgb& color) {
     write(on, at, text, size, std::max(3.0, 0.4 * size), paper, 200);
     draw_text(on, at, text, size, color);
 }

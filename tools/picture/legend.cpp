@@ -28,7 +28,7 @@ std::vector<bool> listed_classes(const scene& shown) {
 
 /// An entry of the legend, where it stands.
 struct entry {
-    place at{};
+    pixel_position at{};
     std::size_t kind = 0;
     std::string text{};
 };
@@ -42,7 +42,7 @@ layout lay_out(const scene& shown, const lettering& letters, double width) {
     layout made;
     const std::vector<bool> listed = listed_classes(shown);
     const double right = width - letters.margin, indent = 1.8 * letters.size;
-    place at{letters.margin, 0.0};
+    pixel_position at{letters.margin, 0.0};
     for (std::size_t k = 0; k < listed.size(); ++k) {
         if (!listed[k]) continue;
         const scene_class& c = shown.classes[k];
@@ -91,9 +91,10 @@ void draw_scale(picture& on, const lettering& letters, double y, double pixels,
     const double right = static_cast<double>(on.width) - letters.margin - letters.size;
     const double left = right - length * pixels;
     const double high = 0.4 * letters.size;
-    const std::array<std::array<place, 2>, 3> bar{{{{{left, y}, {right, y}}},
-                                                   {{{left, y - high}, {left, y + high}}},
-                                                   {{{right, y - high}, {right, y + high}}}}};
+    const std::array<std::array<pixel_position, 2>, 3> bar{
+        {{{{left, y}, {right, y}}},
+         {{{left, y - high}, {left, y + high}}},
+         {{{right, y - high}, {right, y + high}}}}};
     stroke(on, bar, std::max(1.0, 0.16 * letters.size), ink);
     draw_text(on, {left - text_width(text, letters.size) - letters.size, y + 0.5 * letters.size},
               text, letters.size, ink);
@@ -102,7 +103,7 @@ void draw_scale(picture& on, const lettering& letters, double y, double pixels,
 void draw_map(picture& on, const scene_map& map, const lettering& letters, double y,
               const std::string& unit) {
     const double base = y + 0.5 * letters.size;
-    place at{letters.margin, base};
+    pixel_position at{letters.margin, base};
     const auto write = [&](const std::string& text) {
         draw_text(on, at, text, letters.size, ink);
         at.x += text_width(text, letters.size) + letters.size;

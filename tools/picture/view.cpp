@@ -118,10 +118,10 @@ tf::box3 box_that_matters(const scene& shown, const tf::box3& all) {
     const extents e = extents_of(shown, share);
     // Faces that meet may be long; where they meet is what one looks for.
     const growing& findings = e.marks.empty() ? e.faces : e.marks;
-    const double whole =
-        tf::diagonal({difference(all.min, {}, share), difference(all.max, {}, share)});
+    const tf::box3 shrunk{difference(all.min, {}, share), difference(all.max, {}, share)};
+    const double whole = shrunk.diagonal();
     if (findings.empty() || std::sqrt(e.area) > 0.25 * whole) return all;
-    const double room = std::max(tf::diagonal(findings.box), e.area / whole);
+    const double room = std::max(findings.box.diagonal(), e.area / whole);
     if (room > 0.25 * whole) return all;
     tf::box3 box;
     for (std::size_t axis = 0; axis < 3; ++axis) {

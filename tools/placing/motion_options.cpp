@@ -50,15 +50,17 @@ std::optional<found_feature> at_face(const tf::body_set& set, tf::feature_kind k
 std::optional<found_feature> near_point(const tf::body_set& set, tf::feature_kind kind,
                                         const tf::point3& p) {
     std::optional<std::size_t> nearest;
+    std::uint32_t face = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t body = 0; body < set.shapes.size(); ++body) {
         const auto at = tf::closest_point(set.shapes[body], p);
         if (set.shapes[body].is_cloud() || !at || !(at->distance < least)) continue;
         least = at->distance;
         nearest = body;
+        face = at->face;
     }
     if (!nearest) return std::nullopt;
-    auto one = tf::feature_at(set.shapes[*nearest].view(), kind, p);
+    auto one = tf::feature_at(set.shapes[*nearest].view(), kind, face);
     if (!one) return std::nullopt;
     return found_feature{*nearest, std::move(*one)};
 }

@@ -95,7 +95,7 @@ void add_options(command_line& line, boolean_settings& s) {
     line.option(s.gap, {"--gap", "DIST",
                         "union: fill gaps of at most DIST between faces of\n"
                         "different operands that lie over each other"});
-    tools::add_max_move(line, s.rails);
+    tools::add_max_move(line, s.limits);
 }
 
 void add_what_to_give_back(command_line& line, boolean_settings& s, common_options& options) {
@@ -157,12 +157,12 @@ const char* const epilogue =
 std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_settings& s,
                                      const std::vector<tools::solid>& solids) {
     const bool of_properties = !s.no_attributes && tools::wants_mesh(work.options);
-    return tf::face_groups(tools::sources_of(solids), of_properties, s.source_given);
+    return tools::sources_of(solids).face_groups(of_properties, s.source_given);
 }
 
 bool keeps_cuts(const boolean_settings& s, const std::vector<tools::solid>& solids) {
     return s.keep_cuts ||
-           (!s.simplify && !s.no_attributes && tf::has_vertex_values(tools::sources_of(solids)));
+           (!s.simplify && !s.no_attributes && tools::sources_of(solids).has_vertex_values());
 }
 
 tf::boolean_result ask(tools::job& work, const boolean_settings& s,
@@ -268,7 +268,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
         return tools::found;
     }
     const std::string too_far = tools::move_objection(
-        work.entry, s.rails, tools::diagonal_of(solids), result.certificate, result.mesh.points);
+        work.entry, s.limits, tools::diagonal_of(solids), result.certificate, result.mesh.points);
     if (!too_far.empty()) {
         work.warn("max-move", too_far + "; nothing written");
         return tools::found;

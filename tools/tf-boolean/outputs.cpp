@@ -56,7 +56,7 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
         {"given", or_null(settings.gap.has_value(), settings.gap ? settings.gap->given : "")},
         {"used", nullptr},
         {"faces", nullptr}};
-    entry["max_move"] = {{"given", settings.rails.max_move.given},
+    entry["max_move"] = {{"given", settings.limits.max_move.given},
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};
@@ -133,8 +133,8 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     const written_form form = form_of(o);
     tf::mesh_file file = file_of(std::move(result.mesh), result.certificate);
     if (!settings.no_attributes) {
-        tf::carry(file, sources_of(solids),
-                  {result.face_source, result.vertex_source, result.face_of_cut_vertex});
+        sources_of(solids).carry(
+            file, {result.face_source, result.vertex_source, result.face_of_cut_vertex});
         if (form.format == "obj") warn_of_ambiguous_materials(work, files_of(solids));
     }
     if (holds_sources(form.format)) {
@@ -143,7 +143,7 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
                                [](const solid& s) { return s.part.empty() ? s.path : name_of(s); });
         for (tf::operand_element& e : result.face_source)
             e.index = solids[e.operand].stored_face(e.index);
-        tf::add_source_columns(file, settings.source, result.face_source, inputs);
+        tf::set_source_columns(file, settings.source, result.face_source, inputs);
     }
     write_certified(work, file, form, o.output, result.certificate.max_displacement);
 }
@@ -152,7 +152,7 @@ meetings meetings_of(job& work, const std::vector<solid>& solids) {
     meetings all{.joined = tf::join_meshes(views_of(solids))};
     auto found = tf::self_intersections(all.joined.mesh, {.vertices = tf::vertex_identity::by_index,
                                                           .progress = work.progress("curves")});
-    work.call_ended(found.cancelled);
+    work.call_ended(found.status == tf::status::cancelled);
     all.pairs = std::move(found.pairs);
     return all;
 }

@@ -2,9 +2,9 @@
 /// \file
 /// What a user of tf-boolean asks for.
 
+#include "tools/common/change_limits.hpp"
 #include "tools/common/common_options.hpp"
 #include "tools/common/parse_value.hpp"
-#include "tools/common/rails.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
@@ -34,7 +34,7 @@ struct boolean_settings {
     double min_volume = 0.0;  ///< of parts of the result
     bool min_volume_given = false;
     std::optional<distance> gap{};
-    tools::rails rails{};
+    tools::change_limits limits{};
     bool max_move_given = false;
     std::string source = "source";  ///< properties SOURCE_mesh, SOURCE_face
     bool source_given = false;

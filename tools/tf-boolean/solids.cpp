@@ -33,7 +33,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     s.triangles = s.file.mesh.faces.size();
     if (!matrix_file.empty()) {
         const tf::transform<3> matrix = read_matrix(matrix_file);
-        tf::transform_file(s.file, matrix);
+        s.file.move(matrix);
         about["matrix"] = matrix_file.string();
     }
     s.triangle_of_face = tf::drop_unusable_faces(s.file.mesh);
@@ -63,7 +63,7 @@ void mend(job& work, const boolean_settings& settings, solid& s, json& about) {
         throw failure(found, "not-mended",
                       name + ": cannot be mended: " + made.certificate.message());
     }
-    work.out.info(name + ": " + deeds(made.statistics));
+    work.out.info(name + ": " + repair_summary(made.statistics));
     made.file.stored_as = s.file.stored_as;
     s.file = std::move(made.file);
     s.triangle_of_face.clear();
@@ -158,7 +158,7 @@ std::vector<solid> read_solids(job& work, const boolean_settings& settings) {
                          {"list", json::array()}};
         about["skipped"] = {{"non_finite", nullptr}};
         solids.push_back(read_solid(work, path, settings.matrix_files[i], about));
-        tf::drop_source_columns(solids.back().file, settings.source);
+        tf::set_source_columns(solids.back().file, settings.source, {}, {});
     }
     std::vector<std::string> names = settings.names;
     if (solids.size() == 1 && names.empty() && !settings.check && !settings.splits())
@@ -176,7 +176,7 @@ std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids) {
     return views;
 }
 
-std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids) {
+tf::carry_sources sources_of(const std::vector<solid>& solids) {
     std::vector<tf::carry_source> sources;
     for (const solid& s : solids) sources.push_back(s.source());
     return sources;
@@ -188,7 +188,7 @@ double diagonal_of(const std::vector<solid>& solids) {
         if (const auto box = tf::bounding_box(s.file.mesh.points))
             corners.insert(corners.end(), {box->min, box->max});
     const auto box = tf::bounding_box(corners);
-    return box ? tf::diagonal(*box) : 0.0;
+    return box ? box->diagonal() : 0.0;
 }
 
 std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& solids) {

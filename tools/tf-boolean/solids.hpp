@@ -42,7 +42,7 @@ struct solid {
 [[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
 
 [[nodiscard]] std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids);
-[[nodiscard]] std::vector<tf::carry_source> sources_of(const std::vector<solid>& solids);
+[[nodiscard]] tf::carry_sources sources_of(const std::vector<solid>& solids);
 
 /// Length of the diagonal of the box of all solids.
 [[nodiscard]] double diagonal_of(const std::vector<solid>& solids);

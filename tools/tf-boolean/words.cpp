@@ -85,9 +85,9 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
                       "; tf-repair sets it apart");
     if (!settings.splits() && !output["closed"].get<bool>())
         work.warn("open", "the result is a part of an open surface, and open itself");
-    if (settings.simplify && !settings.no_attributes && tf::has_vertex_values(sources_of(solids)))
+    if (settings.simplify && !settings.no_attributes && sources_of(solids).has_vertex_values())
         work.warn("simplified", "points that are left out take their properties with them");
-    if (!settings.no_attributes && tf::has_values_left_out(sources_of(solids)))
+    if (!settings.no_attributes && sources_of(solids).has_values_left_out())
         work.warn("attributes", "lists and properties of other elements are not carried over");
 }
 

@@ -37,7 +37,7 @@ std::string volume_in_words(const std::optional<double>& volume) {
 
 /// "the mesh is between heights 0 and 1", along the normal.
 std::string heights_in_words(const cut_settings& s, const usable_input& input) {
-    const tf::point3 n = tf::frame_of(s.plane).normal, at = s.plane.at;
+    const tf::point3 n = s.plane.frame().normal, at = s.plane.at;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const auto& corners : input.file.mesh.faces)
         for (const std::uint32_t corner : corners) {
@@ -77,7 +77,7 @@ std::optional<double> volume_of(const tf::mesh& mesh) {
 
 double diagonal_of(const usable_input& input) {
     const auto box = tf::bounding_box(input.file.mesh.points);
-    return box ? tf::diagonal(*box) : 0.0;
+    return box ? box->diagonal() : 0.0;
 }
 
 void enter_blank_report(job& work, const cut_settings& s, const usable_input& input) {
@@ -88,7 +88,7 @@ void enter_blank_report(job& work, const cut_settings& s, const usable_input& in
     entry["triangles"] = input.file.mesh.faces.size() + input.left_out;
     entry["skipped"]["non_finite"] = input.left_out;
     entry["planes"] = planes_entry(s);
-    entry["max_move"] = {{"given", s.rails.max_move.given},
+    entry["max_move"] = {{"given", s.limits.max_move.given},
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};
@@ -167,7 +167,7 @@ void say_info(job& work, const usable_input& input) {
     const auto timing = work.time("check");
     tf::solid_defects defects =
         tf::find_solid_defects(input.source(), tf::repair_scope::each_part, work.progress("check"));
-    work.call_ended(defects.cancelled);
+    work.call_ended(defects.status == tf::status::cancelled);
     defects.unusable_faces += input.left_out;
     const auto box = tf::bounding_box(mesh.points);
     const tf::mesh joined = tf::join_equal_points(mesh);

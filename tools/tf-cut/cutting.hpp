@@ -2,8 +2,8 @@
 /// \file
 /// What a user of tf-cut asks for, what is made of an input, and how it is told and written.
 
+#include "tools/common/change_limits.hpp"
 #include "tools/common/parse_value.hpp"
-#include "tools/common/rails.hpp"
 #include "tools/common/run.hpp"
 #include "tools/common/usable_input.hpp"
 #include <treeform/mesh/carry.hpp>
@@ -37,7 +37,7 @@ struct cut_settings {
     std::optional<tf::point3> bed{};
     kept_half keep = kept_half::both;
     bool open = false;
-    tools::rails rails{};
+    tools::change_limits limits{};
     double min_volume = 0.0;
     std::uint64_t largest = 0;  ///< 0: all
     std::string caps{};         ///< name of the property with the plane of each cap; or none

@@ -112,7 +112,7 @@ void add_options(command_line& line, cut_settings& s) {
     line.flag(s.open, {"--open", "",
                        "half, pieces: cut a surface, which may end anywhere,\n"
                        "and leave the pieces open"});
-    tools::add_max_move(line, s.rails);
+    tools::add_max_move(line, s.limits);
     line.option(
         {"--min-volume", "V", "parts: leave out those below V; open ones have none", "0"},
         [&s](std::string_view v) { s.min_volume = tools::parse_volume("--min-volume", v); });
@@ -303,7 +303,7 @@ tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settin
     const tf::cut_options options{
         .precision = tools::written_precision(work.options, form, {&files, 1}),
         .caps = !s.open,
-        .keep_cuts = tf::merging_mixes_values({&source, 1}),
+        .keep_cuts = tf::carry_sources(source).merging_mixes_values(),
         .progress = work.progress("cut")};
     tf::cut_result made = suitable(s.bed ? "--bed" : "--height", [&] {
         return s.bed ? tf::cut_to_fit(input.file.mesh, *s.bed, options)
@@ -345,7 +345,7 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
             pieces, {}, [](const cut_off& piece) { return piece.certificate.max_displacement; });
         if (furthest != pieces.end()) {
             const std::string too_far =
-                tools::move_objection(work.entry, s.rails, tools::diagonal_of(input),
+                tools::move_objection(work.entry, s.limits, tools::diagonal_of(input),
                                       furthest->certificate, furthest->mesh.points);
             if (!too_far.empty()) {
                 work.out.result(work.name + ": not written: " + too_far);

@@ -30,11 +30,11 @@ bool has_objects(const std::string& format) {
 /// The file of what was made, with the attributes of the input.
 tf::mesh_file carried(const cut_settings& s, const usable_input& input, cut_off&& piece) {
     tf::mesh_file file = file_of(std::move(piece.mesh), piece.certificate);
-    tf::carry(file, input.source(), piece.face_source, piece.vertex_source);
+    tf::carry_sources(input.source()).carry(file, piece.face_source, piece.vertex_source);
     if (!s.caps.empty()) {
         std::vector<std::int32_t> cap(piece.cap.begin(), piece.cap.end());  // none is -1
-        tf::set_column(tf::obtain_element(file.attributes, "face", file.mesh.faces.size()),
-                       tf::make_column<std::int32_t>(s.caps, cap));
+        file.attributes.obtain("face", file.mesh.faces.size())
+            .set(tf::column::of<std::int32_t>(s.caps, cap));
     }
     return file;
 }
@@ -79,7 +79,8 @@ void write_pieces(job& work, const cut_settings& s, const usable_input& input,
     if (!output || o.dry_run) return;
     const auto timing = work.time("write");
     const written_form form = form_of(work, input.file, *output);
-    if (const tf::carry_source source = input.source(); tf::has_values_left_out({&source, 1}))
+    if (const tf::carry_source source = input.source();
+        tf::carry_sources(source).has_values_left_out())
         work.warn("attributes", "not all properties of the input are carried over");
     const auto write = [&](tf::mesh_file&& file, const std::filesystem::path& path, double moved,
                            bool certified) {

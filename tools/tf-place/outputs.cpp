@@ -52,9 +52,9 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
         members.push_back({&file.content, file.name, file.label});
     };
     for (const placed_body& at : placed) {
-        tf::put_back(moving, at.number, at.points, at.matrix, precision);
+        moving.put_back(at.number, at.points, at.matrix, precision);
         tf::body_file& file = moving.files[moving.bodies[at.number].file];
-        tf::transform_normals(file.content, at.matrix);
+        file.content.turn_normals(at.matrix);
         add(file);
     }
     std::for_each(fixed.files.begin(), fixed.files.end(), add);
@@ -68,12 +68,10 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
         const auto classes = tf::classify_contacts(moving.shapes[0], fixed.shapes, met);
         // What has been moved stays what it is, with its polygons, and its colors where it has some.
         tf::color_contacts(
-            file,
-            scene ? tf::classes_in_files(classes, moving, fixed)
-                  : tf::classes_in_files(classes, moving),
+            file, scene ? classes.in_files(moving, fixed) : classes.in_files(moving),
             {.split_polygons = picture && !scene,
              .keep_colors = !picture && !scene,
-             .halo = 0.02 * tf::diagonal(tf::bounding_box(file.mesh.points).value_or(tf::box3{}))});
+             .halo = 0.02 * tf::bounding_box(file.mesh.points).value_or(tf::box3{}).diagonal()});
     }
     const auto written =
         write_mesh(work, file, {.format = form.format, .ascii = form.ascii, .precision = precision},

@@ -91,7 +91,7 @@ std::optional<tf::deviation_result> find_distances(job& work, const placing& p,
     if (p.moving.shapes[0].is_cloud()) placed.faces.clear();
     auto found = tf::deviation(tf::prepared_mesh(std::move(placed)), p.fixed.shapes,
                                {.both_ways = false, .progress = work.progress("page")});
-    work.call_ended(found && found->cancelled);
+    work.call_ended(found && found->status == tf::status::cancelled);
     return found;
 }
 

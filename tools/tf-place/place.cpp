@@ -33,7 +33,7 @@ const tf::body_file& checked(job& work, const tf::body_file& file) {
 const tf::body_file& add_moving(job& work, const std::string& path, tf::mesh_file file,
                                 const tf::transform<3>& start, tf::body_set& moving) {
     const auto timing = work.time("prepare");
-    if (start != tf::transform<3>{}) tf::transform_file(file, start);
+    if (start != tf::transform<3>{}) file.move(start);
     return checked(work, moving.add(std::move(file), name_of_input(path), stem_of(path)));
 }
 
@@ -45,7 +45,7 @@ void read_fixed(job& work, const place_settings& settings, bool as_single, fixed
         tf::mesh_file file = work.read(path, about);
         const std::string label = name_of_input(path);
         work.warn(file.warnings, label + ": ");
-        if (as_single) warn_of_rounding(work, tf::round_to_float32(file), label + ": ");
+        if (as_single) warn_of_rounding(work, file.round_to_float32(), label + ": ");
         const auto timing = work.time("prepare");
         // Alignment is to all of a file, which may be a cloud.
         const auto add =
@@ -261,7 +261,7 @@ exit_status place_one(job& work, const place_settings& settings, fixed_meshes& f
     enter_inputs(work.entry, file, fixed);
     find_place(work, p);
     if (settings.mode != place_mode::fit) warn_of_inside_out(work, p);
-    p.matrix = tf::after(p.at.matrix, start);
+    p.matrix = p.at.matrix.after(start);
     enter_place(work.entry, p);
     say_place(work, p);
     if (!p.at) {
@@ -290,7 +290,7 @@ exit_status arrange_all(job& work, const place_settings& settings) {
     std::string matrix_lines;
     for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
         const tf::packed_part& at = plate.parts[i];
-        const tf::transform<3> matrix = tf::after(at.matrix, start);
+        const tf::transform<3> matrix = at.matrix.after(start);
         matrix_lines += matrix_text(matrix);
         work.entry["parts"][i].update({{"placed", at.placed},
                                        {"plate", or_null(at.placed, at.plate)},

@@ -82,7 +82,7 @@ struct placing {
 
     /// A share is of the diagonal of MOVING's box.
     [[nodiscard]] double used(const distance& d) const {
-        return d.used(tf::diagonal(*moving.files[0].box));
+        return d.used(moving.files[0].box->diagonal());
     }
 };
 

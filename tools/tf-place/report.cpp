@@ -119,7 +119,7 @@ void enter_place(json& entry, const placing& p) {
 
 std::string sentence(const placing& p) {
     const tf::placement& at = p.at;
-    std::string relation = tf::relation_in_words(at, p.moving, p.fixed);
+    std::string relation = at.relation_in_words(p.moving, p.fixed);
     if (!at) {
         std::string text = "not placed: " + p.reason;
         if (at.at_place != tf::standing::penetrating || !at.nearest) return text;

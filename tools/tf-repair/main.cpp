@@ -78,8 +78,8 @@ void add_options(command_line& line, repair_settings& s) {
                         "change nothing; say what is wrong; exit 1 if\n"
                         "anything is"});
     line.group("Limits beyond which nothing is written (exit 1)");
-    tools::add_max_loss(line, s.rails);
-    tools::add_max_move(line, s.rails);
+    tools::add_max_loss(line, s.limits);
+    tools::add_max_move(line, s.limits);
 }
 
 void add_what_to_give_back(command_line& line, repair_settings& s, common_options& options) {
@@ -148,7 +148,7 @@ void check_request(const command_line& line, request& r, common_options& options
         if (!s.source.empty() && format != "ply" && format != "glb")
             refuse("--source needs an output with properties: ply, glb");
     }
-    s.steps.max_loss = s.rails.loss();
+    s.steps.max_loss = s.limits.loss();
     if (!s.check) {
         tools::require_output(line, options, "--check only says what is wrong");
         return;
@@ -163,7 +163,7 @@ void check_request(const command_line& line, request& r, common_options& options
 tools::dirty_mesh read_mesh(tools::job& work) {
     tools::dirty_mesh input{tools::read_usable(work)};
     const tf::mesh& mesh = input.file.mesh;
-    if (const auto box = tf::bounding_box(mesh.points)) input.diagonal = tf::diagonal(*box);
+    if (const auto box = tf::bounding_box(mesh.points)) input.diagonal = box->diagonal();
     input.volume = tf::signed_volume(mesh);
     return input;
 }
@@ -173,7 +173,7 @@ exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
     tf::solid_defects found =
         tf::find_solid_defects(input.source(), tf::repair_scope::each_part, work.progress("check"));
     found.unusable_faces += input.left_out;
-    work.call_ended(found.cancelled);
+    work.call_ended(found.status == tf::status::cancelled);
     tools::say_defects(work, input, found);
     tools::write_page(work, input, found.message(), !found.any());
     return found.any() ? tools::found : tools::done;
@@ -193,7 +193,7 @@ tf::repaired_file mend(tools::job& work, const tools::dirty_mesh& input,
     tf::repair_options options = settings.steps;
     if (settings.gap) options.gap = settings.gap->used(input.diagonal);
     options.precision = precision;
-    options.max_displacement = settings.rails.max_move.used(input.diagonal);
+    options.max_displacement = settings.limits.max_move.used(input.diagonal);
     options.progress = work.progress("repair");
     tf::repaired_file made = tf::repair_file(input.source(), options, scope);
     work.call_ended(made.certificate.status == tf::status::cancelled);
@@ -221,8 +221,8 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
         return static_cast<bool>(known) || known.status == tf::status::sheet;
     };
     std::string why = tools::objection(s, made, works);
-    const std::string too_far = tools::move_objection(work.entry["repair"], s.rails, input.diagonal,
-                                                      made.certificate, made.file.mesh.points);
+    const std::string too_far = tools::move_objection(
+        work.entry["repair"], s.limits, input.diagonal, made.certificate, made.file.mesh.points);
     if (why.empty()) why = too_far;
     if (!why.empty()) {
         work.out.result(work.name + ": not written: " + why);

@@ -17,8 +17,8 @@ namespace {
 void add_sources(tf::mesh_file& file, const std::string& name,
                  const std::vector<std::uint32_t>& face_source) {
     const std::vector<std::int32_t> sources(face_source.begin(), face_source.end());
-    tf::set_column(tf::obtain_element(file.attributes, "face", file.mesh.faces.size()),
-                   tf::make_column<std::int32_t>(name, sources));
+    file.attributes.obtain("face", file.mesh.faces.size())
+        .set(tf::column::of<std::int32_t>(name, sources));
 }
 
 json parts_entry(const tf::repaired_file& made) {
@@ -78,7 +78,8 @@ void write_solid(job& work, const dirty_mesh& input, const repair_settings& sett
                  tf::repaired_file& made, const std::filesystem::path& path) {
     const auto timing = work.time("write");
     const written_form form = form_of(work, input.file, path);
-    if (const tf::carry_source source = input.source(); tf::has_values_left_out({&source, 1}))
+    if (const tf::carry_source source = input.source();
+        tf::carry_sources(source).has_values_left_out())
         work.warn("attributes", "not all properties of the input are carried over");
     if (!settings.source.empty()) add_sources(made.file, settings.source, made.face_source);
     write_certified(work, made.file, form, path, made.certificate.max_displacement);
@@ -90,7 +91,7 @@ void write_curves(job& work, const dirty_mesh& input, const repair_settings& set
     const tf::mesh joined = tf::join_meshes({&mesh, 1}).mesh;
     const auto found = tf::self_intersections(
         joined, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
-    work.call_ended(found.cancelled);
+    work.call_ended(found.status == tf::status::cancelled);
     tf::pair_numbers kinds{"tf_class", {}};
     for (const tf::face_pair& pair : found.pairs)
         kinds.of_pair.push_back(static_cast<std::uint32_t>(pair.kind) + 1);

@@ -2,7 +2,7 @@
 /// \file
 /// What tf-repair says and writes.
 
-#include "tools/common/rails.hpp"
+#include "tools/common/change_limits.hpp"
 #include "tools/common/run.hpp"
 #include "tools/common/usable_input.hpp"
 #include <treeform/mesh/carry.hpp>
@@ -27,7 +27,7 @@ struct wrap_settings {
 struct repair_settings {
     tf::repair_options steps{};
     std::optional<distance> gap{};
-    tools::rails rails{};
+    tools::change_limits limits{};
     bool check = false;
     wrap_settings wrap{};
     std::string source{};  ///< name of the property with the face that each one lies in; or none

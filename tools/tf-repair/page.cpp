@@ -170,7 +170,7 @@ void write_page(job& work, const dirty_mesh& input, const std::string& verdict, 
         const tf::mesh joined = tf::join_meshes({&before, 1}).mesh;
         const auto found = tf::self_intersections(
             joined, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("page")});
-        work.call_ended(found.cancelled);
+        work.call_ended(found.status == tf::status::cancelled);
         for (const tf::face_pair& pair : found.pairs)
             was.before[pair.a] = was.before[pair.b] = mark::meets;
     }

@@ -78,7 +78,7 @@ std::string verdict(const dirty_mesh& input, const tf::repaired_file& made) {
         text += ", area " + brief(did.area_after);
     else
         text += ", volume " + brief(did.volume_after) + " (was " + brief(input.volume) + ")";
-    return text + ": " + deeds(did);
+    return text + ": " + repair_summary(did);
 }
 
 std::string objection(const repair_settings& settings, const tf::repaired_file& made,

@@ -55,7 +55,7 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
     constexpr std::uint64_t bytes_per_byte = 4;
     const bool asked = tiles.is_asked();
     const std::uint64_t allowed =
-        work.options.memory > 0 ? work.options.memory : tf::default_memory();
+        work.options.memory > 0 ? work.options.memory : tf::weld_stream_options::default_memory();
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(work.path, error);
     const std::uint64_t program = std::min(allowed / 2, std::uint64_t{24} << 20);
@@ -146,7 +146,7 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
         tf::stream_search search(work.path, options);
         return search.finish();
     });
-    work.call_ended(r.found.cancelled);
+    work.call_ended(r.found.status == tf::status::cancelled);
     const std::string sum = digests_for_report({work.path}, tiles).front();
     if (tiles.team.rank > 0) return {};
     work.seconds["tree"] += r.found.tree_seconds;

@@ -101,8 +101,8 @@ void add_repair(command_line& line, request& r) {
     line.flag(r.repair.keep_cuts, {"--keep-cuts", "",
                                    "for outer: do not merge coplanar faces that were\n"
                                    "cut, or that overlap"});
-    tools::add_max_move(line, r.repair.rails);
-    tools::add_max_loss(line, r.repair.rails);
+    tools::add_max_move(line, r.repair.limits);
+    tools::add_max_loss(line, r.repair.limits);
     line.flag(r.repair.keep_components,
               {"--keep-components", "", "fail (exit 1) if a component would disappear"});
 }

@@ -97,7 +97,7 @@ void write_curves(const job& work, const std::filesystem::path& path, const find
 void write_marked(job& work, tf::mesh_file& file, const findings& result,
                   const std::filesystem::path& path) {
     const auto timing = work.time("write");
-    tf::color_marks(file, result.part, result.marks);
+    result.marks.color(file, result.part);
     const auto written =
         write_mesh(work, file, write_options_for(work.options, form_of(work, file, path)), path);
     warn_of_rounding(work, written.max_displacement);

@@ -2,7 +2,7 @@
 /// \file
 /// What tf-selfintersect says and writes.
 
-#include "tools/common/rails.hpp"
+#include "tools/common/change_limits.hpp"
 #include "tools/tf-selfintersect/search.hpp"
 #include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
@@ -46,7 +46,7 @@ inline constexpr std::array<const char*, 3> repair_modes{"split", "outer", "remo
 struct repair_settings {
     tf::resolve_mode mode = tf::resolve_mode::outer;
     tf::fill_rule inside = tf::fill_rule::nonzero;
-    tools::rails rails{};
+    tools::change_limits limits{};
     bool keep_cuts = false;
     bool keep_components = false;
     bool touching = false;  ///< faces that only touch are to be resolved, too

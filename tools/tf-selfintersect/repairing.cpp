@@ -19,7 +19,7 @@ namespace {
 bool keeps_cuts(const tf::mesh_file& input, const repair_settings& settings) {
     if (settings.keep_cuts || settings.mode != tf::resolve_mode::outer) return true;
     const tf::carry_source source{&input, {}};
-    return tf::merging_mixes_values({&source, 1});
+    return tf::carry_sources(source).merging_mixes_values();
 }
 
 tf::resolve_result compute(job& work, const tf::mesh_file& input, const findings& result,
@@ -30,10 +30,10 @@ tf::resolve_result compute(job& work, const tf::mesh_file& input, const findings
         result.part.mesh, settings.mode,
         {.inside = settings.inside,
          .precision = precision,
-         .max_displacement = settings.rails.max_move.used(result.diagonal()),
+         .max_displacement = settings.limits.max_move.used(result.diagonal()),
          .keep_cuts = keeps_cuts(input, settings),
          .touching = settings.touching,
-         .max_loss = settings.rails.loss(),
+         .max_loss = settings.limits.loss(),
          .progress = work.progress("repair")});
     work.call_ended(repaired.certificate.status == tf::status::cancelled);
     return repaired;
@@ -135,8 +135,8 @@ void add_source_faces(tf::mesh_file& file, const findings& result,
         sources.push_back(f == tf::resolve_result::none
                               ? -1
                               : static_cast<std::int32_t>(result.part.face_in_file(f)));
-    tf::set_column(tf::obtain_element(file.attributes, "face", file.mesh.faces.size()),
-                   tf::make_column<std::int32_t>("source_face", sources));
+    file.attributes.obtain("face", file.mesh.faces.size())
+        .set(tf::column::of<std::int32_t>("source_face", sources));
 }
 
 /// Gives `file` what the input has. What points have is left out where these were joined, for they
@@ -144,14 +144,14 @@ void add_source_faces(tf::mesh_file& file, const findings& result,
 void carry(job& work, tf::mesh_file& file, tf::mesh_file& input, const findings& result,
            const tf::resolve_result& repaired) {
     const tf::carry_source source{&input, result.part.triangle_of_face};
-    bool all = !tf::has_values_left_out({&source, 1});
+    bool all = !tf::carry_sources(source).has_values_left_out();
     if (input.mesh.points.size() != result.part.mesh.points.size()) {
-        all = all && !tf::has_vertex_values({&source, 1});
+        all = all && !tf::carry_sources(source).has_vertex_values();
         input.mesh = result.part.mesh;
         std::erase_if(input.attributes.elements,
                       [](const tf::element& e) { return e.name == "vertex"; });
     }
-    tf::carry(file, source, repaired.face_source, repaired.vertex_source);
+    tf::carry_sources(source).carry(file, repaired.face_source, repaired.vertex_source);
     if (!all) work.warn("attributes", "not all properties of the input are carried over");
 }
 
@@ -167,7 +167,7 @@ bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
         compute(work, input, result, settings, written_precision(work.options, form, {&inputs, 1}));
     enter_repair(work, result, settings, repaired);
     const std::string too_far =
-        move_objection(work.entry["repair"], settings.rails, result.diagonal(),
+        move_objection(work.entry["repair"], settings.limits, result.diagonal(),
                        repaired.certificate, repaired.mesh.points);
     if (const std::string why = objection(result, settings, repaired, too_far); !why.empty()) {
         work.out.result(work.name + ": not repaired, nothing written: " + why);

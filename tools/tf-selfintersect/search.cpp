@@ -90,7 +90,7 @@ void group_findings(job& work, findings& result, const search_settings& settings
     });
     const job::timer timing = work.time("regions");
     result.regions = tf::group_pairs(mesh, result.found.pairs);
-    result.marks = tf::mark_faces(mesh.faces.size(), result.found.pairs, result.regions);
+    result.marks = tf::face_marks(mesh.faces.size(), result.found.pairs, result.regions);
 }
 
 void hint_at_near_points(job& work, const findings& result) {

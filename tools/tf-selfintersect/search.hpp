@@ -44,7 +44,7 @@ struct findings {
     std::uint64_t points_stored = 0;
     double tolerance_used = 0.0;
 
-    [[nodiscard]] double diagonal() const { return box ? tf::diagonal(*box) : 0.0; }
+    [[nodiscard]] double diagonal() const { return box ? box->diagonal() : 0.0; }
     /// Empty where none were asked for.
     [[nodiscard]] std::set<std::uint32_t> components_of(const tf::intersection_region& r) const;
 };

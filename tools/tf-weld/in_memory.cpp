@@ -76,9 +76,8 @@ tf::mesh_file read_all(job& work, bool mixed) {
 
 /// `file` as it was, with the number of each point's group.
 void label(job& work, tf::mesh_file& file, const welding& w, const std::string& name) {
-    tf::element& vertices = tf::obtain_element(file.attributes, "vertex", file.mesh.points.size());
-    if (tf::set_column(vertices,
-                       tf::make_column<std::uint32_t>(name, w.result.groups.group_of_point)))
+    tf::element& vertices = file.attributes.obtain("vertex", file.mesh.points.size());
+    if (vertices.set(tf::column::of<std::uint32_t>(name, w.result.groups.group_of_point)))
         warn_of_replaced(work, name);
 }
 
@@ -118,7 +117,7 @@ exit_status weld_in_memory(job& work, const weld_request& request, const std::st
     }
     if (!asked.removed.empty() && !o.dry_run) write_removed(work, outputs, file, w, asked.removed);
     if (asked.withhold)
-        tf::withhold(file, w.result);
+        w.result.withhold(file);
     else if (!asked.label.empty())
         label(work, file, w, asked.label);
     else

@@ -251,9 +251,9 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
     const tf::weld_stream_options options = library_options(work, request, tiles, header);
     std::optional<tf::stream_weld> weld;
     try {
-        const tf::element* const faces = tf::find_element(header.attributes, "face");
-        static_cast<void>(tf::weld_conditions(
-            header.attributes, faces != nullptr && faces->rows > 0, request.settings.options));
+        const tf::element* const faces = header.attributes.find("face");
+        static_cast<void>(request.settings.options.conditions(header.attributes,
+                                                              faces != nullptr && faces->rows > 0));
         if (tiles.team.size > 1 && leads) tiles.team.exchange({});
         take(work, "read", [&] {
             weld.emplace(inputs, options);

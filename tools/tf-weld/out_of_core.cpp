@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool has_lists(const tf::mesh_file& header) {
-    const tf::element* const vertices = tf::find_element(header.attributes, "vertex");
+    const tf::element* const vertices = header.attributes.find("vertex");
     return vertices != nullptr && std::ranges::any_of(vertices->columns, [](const auto& column) {
                return column.list_length.has_value();
            });
@@ -113,7 +113,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
                        const tf::cloud_inputs& inputs) {
     const bool asked = tiles.is_asked();
     const std::uint64_t allowed =
-        work.options.memory > 0 ? work.options.memory : tf::default_memory();
+        work.options.memory > 0 ? work.options.memory : tf::weld_stream_options::default_memory();
     const std::uint64_t size = size_of(inputs);
     const auto follow_first = [&] {  // goes on when it has found nothing wrong
         if (tiles.team.rank > 0) tiles.team.exchange({});
@@ -140,7 +140,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
             "meshes other than plain PLY and binary STL are welded in memory, not in tiles");
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +
-        tf::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
+        tf::weld_stream_options::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
     if (!asked && needed <= allowed) return weld_in_memory(work, request, remark_on_folder(tiles));
     const std::string only = what_needs_memory(work, request, *cloud);
     if (only.empty())

@@ -193,8 +193,8 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
     gone.ranges = file.ranges;
     gone.mesh.points.reserve(rows.size());
     for (const std::uint32_t p : rows) gone.mesh.points.push_back(file.mesh.points[p]);
-    if (const tf::element* vertices = tf::find_element(file.attributes, "vertex"))
-        gone.attributes.elements.push_back(tf::gather(*vertices, rows));
+    if (const tf::element* vertices = file.attributes.find("vertex"))
+        gone.attributes.elements.push_back(vertices->gathered(rows));
     const auto written = write_file(
         outputs, path, work.options.force, gone,
         write_options_for(work.options, {check_points_format(path), work.options.ascii}));

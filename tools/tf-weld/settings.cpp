@@ -31,7 +31,7 @@ tf::weld_condition parse_condition(std::string_view text) {
 
 std::string known_properties(const tf::attributes& known) {
     std::string names;
-    if (const tf::element* const vertices = tf::find_element(known, "vertex"))
+    if (const tf::element* const vertices = known.find("vertex"))
         for (const tf::column& c : vertices->columns)
             if (c.role == tf::column_role::data) names += (names.empty() ? "" : ", ") + c.name;
     return names.empty() ? "the points have none but x, y, z" : "the points have " + names;
@@ -67,9 +67,9 @@ std::array<double, 3> parse_axes(std::string_view option, std::string_view text)
 }
 
 void check_properties(const job& work, const tf::mesh_file& file) {
-    const tf::element* const vertices = tf::find_element(file.attributes, "vertex");
+    const tf::element* const vertices = file.attributes.find("vertex");
     const auto has = [&](const std::string& name) {
-        const tf::column* const c = vertices == nullptr ? nullptr : find_column(*vertices, name);
+        const tf::column* const c = vertices == nullptr ? nullptr : vertices->find(name);
         return c != nullptr && c->role == tf::column_role::data;
     };
     const auto check = [&](const std::string& option, const std::string& name) {
@@ -80,7 +80,7 @@ void check_properties(const job& work, const tf::mesh_file& file) {
     };
     const tf::corner_values& corners = file.attributes.corners;
     for (const std::string& name : work.options.drop)
-        if (!(vertices != nullptr && !tf::columns_called(*vertices, name).empty()) &&
+        if (!(vertices != nullptr && !vertices->columns_called(name).empty()) &&
             !(name == "normal" && !corners.normal_of_corner.empty()) &&
             !(name == "uv" && !corners.texture_of_corner.empty()))
             check("--drop", name);

@@ -16,12 +16,12 @@ welding weld(job& work, const tf::mesh_file& file, const weld_settings& settings
     if (settings.options.only_borders && w.triangles == 0)
         throw failure(bad_input, "no-faces", work.name + ": no faces, so --borders finds no edge");
     w.box = tf::bounding_box(file.mesh.points);
-    w.tolerance = settings.tolerance.used(w.box ? tf::diagonal(*w.box) : 0.0);
+    w.tolerance = settings.tolerance.used(w.box ? w.box->diagonal() : 0.0);
     tf::weld_options options = settings.options;
     options.tolerance = w.tolerance;
     options.progress = work.progress("weld");
     try {
-        w.conditions = tf::weld_conditions(file.attributes, w.triangles > 0, options);
+        w.conditions = options.conditions(file.attributes, w.triangles > 0);
         w.result = tf::weld(file, options);
     } catch (const tf::weld_property_error& error) {
         throw property_failure(error, file.attributes);

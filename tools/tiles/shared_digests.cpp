@@ -90,8 +90,8 @@ std::vector<std::string> digests_for_report(const std::vector<fs::path>& paths,
         const bool mine = rank == team.rank;
         if (mine) all.read(begin(rank + 1) - begin(rank));
         if (team.size == 1) break;
-        const std::vector<std::string> told = team.exchange(mine ? all.told() : std::string());
-        all.take(told[rank], begin(rank + 1));
+        const std::vector<std::string> received = team.exchange(mine ? all.told() : std::string());
+        all.take(received[rank], begin(rank + 1));
     }
     return std::move(all).finished();
 }

@@ -10,9 +10,9 @@
 
 namespace tools {
 
-/// SHA-256 of each file; empty of one that cannot be read, and of all where no report asks for them.
-/// Each of a team reads its share of all bytes, one after the other, and hands on what it has come to.
-/// All come here, and get them.
+/// SHA-256 of each file; empty of one that cannot be read, and of all where no report asks for
+/// them. Each rank reads its share of all bytes, one after the other, and hands on what it has come
+/// to. Collective: every rank must call this, and all get them.
 [[nodiscard]] std::vector<std::string> digests_for_report(
     const std::vector<std::filesystem::path>& paths, const tile_options& tiles);
 

@@ -52,7 +52,7 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
 /// Adds the options of work that many processes share.
 void add_sharing_options(command_line& line, tile_options& target);
 
-/// Of a team, only the first one writes a report or a log.
+/// Of several ranks, only the first one writes a report or a log.
 void leave_reports_to_first(tile_options& tiles, common_options& options);
 
 /// \throws failure (bad_usage) for options that exclude each other or need others

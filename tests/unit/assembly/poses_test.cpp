@@ -109,8 +109,8 @@ TEST_CASE("poses: a part inside another, in one of several components, and in a 
     test::random source(3);
     for (int i = 0; i < 60; ++i) {
         poses.push_back(random_motion(source, 0.1));
-        poses.push_back(
-            tf::translation<3>(tf::point3{source.in(0, 4), source.in(0, 4), source.in(0, 4)}));
+        poses.push_back(tf::transform<3>::translation(
+            tf::point3{source.in(0, 4), source.in(0, 4), source.in(0, 4)}));
     }
     check_by_moving({shell, two}, poses, 0.0);
 }
@@ -121,7 +121,7 @@ TEST_CASE("poses: boxes on a lattice touch, overlap and lie on each other, exact
     std::vector<motion> poses;
     const auto whole = [&] { return static_cast<double>(source.below(4)); };
     for (int i = 0; i < 150 * 3; ++i)
-        poses.push_back(tf::translation<3>(tf::point3{whole(), whole(), whole()}));
+        poses.push_back(tf::transform<3>::translation(tf::point3{whole(), whole(), whole()}));
     check_by_moving(parts, poses, 0.0);
     check_by_moving(parts, poses, 0.5);
     // Not a motion: squeezed, mirrored, flat.
@@ -135,10 +135,10 @@ TEST_CASE("poses: a pose that mirrors a part makes no other solid of it") {
     const std::vector<tf::mesh> parts{
         test::together(box(1, 1, 1), test::moved(box(1, 1, 1), {3, 0, 0})), box(1, 1, 1)};
     const std::vector<motion> poses{
-        mirror, tf::translation<3>(tf::point3{0.5, 0, 0}),
-        mirror, tf::translation<3>(tf::point3{1, 0, 0}),
-        mirror, tf::translation<3>(tf::point3{-2.5, 0, 0}),
-        {},     tf::after(tf::translation<3>(tf::point3{0.5, 0, 0}), mirror)};
+        mirror, tf::transform<3>::translation(tf::point3{0.5, 0, 0}),
+        mirror, tf::transform<3>::translation(tf::point3{1, 0, 0}),
+        mirror, tf::transform<3>::translation(tf::point3{-2.5, 0, 0}),
+        {},     tf::transform<3>::translation(tf::point3{0.5, 0, 0}).after(mirror)};
     const auto found = tf::check_poses(test::prepared(parts), poses);
     REQUIRE(found.poses.size() == 4);
     const std::array expected{standing::penetrating, standing::touching, standing::penetrating,
@@ -151,8 +151,8 @@ TEST_CASE("poses: a pose that mirrors a part makes no other solid of it") {
 
 TEST_CASE("poses: ignored pairs, the first clash only, and counts") {
     const std::vector<tf::mesh> parts{box(1, 1, 1), box(1, 1, 1), box(1, 1, 1)};
-    const motion none, aside = tf::translation<3>(tf::point3{1, 0, 0}),
-                       far = tf::translation<3>(tf::point3{9, 0, 0});
+    const motion none, aside = tf::transform<3>::translation(tf::point3{1, 0, 0}),
+                       far = tf::transform<3>::translation(tf::point3{9, 0, 0});
     const std::vector<motion> poses{none, none, none, none, aside, far, none, far, aside};
     const auto all = tf::check_poses(prepared(parts), poses);
     CHECK(all.poses[0].size() == 3);
@@ -185,7 +185,7 @@ TEST_CASE("poses: what makes no sense is refused, and it stops when told to") {
     poses[3] = {};
     tf::pose_options options;
     options.progress = [](double) { return false; };
-    CHECK(tf::check_poses(parts, poses, options).cancelled);
+    CHECK(tf::check_poses(parts, poses, options).status == tf::status::cancelled);
     CHECK(tf::check_poses({}, {}).poses.empty());
 }
 

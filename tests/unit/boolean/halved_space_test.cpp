@@ -1,4 +1,5 @@
 #include <libmesh/boolean/halved_space.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -22,10 +23,10 @@ box3 around(const tf::point3& p, double off = 0.0) {
     return box;
 }
 
-/// Halves a box down to leaves, some of which are settled.
+/// Halves a box down to leaves, some of which are decided.
 void halve(test::random& source, halved_space& space, std::size_t at, const box3& box, int levels) {
     if (levels == 0 || source.below(6) == 0) {
-        space.nodes[at].axis = source.below(2) == 0 ? node::settled : node::active;
+        space.nodes[at].axis = source.below(2) == 0 ? node::decided : node::undecided;
         return;
     }
     const std::size_t axis = source.below(3);
@@ -49,7 +50,7 @@ halved_space random_space(test::random& source) {
 
 }  // namespace
 
-TEST_CASE("halved space: a triangle leaves active boxes, or is within them") {
+TEST_CASE("halved space: a triangle leaves undecided boxes, or is within them") {
     test::random source(71);
     std::size_t leaves = 0, within = 0;
     for (int round = 0; round < 200; ++round) {
@@ -63,8 +64,8 @@ TEST_CASE("halved space: a triangle leaves active boxes, or is within them") {
                 for (std::size_t k = 0; k < 3; ++k)
                     p[k] = std::clamp(middle[k] + source.in(-size, size), -1.0, 1.0);
             const std::array<box3, 3> corners{around(t[0]), around(t[1]), around(t[2])};
-            const bool is_within = space.is_within_active(corners);
-            const bool does_leave = space.leaves_active(corners);
+            const bool is_within = space.is_within_undecided(corners);
+            const bool does_leave = space.leaves_undecided(corners);
             CHECK(is_within != does_leave);
             leaves += does_leave ? 1 : 0;
             within += is_within ? 1 : 0;
@@ -73,7 +74,7 @@ TEST_CASE("halved space: a triangle leaves active boxes, or is within them") {
                 tf::point3 p;
                 for (std::size_t k = 0; k < 3; ++k)
                     p[k] = t[0][k] + u * (t[1][k] - t[0][k]) + v * (t[2][k] - t[0][k]);
-                CHECK(space.reaches_active(around(p, 1e-14)));
+                CHECK(space.reaches_undecided(around(p, 1e-14)));
             }
         }
     }
@@ -81,12 +82,12 @@ TEST_CASE("halved space: a triangle leaves active boxes, or is within them") {
     CHECK(within > 1000);
 }
 
-TEST_CASE("halved space: what is on the boundary of an active box does not leave it") {
+TEST_CASE("halved space: what is on the boundary of an undecided box does not leave it") {
     halved_space space;
     space.box = around({0.0, 0.0, 0.0}, 1.0);
-    space.nodes = {{0, 0.0, 1}, {node::active}, {node::settled}};
+    space.nodes = {{0, 0.0, 1}, {node::undecided}, {node::decided}};
     const auto leaves = [&](double x, double off) {
-        return space.leaves_active(
+        return space.leaves_undecided(
             {around({-0.5, 0, 0}, off), around({x, 1, 0}, off), around({x, 0, 1}, off)});
     };
     CHECK(!leaves(-0.1, 0.0));

@@ -88,26 +88,26 @@ TEST_CASE("manifold operands: what is examined is told") {
         const auto prepared = tf::prepared_mesh::borrow(mesh);
         return look(engine::cut_operand_of(prepared), prepared);
     };
-    const auto rough = [&](const tf::mesh& mesh) {
-        return known(mesh, [](const auto& of, const auto&) { return of.rough.size(); });
+    const auto without_fan = [&](const tf::mesh& mesh) {
+        return known(mesh, [](const auto& of, const auto&) { return of.without_fan.size(); });
     };
     const auto few_pairs = [&](const tf::mesh& mesh) {
         return known(mesh, [](const auto&, const auto& prepared) {
             return engine::few_own_pairs(prepared, {}).has_value();
         });
     };
-    CHECK(rough(ball(3, 1.0)) == 0);
+    CHECK(without_fan(ball(3, 1.0)) == 0);
     CHECK(few_pairs(ball(3, 1.0)));
     CHECK(few_pairs(together(ball(5, 1.0), moved(ball(1, 0.1), {1, 0.01, 0.02}))));
     const tf::mesh crossing = together(ball(2, 1.0), moved(ball(2, 1.0), {0.1, 0.2, 0.3}));
     CHECK_FALSE(few_pairs(crossing));
     tf::mesh open = ball(3, 1.0);
     open.faces.pop_back();
-    CHECK(rough(open) == 3);
+    CHECK(without_fan(open) == 3);
     CHECK(known(open, [](const auto& of, const auto&) { return of.open.count; }) == 3);
     // two boxes with an edge in common, whose corners are there twice
     const tf::mesh touching = together(test::box(1, 1, 1), moved(test::box(1, 1, 1), {1, 1, 0}));
-    CHECK(rough(touching) == 2);
+    CHECK(without_fan(touching) == 2);
     CHECK(known(touching, [](const auto& of, const auto& prepared) {
         return of.open.count == 0 && of.mesh(prepared).view().points.size() == 14;
     }));
@@ -122,7 +122,7 @@ TEST_CASE("manifold operands: what is examined is told") {
     flat.faces.push_back({middle, f[1], f[2]});
     flat.faces.push_back({f[0], f[1], middle});
     CHECK(known(flat, [](const auto& of, const auto&) {
-        return of.degenerate == 1 && of.open.count == 0 && of.rough.size() >= 3;
+        return of.degenerate == 1 && of.open.count == 0 && of.without_fan.size() >= 3;
     }));
     CHECK(tf::boolean({flat}, {"a", 1}).certificate);
 

@@ -86,12 +86,12 @@ TEST_CASE("marks: a face shows the gravest of its pairs, faces that were left ou
                  {{0, 1, 2}, {3, 4, 5}, {0, 2, 1}}});
     const std::vector<tf::face_pair> pairs{{0, 2, tf::pair_kind::duplicate}};
     const auto regions = tf::group_pairs(file.mesh, pairs);
-    const tf::face_marks marks = tf::mark_faces(3, pairs, regions);
+    const tf::face_marks marks = tf::face_marks(3, pairs, regions);
     CHECK(marks.kind == std::vector<std::uint8_t>{4, 0, 4});
     CHECK(marks.region == std::vector<std::int32_t>{0, -1, 0});
-    tf::color_marks(file, tf::as_mesh(file), marks);
-    const tf::element* const faces = tf::find_element(file.attributes, "face");
+    marks.color(file, tf::as_mesh(file));
+    const tf::element* const faces = file.attributes.find("face");
     REQUIRE(faces != nullptr);
-    CHECK(tf::number_at(*tf::find_column(*faces, "tf_class"), 2) == 4.0);
-    CHECK(tf::number_at(*tf::find_column(*faces, "red"), 1) == 0xb4);
+    CHECK(faces->find("tf_class")->number(2) == 4.0);
+    CHECK(faces->find("red")->number(1) == 0xb4);
 }

@@ -111,7 +111,7 @@ TEST_CASE("repair_file: a part that is no solid is named, with the numbers of th
     CHECK(cancelled.certificate.status == tf::status::cancelled);
     CHECK(tf::find_solid_defects({&file}, tf::repair_scope::each_part, [](double) {
               return false;
-          }).cancelled);
+          }).status == tf::status::cancelled);
 }
 
 TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix values") {
@@ -127,23 +127,23 @@ TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix 
     };
     const tf::carry_source source{&file, {}};
     const auto set = [&](const char* element, const std::vector<std::int32_t>& values) {
-        tf::set_column(tf::obtain_element(file.attributes, element, values.size()),
-                       tf::make_column<std::int32_t>("number", values));
+        file.attributes.obtain(element, values.size())
+            .set(tf::column::of<std::int32_t>("number", values));
     };
     CHECK(faces_made() == 12);
     std::vector<std::int32_t> numbers(24, 1);
     set("face", numbers);
-    CHECK_FALSE(tf::merging_mixes_values({&source, 1}));
+    CHECK_FALSE(tf::carry_sources(source).merging_mixes_values());
     CHECK(faces_made() == 12);
     numbers[23] = 2;
     set("face", numbers);
-    CHECK(tf::merging_mixes_values({&source, 1}));
+    CHECK(tf::carry_sources(source).merging_mixes_values());
     const std::size_t as_cut = faces_made();
     CHECK(as_cut > 12);
     CHECK(as_cut == tf::repair(pair, {.keep_cuts = true}).mesh.faces.size());
     file.attributes = {};
     set("vertex", std::vector<std::int32_t>(16, 1));
-    CHECK(tf::merging_mixes_values({&source, 1}));
+    CHECK(tf::carry_sources(source).merging_mixes_values());
     CHECK(faces_made() == as_cut);
 }
 
@@ -152,8 +152,7 @@ TEST_CASE("repair_file: parts of one value each are merged, each in itself") {
     tf::mesh_file file = scene({{"a", pair}, {"b", test::moved(pair, {5, 0, 0})}});
     std::vector<std::int32_t> numbers(48, 1);
     std::fill(numbers.begin() + 24, numbers.end(), 2);
-    tf::set_column(tf::obtain_element(file.attributes, "face", 48),
-                   tf::make_column<std::int32_t>("number", numbers));
+    file.attributes.obtain("face", 48).set(tf::column::of<std::int32_t>("number", numbers));
     const tf::repaired_file made = tf::repair_file({&file});
     CHECK(made.file.mesh.faces.size() == 24);
     CHECK(std::ranges::count(made.is_left, 0) == 8);

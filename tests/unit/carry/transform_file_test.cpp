@@ -33,23 +33,23 @@ TEST_CASE("transform_file: a mirror turns faces over, polygons stay polygons") {
     tf::mesh_file file = pyramid_file();
     const double volume = tf::signed_volume(file.mesh);
     REQUIRE(volume > 0.0);
-    tf::transform_file(file, along_x);
+    file.move(along_x);
     CHECK(tf::signed_volume(file.mesh) == volume);
     CHECK(as_obj(file) ==
           "v 3 0 0\nv 2 0 0\nv 2 1 0\nv 3 1 0\nv 3 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
           "vn 0 0 -1\nvn -1 0 1\nf 4/4/1 1/1/1 2/2/1 3/3/1\nf 1 5 2\nf 2//2 5//2 3//2\n"
           "f 3 5 4\nf 4 5 1\n");
-    tf::transform_file(file, along_x);
+    file.move(along_x);
     CHECK(as_obj(file) == as_obj(pyramid_file()));
 }
 
 TEST_CASE("transform_file: what does not mirror leaves faces as they are") {
     tf::mesh_file file = pyramid_file();
-    tf::transform_file(file, tf::transform<3>{{{{-2, 0, 0, 0}, {0, -2, 0, 0}, {0, 0, 2, 0}}}});
+    file.move(tf::transform<3>{{{{-2, 0, 0, 0}, {0, -2, 0, 0}, {0, 0, 2, 0}}}});
     CHECK(file.mesh.faces == pyramid_file().mesh.faces);
     CHECK(file.mesh.points[2] == tf::point3{-2, -2, 0});
     tf::mesh_file cloud{.mesh = {.points = {{1, 2, 3}}, .faces = {}}};
-    tf::transform_file(cloud, along_x);
+    cloud.move(along_x);
     CHECK(cloud.mesh.points[0] == tf::point3{2, 2, 3});
 }
 

@@ -56,7 +56,7 @@ int factors_of(const detail::exact::vector3<rounding_count>& v) {
 int factors_of(const detail::exact::vector2<rounding_count>& v) {
     return std::max(v.x.factors, v.y.factors);
 }
-int factors_of(const detail::exact::place<rounding_count, rounding_count>& v) {
+int factors_of(const detail::exact::quotient_point<rounding_count, rounding_count>& v) {
     return std::max(factors_of(v.over), v.under.factors);
 }
 int operations_of(operation_count c) { return c.operations; }
@@ -66,7 +66,7 @@ int operations_of(const detail::exact::vector3<operation_count>& v) {
 int operations_of(const detail::exact::vector2<operation_count>& v) {
     return std::max(v.x.operations, v.y.operations);
 }
-int operations_of(const detail::exact::place<operation_count, operation_count>& v) {
+int operations_of(const detail::exact::quotient_point<operation_count, operation_count>& v) {
     return std::max(operations_of(v.over), v.under.operations);
 }
 

@@ -1,5 +1,5 @@
 #include <libmesh/exact/filter.hpp>
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -1,4 +1,5 @@
 #include <libmesh/exact/implicit_point.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

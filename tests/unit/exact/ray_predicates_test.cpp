@@ -1,4 +1,4 @@
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

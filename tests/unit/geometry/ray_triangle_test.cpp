@@ -1,3 +1,5 @@
+#include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 

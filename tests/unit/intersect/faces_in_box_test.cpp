@@ -1,3 +1,4 @@
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -109,10 +110,10 @@ TEST_CASE("select_faces: keeps the order of faces and points, and only the point
     const tf::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}},
                         {{4, 1, 0}, {1, 2, 3}, {3, 1, 4}}};
     const std::vector<std::uint32_t> chosen{2, 1};
-    const tf::mesh part = tf::select_faces(mesh, chosen);
+    const tf::mesh part = tf::submesh(mesh, chosen).mesh;
     CHECK(part.points == std::vector<point3>{{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}});
     CHECK(part.faces == std::vector<tf::face>{{2, 0, 3}, {0, 1, 2}});
-    CHECK(tf::select_faces(mesh, {}).points.empty());
+    CHECK(tf::submesh(mesh, {}).mesh.points.empty());
 }
 
 TEST_CASE("bounding_box: holds the finite points, and there may be none") {
@@ -122,7 +123,7 @@ TEST_CASE("bounding_box: holds the finite points, and there may be none") {
     CHECK_FALSE(tf::bounding_box(std::vector<point3>{{nan, 0, 0}, {0, inf, 0}}).has_value());
     const auto box = tf::bounding_box(std::vector<point3>{{1, 2, 3}, {nan, 9, 9}, {-1, 5, 3}});
     CHECK(box == tf::box3{{-1, 2, 3}, {1, 5, 3}});
-    CHECK(tf::diagonal({{0, 0, 0}, {3, 4, 12}}) == 13.0);
+    CHECK(tf::box3{{0, 0, 0}, {3, 4, 12}}.diagonal() == 13.0);
     const double most = std::numeric_limits<double>::max();
-    CHECK(tf::diagonal({{-most, 0, 0}, {most, 0, 0}}) == most);
+    CHECK(tf::box3{{-most, 0, 0}, {most, 0, 0}}.diagonal() == most);
 }

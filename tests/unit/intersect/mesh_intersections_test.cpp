@@ -82,7 +82,7 @@ tf::transform<3> turned(test::random& source, double reach) {
     second.rows = {{{1, 0, 0, source.in(-reach, reach)},
                     {0, std::cos(b), -std::sin(b), source.in(-reach, reach)},
                     {0, std::sin(b), std::cos(b), source.in(-reach, reach)}}};
-    return tf::after(second, first);
+    return second.after(first);
 }
 
 /// Triangles whose first corner is about where a face of `mesh` has a point, the others anywhere
@@ -282,14 +282,15 @@ TEST_CASE("mesh_intersections: flat meshes in one plane, and seen from the side"
 TEST_CASE("intersects: balls that touch in one corner do, a hair apart they do not") {
     const tf::mesh one = ball(3);
     const auto move_by = [](double x) {
-        return tf::mesh_positions{tf::translation<3>(tf::point3{x, 0, 0}), {}};
+        return tf::mesh_positions{tf::transform<3>::translation(tf::point3{x, 0, 0}), {}};
     };
     CHECK(tf::intersects(one, one, move_by(2.0)));
     CHECK_FALSE(tf::intersects(one, one, move_by(std::nextafter(2.0, 3.0))));
     CHECK(tf::intersects(one, one, move_by(-2.0)));
     CHECK(tf::intersects(one, one, move_by(1.5)));
     CHECK_FALSE(tf::intersects(one, test::scaled(one, 0.5)));  // inside
-    CHECK(found_in(one, one, {.move_a = tf::translation<3>(tf::point3{2.0, 0, 0})}).size() == 16);
+    CHECK(found_in(one, one, {.move_a = tf::transform<3>::translation(tf::point3{2.0, 0, 0})})
+              .size() == 16);
 }
 
 TEST_CASE("mesh_intersections: threads change nothing, not even the first pair or what was seen") {
@@ -353,7 +354,7 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
                          doctest::Contains(": a: face 0"), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::detail::intersect::mesh_intersections({}, tree, sheet, tree),
                     std::invalid_argument);
-    const auto far = tf::translation<3>(tf::point3{1.7e308, 0, 0});
+    const auto far = tf::transform<3>::translation(tf::point3{1.7e308, 0, 0});
     tf::mesh_intersection_options options{.move_a = far, .move_b = far};
     options.move_a.rows[0][0] = 1e308;
     options.move_b.rows[0][0] = 1e308;
@@ -369,7 +370,7 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
 TEST_CASE("mesh_intersections: a caller that says stop is heard, and told so") {
     const tf::mesh a = ball(4);
     const auto stop = [](double) { return false; };
-    CHECK(tf::mesh_intersections(a, a, {.progress = stop}).cancelled);
+    CHECK(tf::mesh_intersections(a, a, {.progress = stop}).status == tf::status::cancelled);
     double last = 0.0;
     CHECK_FALSE(tf::mesh_intersections(a, a,
                                        {.progress =
@@ -377,6 +378,6 @@ TEST_CASE("mesh_intersections: a caller that says stop is heard, and told so") {
                                                 last = done;
                                                 return true;
                                             }})
-                    .cancelled);
+                    .status == tf::status::cancelled);
     CHECK(last == 1.0);
 }

@@ -34,7 +34,7 @@ tf::transform<3> random_move(test::random& source, double reach, double most_str
     second.rows = {{{1, 0, 0, source.in(-reach, reach)},
                     {0, std::cos(b), -std::sin(b), source.in(-reach, reach)},
                     {0, std::sin(b), std::cos(b), source.in(-reach, reach)}}};
-    return tf::after(second, first);
+    return second.after(first);
 }
 
 tf::aabb<double, 3> box_of(const tf::mesh& mesh, const tf::transform<3>& move) {
@@ -116,7 +116,7 @@ TEST_CASE("overlap_trees: roundings of a move are in the boxes") {
         const tf::mesh a = test::box(1, 1, 1), b = test::box(1, 1, 1);
         tf::mesh_positions positions{random_move(source, 1e3), {}};
         positions.move_b =
-            tf::after(positions.move_a, tf::translation<3>(tf::point3{1, 1.0 / 3, 0}));
+            positions.move_a.after(tf::transform<3>::translation(tf::point3{1, 1.0 / 3, 0}));
         check_as_whole(a, b, positions);
         ++(tf::intersects(a, b, positions) ? met : apart);
     }

@@ -1,3 +1,4 @@
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/intersect/same_points.hpp>
 #include <treeform/tf.hpp>
 

@@ -236,7 +236,7 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
     tf::stream_search_options o;
     for (const std::string_view at : {"scatter", "pairs"}) {
         o.progress = [at](std::string_view step, double) { return step != at; };
-        CHECK(tf::self_intersections_of_file(path, o).found.cancelled);
+        CHECK(tf::self_intersections_of_file(path, o).found.status == tf::status::cancelled);
     }
     CHECK(tf::self_intersections_of_file(path).found.pairs.empty());
 

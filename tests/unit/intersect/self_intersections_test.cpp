@@ -28,7 +28,7 @@ pairs pairs_in(const tf::mesh& mesh) {
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
     for (const tf::face_pair& pair : result.pairs) ++counts[static_cast<std::size_t>(pair.kind)];
     CHECK(result.counts == counts);
-    CHECK_FALSE(result.cancelled);
+    CHECK_FALSE(result.status == tf::status::cancelled);
     return result.pairs;
 }
 
@@ -236,6 +236,7 @@ TEST_CASE("self_intersections: a caller that says stop is heard, and told so") {
                                               }});
     CHECK(grows);
     CHECK(last == 1.0);
-    CHECK_FALSE(whole.cancelled);
-    CHECK(tf::self_intersections(mesh, {.progress = [](double) { return false; }}).cancelled);
+    CHECK_FALSE(whole.status == tf::status::cancelled);
+    CHECK(tf::self_intersections(mesh, {.progress = [](double) { return false; }}).status ==
+          tf::status::cancelled);
 }

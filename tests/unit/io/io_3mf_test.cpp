@@ -219,7 +219,7 @@ TEST_CASE("3mf: corners of several colors are colors of points where that is the
     };
     const tf::mesh_file points = colored("pid=\"6\" p1=\"2\" p2=\"1\" p3=\"0\"");
     CHECK(test::whole_values(points, "vertex", "red") == std::vector<int>{0, 1, 2});
-    CHECK(tf::find_element(points.attributes, "face") == nullptr);
+    CHECK(points.attributes.find("face") == nullptr);
     CHECK(points.warnings.empty());
     CHECK(read_3mf(written_3mf(points)).attributes == points.attributes);
     const tf::mesh_file faces = colored("pid=\"6\" p1=\"1\"");

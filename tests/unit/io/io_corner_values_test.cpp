@@ -174,7 +174,7 @@ TEST_CASE("obj: texture coordinates, normals and materials come back byte for by
 
 TEST_CASE("obj: polygons that are split keep what their corners have") {
     tf::mesh_file file = read_obj(textured);
-    tf::split_polygons(file);
+    file.split_polygons();
     const auto again = read_obj(written_mesh(file, "obj")).attributes.corners;
     CHECK(again == read_obj(textured).attributes.corners);
 }
@@ -187,8 +187,7 @@ TEST_CASE("ply: texture coordinates of faces are those of corners, and come back
         // The second face has equal values where it has a point of the first one.
         CHECK(corners.texture_of_corner == faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}});
         CHECK(corners.texture[3] == std::array{0.0, 0.5, 0.0});
-        CHECK(tf::find_column(*tf::find_element(file.attributes, "face"), "texcoord")->role ==
-              tf::column_role::texture);
+        CHECK(file.attributes.find("face")->find("texcoord")->role == tf::column_role::texture);
         CHECK(written_mesh(file, "ply", true) == text);
         for (const char* const format : {"ply-ascii", "ply-binary-be", "ply-binary-le"}) {
             tf::mesh_file binary = file;
@@ -407,19 +406,19 @@ TEST_CASE(
                               .texture_of_corner = {{none, 0, 0}},
                               .normal_of_corner = {{0, none, 0}}};
     tf::corner_values all;
-    tf::append(all, 0, {}, 1);
+    all.append(0, {}, 1);
     CHECK(all == tf::corner_values{});
-    tf::append(all, 1, a, 1);
-    tf::append(all, 2, b, 1);
-    tf::append(all, 3, {}, 1);
+    all.append(1, a, 1);
+    all.append(2, b, 1);
+    all.append(3, {}, 1);
     CHECK(all.texture.size() == 3);
     CHECK(all.has_w);
     CHECK(all.texture_of_corner ==
           faces{{none, none, none}, {0, 1, none}, {none, 2, 2}, {none, none, none}});
     CHECK(all.normal_of_corner ==
           faces{{none, none, none}, {none, none, none}, {0, none, 0}, {none, none, none}});
-    CHECK(tf::fault_of(all, 4).empty());
-    CHECK(tf::fault_of(all, 5) == "texture coordinate numbers of 4 triangles for 5");
+    CHECK(all.fault(4).empty());
+    CHECK(all.fault(5) == "texture coordinate numbers of 4 triangles for 5");
     all.normals.clear();
-    CHECK(tf::fault_of(all, 4) == "a corner of triangle 2 has a normal that is not there");
+    CHECK(all.fault(4) == "a corner of triangle 2 has a normal that is not there");
 }

@@ -28,8 +28,8 @@ tf::mesh_file glb_square() {
 
 template <class T>
 void add_to_points(tf::mesh_file& file, const char* name, const std::vector<T>& values) {
-    tf::obtain_element(file.attributes, "vertex", file.mesh.points.size())
-        .columns.push_back(tf::make_column<T>(name, values));
+    file.attributes.obtain("vertex", file.mesh.points.size())
+        .columns.push_back(tf::column::of<T>(name, values));
 }
 
 struct glb_written {
@@ -49,15 +49,14 @@ glb_written through_glb(const tf::mesh_file& file) {
 }
 
 const tf::column* point_column(const tf::mesh_file& file, std::string_view name) {
-    const tf::element* const vertices = tf::find_element(file.attributes, "vertex");
-    return vertices == nullptr ? nullptr : tf::find_column(*vertices, name);
+    const tf::element* const vertices = file.attributes.find("vertex");
+    return vertices == nullptr ? nullptr : vertices->find(name);
 }
 
 std::vector<double> column_values(const tf::mesh_file& file, std::string_view name) {
     std::vector<double> values;
     const tf::column* const c = point_column(file, name);
-    for (std::size_t i = 0; c != nullptr && i < tf::value_count(*c); ++i)
-        values.push_back(tf::number_at(*c, i));
+    for (std::size_t i = 0; c != nullptr && i < c->size(); ++i) values.push_back(c->number(i));
     return values;
 }
 
@@ -182,11 +181,11 @@ TEST_CASE("glb: colors of faces and numbers of faces go by parts, too") {
     file.mesh.faces = {{0, 1, 2}, {0, 2, 3}, {1, 2, 3}, {0, 1, 3}};
     file.stored_faces = 4;
     file.attributes.parts = {{.object = "a", .first_face = 0}, {.object = "b", .first_face = 2}};
-    auto& columns = tf::obtain_element(file.attributes, "face", 4).columns;
+    auto& columns = file.attributes.obtain("face", 4).columns;
     for (const char* const name : {"red", "green", "blue"})
         columns.push_back(
-            tf::make_column<std::uint8_t>(name, std::vector<std::uint8_t>{255, 0, 0, 255}));
-    columns.push_back(tf::make_column<std::uint32_t>("id", std::vector<std::uint32_t>{4, 5, 6, 7}));
+            tf::column::of<std::uint8_t>(name, std::vector<std::uint8_t>{255, 0, 0, 255}));
+    columns.push_back(tf::column::of<std::uint32_t>("id", std::vector<std::uint32_t>{4, 5, 6, 7}));
     const glb_written w = through_glb(file);
     CHECK(w.again.mesh.faces.size() == 4);
     CHECK(w.again.attributes.parts.size() == 2);
@@ -201,8 +200,8 @@ TEST_CASE("glb: what it has no place for is named") {
     tf::mesh_file file = glb_square();
     add_to_points<float>(file, "quality", {1, 2, 3, 4});
     add_to_points<std::int32_t>(file, "label", {1, 2, 3, 4});
-    tf::obtain_element(file.attributes, "face", 2)
-        .columns.push_back(tf::make_column<float>("heat", std::vector<float>{1, 2}));
+    file.attributes.obtain("face", 2).columns.push_back(
+        tf::column::of<float>("heat", std::vector<float>{1, 2}));
     CHECK(through_glb(file).warnings ==
           texts{"columns-dropped: glb does not hold these properties, which are left out: quality, "
                 "label, heat"});

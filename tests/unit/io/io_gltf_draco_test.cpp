@@ -89,12 +89,11 @@ TEST_CASE("gltf, draco: a cube is read with its colors, by both methods") {
         const tf::mesh_file file = tf::read(std::as_bytes(std::span(glb)), "a.glb", {});
         REQUIRE(file.mesh.points.size() == 8);
         REQUIRE(file.mesh.faces.size() == 12);
-        const tf::element& points = *tf::find_element(file.attributes, "vertex");
+        const tf::element& points = *file.attributes.find("vertex");
         const std::array<const char*, 3> names{"red", "green", "blue"};
         for (std::size_t v = 0; v < 8; ++v)
             for (std::size_t c = 0; c < 3; ++c)
-                CHECK(tf::number_at(*tf::find_column(points, names[c]), v) ==
-                      255 * file.mesh.points[v][c]);
+                CHECK(points.find(names[c])->number(v) == 255 * file.mesh.points[v][c]);
         double six = 0.0;
         for (const auto& [a, b, c] : file.mesh.faces) {
             const auto &p = file.mesh.points[a], &q = file.mesh.points[b], &r = file.mesh.points[c];

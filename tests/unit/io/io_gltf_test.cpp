@@ -56,10 +56,9 @@ std::vector<std::string> warnings_of(const tf::mesh_file& file, std::string_view
 
 std::vector<double> values_of(const tf::mesh_file& file, std::string_view name) {
     std::vector<double> values;
-    const tf::element* const vertices = tf::find_element(file.attributes, "vertex");
-    const tf::column* const c = vertices == nullptr ? nullptr : tf::find_column(*vertices, name);
-    for (std::size_t i = 0; c != nullptr && i < tf::value_count(*c); ++i)
-        values.push_back(tf::number_at(*c, i));
+    const tf::element* const vertices = file.attributes.find("vertex");
+    const tf::column* const c = vertices == nullptr ? nullptr : vertices->find(name);
+    for (std::size_t i = 0; c != nullptr && i < c->size(); ++i) values.push_back(c->number(i));
     return values;
 }
 
@@ -477,8 +476,8 @@ TEST_CASE("gltf: colors of each type, with alpha and without, are the numbers of
     const tf::mesh_file floats = colored(
         std::vector<float>{0, 0.5F, 1, 0, 0, 0, 0, 0, 0, 0.25F, 0, 0}, test::gltf_float, "VEC3");
     CHECK(values_of(floats, "green") == list{0.5, 0, 0, 0});
-    const tf::element& vertices = *tf::find_element(floats.attributes, "vertex");
-    CHECK(tf::find_column(vertices, "red")->type == tf::scalar_type::float32);
+    const tf::element& vertices = *floats.attributes.find("vertex");
+    CHECK(vertices.find("red")->type == tf::scalar_type::float32);
     CHECK_THROWS_AS((void)colored(std::vector<std::int16_t>(12, 0), test::gltf_int16, "VEC3"),
                     tf::io_error);
 }

@@ -52,11 +52,11 @@ bool has_part(std::string_view text, std::string_view part) {
 }
 
 double value(const tf::mesh_file& file, std::string_view name, std::size_t row) {
-    const tf::element* vertices = tf::find_element(file.attributes, "vertex");
+    const tf::element* vertices = file.attributes.find("vertex");
     REQUIRE(vertices != nullptr);
-    const tf::column* c = tf::find_column(*vertices, name);
+    const tf::column* c = vertices->find(name);
     REQUIRE(c != nullptr);
-    return tf::number_at(*c, row);
+    return c->number(row);
 }
 
 test::las_bytes las_of(unsigned format, std::size_t extra = 0) {
@@ -182,7 +182,7 @@ TEST_CASE("LAS: counts and bounds are those of the points written") {
     half.mesh.points.resize(50);
     std::vector<std::uint32_t> rows(50);
     for (std::uint32_t i = 0; i < 50; ++i) rows[i] = i;
-    half.attributes.elements[0] = tf::gather(whole.attributes.elements[0], rows);
+    half.attributes.elements[0] = whole.attributes.elements[0].gathered(rows);
     const std::string out = written_las(half);
     CHECK(test::points_of(out) == std::string_view(points).substr(0, 50 * 34));
     std::uint32_t by_return[6] = {};
@@ -221,25 +221,25 @@ TEST_CASE("LAS: extra bytes have the names and types of their record") {
     auto& columns = file.attributes.elements[0].columns;
     std::erase_if(columns, [](const tf::column& c) { return c.name == "a_time"; });
     const std::vector<std::uint32_t> groups(20, 7);
-    columns.push_back(tf::make_column<std::uint32_t>("group", groups));
+    columns.push_back(tf::column::of<std::uint32_t>("group", groups));
     const tf::mesh_file again = read_las(written_las(file));
     CHECK(value(again, "group", 19) == 7);
     CHECK(value(again, "amplitude", 0) == 513);
-    CHECK(tf::find_column(again.attributes.elements[0], "a_time") == nullptr);
+    CHECK(again.attributes.elements[0].find("a_time") == nullptr);
     CHECK(again.las->records.size() == 1);
 }
 
 TEST_CASE("LAS: points of other formats get the smallest format that holds them") {
     tf::mesh_file file;
     file.mesh.points = {{1000.125, 2000.25, -3.5}, {1000.5, 2000.75, 4.0}};
-    tf::element& vertices = tf::obtain_element(file.attributes, "vertex", 2);
+    tf::element& vertices = file.attributes.obtain("vertex", 2);
     CHECK(written_las(file)[104] == 0);
     const std::vector<std::uint8_t> shades{255, 3};
     for (const char* name : {"red", "green", "blue"})
-        vertices.columns.push_back(tf::make_column<std::uint8_t>(name, shades));
+        vertices.columns.push_back(tf::column::of<std::uint8_t>(name, shades));
     CHECK(written_las(file)[104] == 2);
     const std::vector<double> times{1.5, 2.5};
-    vertices.columns.push_back(tf::make_column<double>("gps_time", times));
+    vertices.columns.push_back(tf::column::of<double>("gps_time", times));
     const std::string out = written_las(file);
     CHECK(out[104] == 3);
     CHECK(out[25] == 2);
@@ -248,11 +248,11 @@ TEST_CASE("LAS: points of other formats get the smallest format that holds them"
     CHECK(value(back, "red", 0) == 255 * 256);
     CHECK(value(back, "gps_time", 1) == 2.5);
     const std::vector<std::uint8_t> classes{2, 64};
-    vertices.columns.push_back(tf::make_column<std::uint8_t>("classification", classes));
+    vertices.columns.push_back(tf::column::of<std::uint8_t>("classification", classes));
     CHECK(written_las(file)[104] == 7);
     CHECK(written_las(file)[25] == 4);
     const std::vector<std::int8_t> degrees{-15, 90};
-    vertices.columns.push_back(tf::make_column<std::int8_t>("scan_angle_rank", degrees));
+    vertices.columns.push_back(tf::column::of<std::int8_t>("scan_angle_rank", degrees));
     CHECK(value(read_las(written_las(file)), "classification", 1) == 64);
     CHECK(value(read_las(written_las(file)), "scan_angle", 0) == -2500);
     CHECK(value(read_las(written_las(file)), "scan_angle", 1) == 15000);
@@ -288,8 +288,8 @@ TEST_CASE("LAS: what it does not hold is refused, with the number of the point")
     file.mesh.points[5].y = 1e9;
     CHECK(has_part(las_refusal(file), "point 5: a coordinate beyond"));
     file.mesh.points[5].y = 0;
-    tf::set_column(file.attributes.elements[0],
-                   tf::make_column<double>("intensity", std::vector<double>(9, 0.5)));
+    file.attributes.elements[0].set(
+        tf::column::of<double>("intensity", std::vector<double>(9, 0.5)));
     CHECK(has_part(las_refusal(file), "point 0: a value of intensity"));
 }
 
@@ -394,7 +394,7 @@ TEST_CASE("LAS: parts with a joined head are the file") {
                     rows.push_back(static_cast<std::uint32_t>(i));
                     block.points.push_back(file.mesh.points[i]);
                 }
-                block.properties = tf::gather(file.attributes.elements[0], rows);
+                block.properties = file.attributes.elements[0].gathered(rows);
                 tf::point_writer writer(path, file, 2000);
                 writer.write(block);
                 REQUIRE(writer.has_parts());
@@ -434,7 +434,7 @@ TEST_CASE("LAZ: parts of whole chunks with a joined head and all chunks are the 
                     rows.push_back(static_cast<std::uint32_t>(i));
                     block.points.push_back(file.mesh.points[i]);
                 }
-                block.properties = tf::gather(file.attributes.elements[0], rows);
+                block.properties = file.attributes.elements[0].gathered(rows);
                 tf::point_writer& writer =
                     writers.emplace_back(std::filesystem::path(path.string() + std::to_string(r)),
                                          file, count, tf::write_options{.format = "laz"});

@@ -183,7 +183,7 @@ TEST_CASE("hexadecimal numbers are read where decimal ones are") {
     check(read_named("solid\n" + replaced(facet, "0 1 0", text) + "endsolid\n", "a.stl"));
     const tf::mesh_file small = read_named(ply + "1 2 3 0xff\n", "a.ply");
     CHECK(warnings(small) == said);
-    CHECK(tf::number_at(small.attributes.elements[0].columns[3], 0) == 255.0);
+    CHECK(small.attributes.elements[0].columns[3].number(0) == 255.0);
 
     CHECK(read_named("v 0 1 2 # 0x1\n", "a.obj").warnings.empty());
     for (const char* const wrong : {"0x", "0xg", "0x1.8p", "0x-1", "0xnan", "0x1p5000", "00x1"})
@@ -256,10 +256,10 @@ TEST_CASE("lenient: fields of PCD that are said to have no values take no room")
     rows[12] = 7;
     rows[28] = 8;
     const tf::mesh_file file = read_named(header + rows, "a.pcd");
-    const tf::column* const t = tf::find_column(file.attributes.elements.at(0), "t");
+    const tf::column* const t = file.attributes.elements.at(0).find("t");
     REQUIRE(t != nullptr);
-    CHECK(tf::number_at(*t, 0) == 7);
-    CHECK(tf::number_at(*t, 1) == 8);
+    CHECK(t->number(0) == 7);
+    CHECK(t->number(1) == 8);
     CHECK(file.warnings.empty());
 }
 
@@ -276,10 +276,10 @@ TEST_CASE("lenient: CSV with numbers between quotes, and a comma behind the last
     const tf::mesh_file file =
         read_named("\"x\",\"y\",\"z\",\"id\",\n\"1\",2,\"3\",\"7\"\n4,5,6,\"8\"\n", "a.csv");
     CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
-    const tf::column* const id = tf::find_column(file.attributes.elements.at(0), "id");
+    const tf::column* const id = file.attributes.elements.at(0).find("id");
     REQUIRE(id != nullptr);
-    CHECK(tf::number_at(*id, 0) == 7);
-    CHECK(tf::number_at(*id, 1) == 8);
+    CHECK(id->number(0) == 7);
+    CHECK(id->number(1) == 8);
     CHECK(file.warnings.empty());
     CHECK_FALSE(named_refusal("x,y,z\n\"1,2,3\n", "a.csv").empty());
 }

@@ -70,7 +70,7 @@ TEST_CASE("materials: polygons have one color, and text on OBJ is as without mat
     const tf::mesh_file file = tf::read(obj.path());
     CHECK(file.mesh.faces.size() == 4);
     CHECK(test::whole_values(file, "face", "red") == std::vector<int>{0, 0});
-    CHECK(tf::find_column(*tf::find_element(file.attributes, "face"), "alpha") == nullptr);
+    CHECK(file.attributes.find("face")->find("alpha") == nullptr);
     CHECK(tf::write_to_memory(file, {.format = "obj"}) ==
           tf::write_to_memory(tf::read(std::as_bytes(std::span(quads)), "a.obj", {}),
                               {.format = "obj"}));
@@ -83,7 +83,7 @@ TEST_CASE("materials: what says no color changes nothing") {
         CAPTURE(text);
         const obj_with_materials obj(text);
         const tf::mesh_file file = tf::read(obj.path());
-        CHECK(tf::find_element(file.attributes, "face") == nullptr);
+        CHECK(file.attributes.find("face") == nullptr);
         CHECK(file.warnings.empty());
     }
 }

@@ -79,10 +79,9 @@ std::vector<double> corner_numbers(const tf::mesh_file& file, const std::string&
 
 std::vector<double> face_numbers(const tf::mesh_file& file, const std::string& name) {
     std::vector<double> values;
-    const tf::element* const e = tf::find_element(file.attributes, "face");
-    if (const tf::column* const c = e == nullptr ? nullptr : tf::find_column(*e, name))
-        for (std::size_t i = 0; i < tf::value_count(*c); ++i)
-            values.push_back(tf::number_at(*c, i));
+    const tf::element* const e = file.attributes.find("face");
+    if (const tf::column* const c = e == nullptr ? nullptr : e->find(name))
+        for (std::size_t i = 0; i < c->size(); ++i) values.push_back(c->number(i));
     return values;
 }
 
@@ -140,11 +139,11 @@ TEST_CASE(
     "mesh translation: over all pairs of formats, colors of faces stay or are named as lost") {
     for (const std::string prefix : {"", "diffuse_"}) {
         tf::mesh_file given = folded_sheet();
-        auto& columns = tf::obtain_element(given.attributes, "face", 2).columns;
+        auto& columns = given.attributes.obtain("face", 2).columns;
         const std::vector<std::uint8_t> red{10, 255}, green{20, 0}, blue{30, 128};
-        columns.push_back(tf::make_column<std::uint8_t>(prefix + "red", red));
-        columns.push_back(tf::make_column<std::uint8_t>(prefix + "green", green));
-        columns.push_back(tf::make_column<std::uint8_t>(prefix + "blue", blue));
+        columns.push_back(tf::column::of<std::uint8_t>(prefix + "red", red));
+        columns.push_back(tf::column::of<std::uint8_t>(prefix + "green", green));
+        columns.push_back(tf::column::of<std::uint8_t>(prefix + "blue", blue));
         for (const std::string& first : mesh_formats)
             for (const std::string& second : mesh_formats) {
                 CAPTURE(prefix);
@@ -194,9 +193,8 @@ TEST_CASE("mesh translation: STL says how many points it leaves out") {
 
 TEST_CASE("mesh translation: STL as text says that attributes of faces are left out") {
     tf::mesh_file given = folded_sheet();
-    tf::obtain_element(given.attributes, "face", 2)
-        .columns.push_back(
-            tf::make_column<std::uint16_t>("stl_attribute", std::vector<std::uint16_t>{7, 8}));
+    given.attributes.obtain("face", 2).columns.push_back(
+        tf::column::of<std::uint16_t>("stl_attribute", std::vector<std::uint16_t>{7, 8}));
     CHECK(put_translated(given, "stl").warnings.empty());
     CHECK(is_named_in(put_translated(given, "stl", {.ascii = true}).warnings, "stl_attribute"));
 }
@@ -228,14 +226,14 @@ TEST_CASE("mesh translation: GLB: colors of faces are those of materials, to the
         ramp.push_back(static_cast<std::uint8_t>(value));
     }
     given.stored_faces = 256;
-    auto& columns = tf::obtain_element(given.attributes, "face", 256).columns;
+    auto& columns = given.attributes.obtain("face", 256).columns;
     for (const char* name : {"red", "green", "blue", "alpha"})
-        columns.push_back(tf::make_column<std::uint8_t>(name, ramp));
+        columns.push_back(tf::column::of<std::uint8_t>(name, ramp));
     const tf::mesh_file back = test::passed_through(given, "glb");
     CHECK(back.warnings.empty());
     for (const char* name : {"red", "green", "blue", "alpha"})
         CHECK(face_numbers(back, name) == std::vector<double>(ramp.begin(), ramp.end()));
-    for (tf::column& c : columns) c = tf::make_column<float>(c.name, std::vector<float>(256, 0.7F));
+    for (tf::column& c : columns) c = tf::column::of<float>(c.name, std::vector<float>(256, 0.7F));
     const tf::mesh_file rounded = test::passed_through(given, "glb");
     REQUIRE(rounded.warnings.size() == 1);
     CHECK(rounded.warnings[0].text == "colors of materials are rounded to 8 bits");

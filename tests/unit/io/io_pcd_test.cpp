@@ -42,13 +42,13 @@ bool holds(const std::string& text, std::string_view part) {
 }
 
 const tf::element& vertices_of(const tf::mesh_file& file) {
-    const tf::element* e = tf::find_element(file.attributes, "vertex");
+    const tf::element* e = file.attributes.find("vertex");
     REQUIRE(e != nullptr);
     return *e;
 }
 
 const tf::column& column_of(const tf::mesh_file& file, std::string_view name) {
-    const tf::column* c = tf::find_column(vertices_of(file), name);
+    const tf::column* c = vertices_of(file).find(name);
     REQUIRE(c != nullptr);
     return *c;
 }
@@ -87,10 +87,10 @@ std::string xyz_head(std::size_t points, const std::string& data) {
 tf::mesh_file rich() {
     tf::mesh_file file;
     file.mesh.points = {{0.5, -0.0, 3}, {NAN, NAN, NAN}, {1e300, 5e-324, -7}};
-    tf::element& e = tf::obtain_element(file.attributes, "vertex", 3);
+    tf::element& e = file.attributes.obtain("vertex", 3);
     const auto add = [&]<class T>(const char* name, T) {
         const T values[] = {std::numeric_limits<T>::min(), std::numeric_limits<T>::max(), T{1}};
-        e.columns.push_back(tf::make_column<T>(name, values));
+        e.columns.push_back(tf::column::of<T>(name, values));
     };
     add("i1", std::int8_t{});
     add("u1", std::uint8_t{});
@@ -108,7 +108,7 @@ tf::mesh_file rich() {
     add("odd[1]", float{});
     add("alone[0]", float{});
     const std::uint32_t colors[] = {0xff818283U, 0x00010203U, 0xff8182c3U};  // NaN as floats
-    e.columns.push_back(tf::make_column<std::uint32_t>("rgb", colors));
+    e.columns.push_back(tf::column::of<std::uint32_t>("rgb", colors));
     e.columns.back().type = tf::scalar_type::float32;
     return file;
 }
@@ -215,7 +215,7 @@ TEST_CASE("pcd: padding between the fields is no column") {
     const tf::mesh_file file = read_pcd(bytes);
     CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
     CHECK(vertices_of(file).columns.size() == 4);
-    CHECK(tf::number_at(column_of(file, "i"), 1) == 8);
+    CHECK(column_of(file, "i").number(1) == 8);
 }
 
 TEST_CASE("pcd: headers that lie are refused with line or byte") {

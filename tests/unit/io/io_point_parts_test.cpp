@@ -51,7 +51,7 @@ TEST_CASE("point parts: parts written by several, put one after the other, are t
             rows.push_back(i);
             block.points.push_back(file.mesh.points[i]);
             if (i != 250 && i != 699) continue;
-            block.properties = tf::gather(file.attributes.elements[0], rows);
+            block.properties = file.attributes.elements[0].gathered(rows);
             tf::point_writer writer(here.folder / "part", file, 700, options);
             writer.write(block);
             tf::write_result result;
@@ -116,7 +116,7 @@ TEST_CASE("point parts: parts of a compressed PCD share their values, and pack a
                         rows.push_back(static_cast<std::uint32_t>(first));
                         block.points.push_back(file.mesh.points[first]);
                     }
-                    block.properties = tf::gather(file.attributes.elements[0], rows);
+                    block.properties = file.attributes.elements[0].gathered(rows);
                     writer.write(block);
                 }
             }

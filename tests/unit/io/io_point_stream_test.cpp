@@ -58,8 +58,8 @@ tf::mesh_file read_by(std::size_t most, const fs::path& path) {
     tf::point_reader reader(path);
     tf::mesh_file file = reader.header();
     tf::element none{.name = "vertex"};
-    const bool has_columns = tf::find_element(file.attributes, "vertex") != nullptr;
-    tf::element& vertices = has_columns ? tf::obtain_element(file.attributes, "vertex", 0) : none;
+    const bool has_columns = file.attributes.find("vertex") != nullptr;
+    tf::element& vertices = has_columns ? file.attributes.obtain("vertex", 0) : none;
     for (tf::column& c : vertices.columns)
         if (c.list_length) c.list_begin.assign(1, 0);
     tf::point_block block;
@@ -125,7 +125,7 @@ TEST_CASE("point streams: blocks written one by one are the bytes of the whole f
                             rows.push_back(static_cast<std::uint32_t>(i));
                             block.points.push_back(file.mesh.points[i]);
                         }
-                        block.properties = tf::gather(file.attributes.elements[0], rows);
+                        block.properties = file.attributes.elements[0].gathered(rows);
                         writer.write(block);
                     }
                     const tf::write_result result = writer.commit();

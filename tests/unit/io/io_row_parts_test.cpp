@@ -31,8 +31,8 @@ tf::mesh_file triangles_and_edges(std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) file.mesh.faces.push_back({i, i + 1, i + 2});
     std::vector<std::int32_t> ends;
     for (std::uint32_t i = 0; i < count / 2; ++i) ends.push_back(static_cast<std::int32_t>(i));
-    tf::element& edges = tf::obtain_element(file.attributes, "edge", ends.size());
-    tf::set_column(edges, tf::make_column<std::int32_t>("vertex1", ends));
+    tf::element& edges = file.attributes.obtain("edge", ends.size());
+    edges.set(tf::column::of<std::int32_t>("vertex1", ends));
     return file;
 }
 
@@ -49,7 +49,7 @@ std::string rows_from(point_blocks& reader, std::uint64_t count, std::size_t mos
                 all += ' ' + std::to_string(block.corners[c]);
             for (const tf::column& c : block.rows.columns)
                 if (c.role == tf::column_role::data && !c.list_length)
-                    all += ' ' + std::to_string(tf::number_at(c, r));
+                    all += ' ' + std::to_string(c.number(r));
             all += '\n';
         }
     }

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 namespace io = tf::detail::io;
 namespace stream = tf::detail::stream;
 
-/// Points, some of whose lines have what few have: a value more or less, a word, another way to write
-/// a number, be it of a coordinate.
+/// Points, some of whose lines have what few have: a value more or less, a word, another way to
+/// write a number, be it of a coordinate.
 std::string odd_lines(std::size_t count, test::random& random) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i) {
@@ -38,7 +38,7 @@ std::string odd_lines(std::size_t count, test::random& random) {
 
 std::vector<std::optional<io::record_index>> look(const std::vector<fs::path>& paths,
                                                   const tf::process_team& team) {
-    const stream::team all(team);
+    const stream::communicator all(team);
     return stream::look_at_records(paths, {}, all);
 }
 
@@ -51,8 +51,7 @@ std::string read_shared(const fs::path& path, std::uint64_t first, const io::rec
         for (std::size_t i = 0; i < block.points.size(); ++i) {
             for (std::size_t k = 0; k < 3; ++k) all += ' ' + std::to_string(block.points[i][k]);
             for (const tf::column& c : block.properties.columns)
-                if (c.role == tf::column_role::data)
-                    all += ' ' + std::to_string(tf::number_at(c, i));
+                if (c.role == tf::column_role::data) all += ' ' + std::to_string(c.number(i));
         }
     for (const tf::io_warning& w : reader.header().warnings) all += w.text;
     return all;

@@ -30,9 +30,9 @@ bool says_of_text(const std::string& text, std::string_view part) {
 
 const tf::column& text_column(const tf::mesh_file& file, std::string_view e,
                               std::string_view name) {
-    const tf::element* found = tf::find_element(file.attributes, e);
+    const tf::element* found = file.attributes.find(e);
     REQUIRE(found != nullptr);
-    const tf::column* c = tf::find_column(*found, name);
+    const tf::column* c = found->find(name);
     REQUIRE(c != nullptr);
     return *c;
 }
@@ -98,7 +98,7 @@ TEST_CASE("obj and off: faces of fewer than three corners are left out") {
     file = read_text("OFF 3 3 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1 9 9 9\n0\n3 0 1 2 1 2 3\n", "a.off");
     CHECK(file.mesh.faces.size() == 1);
     CHECK(file.stored_faces == 1);
-    CHECK(tf::number_at(text_column(file, "face", "red"), 0) == 1.0);
+    CHECK(text_column(file, "face", "red").number(0) == 1.0);
     CHECK(file.warnings.size() == 1);
 }
 
@@ -136,8 +136,8 @@ TEST_CASE("obj: names make parts, vertex colors a column each") {
         "a.obj");
     CHECK(file.attributes.parts ==
           std::vector<tf::part>{{"body", "left arm", "red", 1}, {"body", "left arm", "", 3}});
-    CHECK(tf::number_at(text_column(file, "vertex", "green"), 0) == 0.5);
-    CHECK(tf::number_at(text_column(file, "vertex", "blue"), 1) == 1.0);
+    CHECK(text_column(file, "vertex", "green").number(0) == 0.5);
+    CHECK(text_column(file, "vertex", "blue").number(1) == 1.0);
     const tf::mesh_file some = read_text("v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0 1 1 1\n", "a.obj");
     CHECK(some.attributes.elements.empty());
     CHECK(some.warnings.at(0).code == "vertex-colors");
@@ -206,10 +206,10 @@ TEST_CASE("off: normals, colors and texture coordinates become columns") {
         "STCNOFF\n3 2 0\n0 0 0 0 0 1 255 0 7 0.5 1\n1 0 0 0 0 1 1 2 3 0 0\n0 1 0 0 0 1 1 2 3 0 0\n"
         "3 0 1 2 1 0 0.5\n3 2 1 0 0 0 0\n",
         "a.off");
-    CHECK(tf::number_at(text_column(file, "vertex", "nz"), 0) == 1.0);
-    CHECK(tf::number_at(text_column(file, "vertex", "red"), 0) == 255.0);
-    CHECK(tf::number_at(text_column(file, "vertex", "t"), 0) == 1.0);
-    CHECK(tf::number_at(text_column(file, "face", "blue"), 0) == 0.5);
+    CHECK(text_column(file, "vertex", "nz").number(0) == 1.0);
+    CHECK(text_column(file, "vertex", "red").number(0) == 255.0);
+    CHECK(text_column(file, "vertex", "t").number(0) == 1.0);
+    CHECK(text_column(file, "face", "blue").number(0) == 0.5);
     const tf::mesh_file uneven =
         read_text("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9\n3 2 1 0\n", "a.off");
     CHECK(text_column(uneven, "face", "off_color").list_begin ==
@@ -225,9 +225,9 @@ TEST_CASE("xyz: separators, headings, further columns") {
         CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
         CHECK(file.mesh.faces.empty());
     }
-    CHECK(tf::number_at(
-              text_column(read_text("1 2 3 4 5\n1 2 3 4 6\n", "a.xyz"), "vertex", "column_5"), 1) ==
-          6.0);
+    CHECK(
+        text_column(read_text("1 2 3 4 5\n1 2 3 4 6\n", "a.xyz"), "vertex", "column_5").number(1) ==
+        6.0);
     CHECK(read_text("1 2 3 4\n1 2 3\n", "a.xyz").warnings.at(0).code == "columns");
     CHECK(says_of_text(text_complaint("1,5 2,5 3,5\n", "a.xyz"), "the decimal mark is the point"));
     CHECK(says_of_text(text_complaint("1 2 3\n1 2\n", "a.xyz"), "a.xyz:2:"));
@@ -240,7 +240,7 @@ TEST_CASE("pts: a count comes first, and columns have their usual names") {
         CHECK(file.warnings.empty());
         CHECK(file.format == "xyz");
         std::string all;
-        if (const tf::element* e = tf::find_element(file.attributes, "vertex"))
+        if (const tf::element* e = file.attributes.find("vertex"))
             for (const tf::column& c : e->columns) all += c.name + " ";
         return all;
     };
@@ -254,8 +254,8 @@ TEST_CASE("pts: a count comes first, and columns have their usual names") {
     CHECK(names("1 2 3 4\n", "a.xyz") == "column_4 ");
     const tf::mesh_file file = read_text("2\n1 2 3 5 10 20 30\n4 5 6 7 40 50 60\n", "a.pts");
     CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
-    CHECK(tf::number_at(text_column(file, "vertex", "intensity"), 1) == 7);
-    CHECK(tf::number_at(text_column(file, "vertex", "blue"), 0) == 30);
+    CHECK(text_column(file, "vertex", "intensity").number(1) == 7);
+    CHECK(text_column(file, "vertex", "blue").number(0) == 30);
 }
 
 TEST_CASE("pts: a wrong count is a warning, and an error where points are missing") {
@@ -277,8 +277,8 @@ TEST_CASE("csv: a heading names the columns, x y z are found by name, and text c
     CHECK(file.format == "csv");
     CHECK(file.warnings.empty());
     CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}, {4, 5, 6}});
-    CHECK(tf::number_at(text_column(file, "vertex", "id"), 1) == 8.0);
-    CHECK(tf::number_at(text_column(file, "vertex", "a_\"b\",_c"), 0) == 0.5);
+    CHECK(text_column(file, "vertex", "id").number(1) == 8.0);
+    CHECK(text_column(file, "vertex", "a_\"b\",_c").number(0) == 0.5);
     const std::string csv = tf::write_to_memory(file, {.format = "csv"});
     CHECK(csv == "id,z,y,\"a_\"\"b\"\",_c\",x\n7,3,2,0.5,1\n8,6,5,-1,4\n");
     CHECK(read_text(csv, "a.csv").attributes == file.attributes);
@@ -318,14 +318,13 @@ TEST_CASE("csv: headings of other programs, and those that are of no use") {
         CAPTURE(text);
         const tf::mesh_file file = read_text(text, "a.txt");
         CHECK(file.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
-        CHECK(tf::number_at(text_column(file, "vertex", "Intensity"), 0) == 4.0);
+        CHECK(text_column(file, "vertex", "Intensity").number(0) == 4.0);
     }
     CHECK(read_text("width,depth,height\n1,2,3\n", "a.csv").warnings.at(0).code == "heading");
     CHECK(read_text("# some words here more\n1 2 3 4\n", "a.xyz").attributes ==
           read_text("1 2 3 4\n", "a.xyz").attributes);
     // Fewer names than values: they are numbered.
-    CHECK(tf::number_at(text_column(read_text("x,y,z\n1,2,3,4\n", "a.csv"), "vertex", "column_4"),
-                        0) == 4);
+    CHECK(text_column(read_text("x,y,z\n1,2,3,4\n", "a.csv"), "vertex", "column_4").number(0) == 4);
     CHECK(read_text("x y z\n1 2 3\n", "stdin").format == "xyz");
     CHECK(says_of_text(text_complaint("x,y,z\n", "a.csv"), "no point found"));
     CHECK(says_of_text(text_complaint("a,x,y,z\n1,2,3,4\n1,2,3\n", "a.csv"), "a.csv:3:"));
@@ -338,7 +337,7 @@ TEST_CASE("csv: empty cells and words are NaN where they stand, which is said") 
     const auto values = [&](const char* name) {
         std::string text;
         for (std::size_t i = 0; i < 4; ++i) {
-            const double value = tf::number_at(text_column(file, "vertex", name), i);
+            const double value = text_column(file, "vertex", name).number(i);
             text += std::isnan(value) ? "-" : std::to_string(static_cast<int>(value));
         }
         return text;
@@ -358,7 +357,7 @@ TEST_CASE("csv: whole numbers beyond 2^53 stay, colors are of 8 or 16 bits, the 
     };
     const std::string large = "x,y,z,t\n1,2,3,1234567890123456789\n1,2,3,-1234567890123456788\n";
     CHECK(column(large, "t") ==
-          tf::make_column<std::int64_t>(
+          tf::column::of<std::int64_t>(
               "t", std::vector<std::int64_t>{1234567890123456789, -1234567890123456788}));
     CHECK(column("x,y,z,t\n1,2,3,18446744073709551615\n", "t").type == tf::scalar_type::uint64);
     const tf::mesh_file mixed =
@@ -381,12 +380,12 @@ TEST_CASE("csv: columns are what they are said to be") {
     const tf::mesh_file file =
         chosen(text, {{"x", "N"}, {"y", "E"}, {"z", "4"}, {"intensity", "I"}});
     CHECK(file.mesh.points == std::vector<tf::point3>{{2, 1, 3}, {5, 4, 6}});
-    CHECK(tf::number_at(text_column(file, "vertex", "intensity"), 1) == 10);
-    CHECK(tf::number_at(text_column(file, "vertex", "id"), 1) == 8);
+    CHECK(text_column(file, "vertex", "intensity").number(1) == 10);
+    CHECK(text_column(file, "vertex", "id").number(1) == 8);
     CHECK(file.warnings.empty());
     const tf::mesh_file plain = chosen("9 1 2 3\n", {{"x", "2"}, {"y", "3"}, {"z", "4"}});
     CHECK(plain.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
-    CHECK(tf::number_at(text_column(plain, "vertex", "column_1"), 0) == 9);
+    CHECK(text_column(plain, "vertex", "column_1").number(0) == 9);
     const auto complaint = [&](const std::vector<tf::named_column>& columns) -> std::string {
         try {
             (void)chosen(text, columns);

@@ -232,9 +232,9 @@ TEST_CASE("translation: columns are dropped and renamed as asked") {
     CHECK(translated_numbers(made, "height") == std::vector<double>{7, 800, 60000});
     const tf::mesh_file bare =
         read_translated(put_translated(file, "ply", {.drop = {"normal", "color"}}).bytes, "ply");
-    REQUIRE(tf::find_element(bare.attributes, "vertex") != nullptr);
-    CHECK(tf::columns_called(*tf::find_element(bare.attributes, "vertex"), "normal").empty());
-    CHECK(tf::columns_called(*tf::find_element(bare.attributes, "vertex"), "color").empty());
+    REQUIRE(bare.attributes.find("vertex") != nullptr);
+    CHECK(bare.attributes.find("vertex")->columns_called("normal").empty());
+    CHECK(bare.attributes.find("vertex")->columns_called("color").empty());
     CHECK(translated_numbers(bare, "intensity") == std::vector<double>{7, 800, 60000});
     CHECK_THROWS_AS((void)tf::write("/dev/null", file, {.format = "ply", .drop = {"uv"}}),
                     std::invalid_argument);
@@ -317,9 +317,9 @@ TEST_CASE("translation: extra bytes with a scale are values, and come back as th
     CHECK(read_translated(again, "las").las->records == file.las->records);
     // One that is no step is rounded, which is said.
     tf::mesh_file between = file;
-    auto& vertices = tf::obtain_element(between.attributes, "vertex", 5);
-    (void)tf::set_column(vertices, tf::make_column<double>(
-                                       "hag", std::vector<double>{100.004, 101, 98.5, 100, 100}));
+    auto& vertices = between.attributes.obtain("vertex", 5);
+    (void)vertices.set(
+        tf::column::of<double>("hag", std::vector<double>{100.004, 101, 98.5, 100, 100}));
     const translated_file rounded = put_translated(between, "las");
     CHECK(translated_numbers(read_translated(rounded.bytes, "las"), "hag").front() == 100.0);
     REQUIRE(rounded.warnings.size() == 1);
@@ -406,5 +406,5 @@ TEST_CASE("translation: points that are no points are dropped, with their faces"
     CHECK(file.stored_faces == 2);
     CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 3}, {0, 3, 2}, {1, 3, 2}});
     CHECK(file.stored_face == std::vector<std::uint32_t>{0, 0, 1});
-    CHECK(tf::find_element(file.attributes, "face")->rows == 2);
+    CHECK(file.attributes.find("face")->rows == 2);
 }

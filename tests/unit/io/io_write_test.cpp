@@ -169,8 +169,8 @@ TEST_CASE("stl: header, names of solids and attribute bits come back") {
     CHECK(read_again(written(file, "stl", true), "a.stl").attributes.parts ==
           file.attributes.parts);
     const std::vector<std::uint16_t> bits{0, 0, 65535, 7};
-    tf::obtain_element(file.attributes, "face", 4)
-        .columns.push_back(tf::make_column<std::uint16_t>("stl_attribute", bits));
+    file.attributes.obtain("face", 4).columns.push_back(
+        tf::column::of<std::uint16_t>("stl_attribute", bits));
     file.attributes.header = "HEADER" + std::string(73, '*') + '\0';
     const std::string bytes = written(file, "stl");
     CHECK(bytes.size() == 84 + 4 * 50);
@@ -230,10 +230,10 @@ TEST_CASE("glb: coordinates, one primitive a color, and an offset that loses not
         p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     const std::vector<std::uint8_t> red{255, 0, 255, 0};
     const std::vector<std::uint8_t> none(4, 0);
-    auto& columns = tf::obtain_element(file.attributes, "face", 4).columns;
-    columns.push_back(tf::make_column<std::uint8_t>("red", red));
-    columns.push_back(tf::make_column<std::uint8_t>("green", none));
-    columns.push_back(tf::make_column<std::uint8_t>("blue", none));
+    auto& columns = file.attributes.obtain("face", 4).columns;
+    columns.push_back(tf::column::of<std::uint8_t>("red", red));
+    columns.push_back(tf::column::of<std::uint8_t>("green", none));
+    columns.push_back(tf::column::of<std::uint8_t>("blue", none));
     const std::string bytes = written(file, "glb");
     CHECK(bytes.size() % 4 == 0);
     CHECK(bytes.find("\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":"
@@ -250,10 +250,10 @@ TEST_CASE("glb: coordinates, one primitive a color, and an offset that loses not
 
 TEST_CASE("glb: whole numbers of faces are in the order of the faces") {
     tf::mesh_file file = tetrahedron(3);
-    auto& columns = tf::obtain_element(file.attributes, "face", 4).columns;
-    columns.push_back(tf::make_column<std::uint32_t>("id", std::vector<std::uint32_t>{4, 5, 6, 7}));
-    columns.push_back(tf::make_column<float>("heat", std::vector<float>{4, 5, 6, 7}));
-    columns.push_back(tf::make_column<std::int8_t>("sign", std::vector<std::int8_t>{1, -1, 1, 1}));
+    auto& columns = file.attributes.obtain("face", 4).columns;
+    columns.push_back(tf::column::of<std::uint32_t>("id", std::vector<std::uint32_t>{4, 5, 6, 7}));
+    columns.push_back(tf::column::of<float>("heat", std::vector<float>{4, 5, 6, 7}));
+    columns.push_back(tf::column::of<std::int8_t>("sign", std::vector<std::int8_t>{1, -1, 1, 1}));
     const std::string bytes = written(file, "glb");
     CHECK(bytes.find("\"face_properties\":{\"id\":2}") != std::string::npos);
     CHECK(bytes.substr(bytes.size() - 16) == std::string("\4\0\0\0\5\0\0\0\6\0\0\0\7\0\0\0", 16));
@@ -305,8 +305,8 @@ TEST_CASE("writing: data that cannot be meant is refused") {
     file.stored_face = {0, 1, 1, 2};  // triangles 1 and 2 are no fan
     CHECK_THROWS_AS((void)written(file, "ply"), std::invalid_argument);
     file = tetrahedron(6);
-    tf::obtain_element(file.attributes, "face", 4)
-        .columns.push_back(tf::make_column<double>("x", std::span<const double>()));
+    file.attributes.obtain("face", 4).columns.push_back(
+        tf::column::of<double>("x", std::span<const double>()));
     CHECK_THROWS_AS((void)written(file, "ply"), std::invalid_argument);
 }
 
@@ -314,11 +314,10 @@ TEST_CASE("polygons: splitting repeats the rows of faces and renumbers parts") {
     tf::mesh_file file = read_again(
         "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\no b\nf 2 3 4\n", "a.obj");
     const std::vector<int> numbers{10, 20, 30};
-    tf::obtain_element(file.attributes, "face", 3)
-        .columns.push_back(tf::make_column<std::int32_t>("n", numbers));
-    tf::split_polygons(file);
+    file.attributes.obtain("face", 3).columns.push_back(tf::column::of<std::int32_t>("n", numbers));
+    file.split_polygons();
     const std::vector<int> expected{10, 10, 20, 30};
-    CHECK(file.attributes.elements[0].columns[0] == tf::make_column<std::int32_t>("n", expected));
+    CHECK(file.attributes.elements[0].columns[0] == tf::column::of<std::int32_t>("n", expected));
     CHECK(file.attributes.parts[1].first_face == 3);
     CHECK(file.stored_faces == 4);
     CHECK(read_again(written(file, "ply"), "a.ply").stored_face.empty());
@@ -343,7 +342,7 @@ TEST_CASE("write: stopped while it writes, nothing appears") {
         int calls = 0;
         const auto done =
             tf::write(folder / name, file, {.progress = [&](double) { return ++calls < 3; }});
-        CHECK(done.cancelled);
+        CHECK(done.status == tf::status::cancelled);
         CHECK(calls == 3);
         CHECK(files_in(folder) == before);
     }

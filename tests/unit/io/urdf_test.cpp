@@ -89,13 +89,13 @@ TEST_CASE("urdf: a chain of joints of each kind puts links where the joints say"
     CHECK((*r.joints[1].limits)[1] == 3.0);
     using pairs = std::vector<std::array<std::uint32_t, 2>>;
     CHECK(r.adjacent() == pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}});
-    const auto rest = tf::link_transforms(r, {});
+    const auto rest = r.link_transforms({});
     CHECK(rest[0] == tf::transform<3>{});
     check_near(rest[1](tf::point3{1, 0, 0}), {1, 1, 0});
     check_near(rest[3](tf::point3{0, 0, 0}), {1, 0, 5});
     const std::vector<tf::joint_value> values{
         {"slide", 2.0}, {"turn", -0.5 * std::numbers::pi}, {"spin", 0.5 * std::numbers::pi}};
-    const auto moved = tf::link_transforms(r, values);
+    const auto moved = r.link_transforms(values);
     check_near(moved[1](tf::point3{1, 0, 0}), {2, 0, 0});
     check_near(moved[2](tf::point3{0, 0, 0}), {1, 2, 0});
     check_near(moved[4](tf::point3{0, 1, 0}), {1, 2, 6});
@@ -107,7 +107,7 @@ TEST_CASE("urdf: roll, pitch and yaw are about the fixed axes x, y and z, in thi
         folder.write(robot("<link name=\"a\"/><link name=\"b\"/>" +
                            joint("j", "fixed", "a", "b",
                                  "<origin rpy=\"1.5707963267948966 1.5707963267948966 0\"/>")));
-    const auto at = tf::link_transforms(tf::read_urdf(path), {});
+    const auto at = tf::read_urdf(path).link_transforms({});
     check_near(at[1](tf::point3{0, 1, 0}), {1, 0, 0});  // about x to z, then about y to x
     check_near(at[1](tf::point3{1, 0, 0}), {0, 0, -1});
 }
@@ -119,7 +119,7 @@ TEST_CASE("urdf: a joint that mimics another follows it, unless it has a value o
         joint("q", "prismatic", "a", "c", "<mimic joint=\"p\" multiplier=\"-2\" offset=\"1\"/>")));
     const auto r = tf::read_urdf(path);
     const auto x = [&](const std::vector<tf::joint_value>& values) {
-        return tf::link_transforms(r, values)[2].rows[0][3];
+        return r.link_transforms(values)[2].rows[0][3];
     };
     CHECK(x({}) == 1.0);
     CHECK(x({{"p", 3.0}}) == -5.0);
@@ -170,7 +170,7 @@ TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame
     const auto no_file = [](const std::filesystem::path&) -> tf::mesh {
         throw std::logic_error("there is no file");
     };
-    const tf::robot_parts made = tf::parts_of(r, no_file);
+    const tf::robot_parts made = r.parts(no_file);
     CHECK(made.links == std::vector<std::uint32_t>{0, 2, 3});
     using pairs = std::vector<std::array<std::uint32_t, 2>>;
     CHECK(made.adjacent == pairs{{0, 1}, {1, 2}});
@@ -184,7 +184,7 @@ TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame
     auto only_files = r;
     for (tf::urdf_mesh& one : only_files.meshes) one.file = std::to_string(one.link);
     std::vector<std::string> asked;
-    const auto parts = tf::parts_of(only_files, [&](const std::filesystem::path& path) {
+    const auto parts = only_files.parts([&](const std::filesystem::path& path) {
         asked.push_back(path.string());
         return path == "3" ? r.meshes[0].shape : tf::mesh{};
     });
@@ -199,13 +199,13 @@ TEST_CASE("urdf: a scale that mirrors turns faces over") {
         const auto r = tf::read_urdf(folder.write(
             robot("<link name=\"a\"><collision><geometry><mesh filename=\"meshes/a.stl\" scale=\"" +
                   scale + "\"/></geometry></collision></link>")));
-        return tf::parts_of(r,
-                            [](const std::filesystem::path&) {
-                                tf::mesh tetrahedron;
-                                tetrahedron.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-                                tetrahedron.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-                                return tetrahedron;
-                            })
+        return r
+            .parts([](const std::filesystem::path&) {
+                tf::mesh tetrahedron;
+                tetrahedron.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+                tetrahedron.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+                return tetrahedron;
+            })
             .parts.at(0);
     };
     for (const char* scale : {"2 2 1.5", "2 2 -1.5", "-2 -2 1.5", "-2 -2 -1.5"}) {
@@ -317,7 +317,7 @@ TEST_CASE("urdf: values of joints that are not there, fixed or not finite are re
     const auto r = tf::read_urdf(folder.write(
         robot(three + joint("j", "fixed", "a", "b") + joint("k", "continuous", "a", "c"))));
     const auto with = [&](const tf::joint_value& one) {
-        static_cast<void>(tf::link_transforms(r, {&one, 1}));
+        static_cast<void>(r.link_transforms({&one, 1}));
     };
     CHECK_THROWS_WITH_AS(with({"x", 1.0}), "treeform::link_transforms: there is no joint x",
                          std::invalid_argument);

@@ -66,15 +66,15 @@ TEST_CASE("prepared distance: one without faces is near to nothing") {
     CHECK(!tf::closest_points(none, one));
     CHECK(!tf::closest_points(one, none));
     CHECK(!tf::closest_points(none, tf::prepared_mesh(tf::mesh{})));
-    const auto away =
-        tf::closest_points(one, one, {.move_b = tf::translation<3>(tf::point3{0, 0, 2})});
+    const auto away = tf::closest_points(
+        one, one, {.move_b = tf::transform<3>::translation(tf::point3{0, 0, 2})});
     REQUIRE(away);
     CHECK(away->distance == 2.0);
 }
 
 TEST_CASE("prepared distance: the radius is inclusive, and what cannot be meant is refused") {
     const tf::prepared_mesh one(test::grid(1));
-    const auto above = tf::translation<3>(tf::point3{0, 0, 2});
+    const auto above = tf::transform<3>::translation(tf::point3{0, 0, 2});
     CHECK(tf::closest_points(one, one, {.move_b = above, .radius = 2.0}));
     CHECK(!tf::closest_points(one, one, {.move_b = above, .radius = std::nextafter(2.0, 0.0)}));
     CHECK_THROWS_AS((void)tf::closest_points(one, one, {.radius = -1.0}), std::invalid_argument);
@@ -169,18 +169,19 @@ TEST_CASE("prepared distance: meshes of any size and far from each other are mea
     for (const double factor : {0x1p-900, 0x1p-300, 1e-6, 1e6, 0x1p300, 0x1p900}) {
         CAPTURE(factor);
         const tf::mesh scaled = test::scaled(a, factor);
-        compare(scaled, scaled, {}, tf::translation<3>(tf::point3{factor, 2 * factor, 9 * factor}));
+        compare(scaled, scaled, {},
+                tf::transform<3>::translation(tf::point3{factor, 2 * factor, 9 * factor}));
         if (0x1p-400 < factor && factor < 0x1p400) {
             compare(scaled, a, {}, turned(source, 1.0, 50.0));
             compare(a, a, {}, turned(source, factor, 50.0 * factor));
         }
     }
-    compare(a, a, {}, tf::translation<3>(tf::point3{1e9, 0, 0}));
+    compare(a, a, {}, tf::transform<3>::translation(tf::point3{1e9, 0, 0}));
     tf::mesh stray = waves(5, 2.0);  // one corner where the frame of the tree has no room for it
     stray.points[0] = {1e30, 0, 0};
-    compare(stray, a, {}, tf::translation<3>(tf::point3{0, 0, 9}));
+    compare(stray, a, {}, tf::transform<3>::translation(tf::point3{0, 0, 9}));
     stray.points[0] = {-1.7e308, 1.7e308, 0};
-    compare(stray, a, {}, tf::translation<3>(tf::point3{0, 0, 9}));
+    compare(stray, a, {}, tf::transform<3>::translation(tf::point3{0, 0, 9}));
 }
 
 TEST_CASE("prepared distance: many equally near faces give one answer on any number of threads") {

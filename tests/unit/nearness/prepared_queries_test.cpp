@@ -68,7 +68,7 @@ TEST_CASE(
 TEST_CASE("prepared queries: a mesh that moves keeps what was built of it") {
     const tf::prepared_mesh a(test::box(2, 2, 2)), b(test::box(1, 1, 1));
     CHECK(tf::intersects(a, b));
-    const auto away = tf::translation<3>(tf::point3{0, 0, 4});
+    const auto away = tf::transform<3>::translation(tf::point3{0, 0, 4});
     CHECK_FALSE(tf::intersects(a, b, {.move_b = away}));
     CHECK(tf::distance(a, b, {.move_b = away}) == 2.0);
     CHECK(tf::distance(a, b, {.move_b = away, .radius = 1.0}) ==

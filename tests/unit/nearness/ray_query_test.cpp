@@ -1,4 +1,5 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/intersect/ray_query.hpp>
 #include <treeform/mesh/raycast.hpp>
 #include <treeform/tf.hpp>

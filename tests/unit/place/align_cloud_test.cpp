@@ -84,14 +84,15 @@ TEST_CASE("align: the rings around a scanner do not hold it where it was") {
         // what is not seen is at the origin
         fixed.resize(fixed.size() + 2000);
         moving.resize(moving.size() + 2000);
-        const auto right = tf::translation<3>(point3{second.x - first.x, second.y - first.y, 0.0});
-        const auto planes = tf::align(moving, {fixed, {}});
+        const auto right =
+            tf::transform<3>::translation(point3{second.x - first.x, second.y - first.y, 0.0});
+        const auto planes = tf::align(moving, fixed);
         CHECK(planes.converged);
         CHECK(off_by(moving, planes.matrix, right) < 0.02);
         CHECK(planes.uncertainty < 0.02);
         // distances of points alone are held back
         const auto points = tf::align(
-            moving, {fixed, {}},
+            moving, fixed,
             {.method = tf::align_method::point_to_point, .weights = tf::align_weights::equal});
         CHECK(off_by(moving, points.matrix, right) > 0.05);
         CHECK_FALSE(points.converged);
@@ -129,7 +130,7 @@ TEST_CASE("align: of the same points that are flat, their places hold them") {
     for (int i = 0; i < 500; ++i) home.push_back({source.in(0, 10), source.in(0, 10), 0});
     const auto motion = test::turn_about({0, 0, 1}, 0.01, {5, 5, 0}, {0.02, -0.03, 0.1});
     for (const point3& p : home) away.push_back(motion(p));
-    const auto found = tf::align(away, {home, {}});
+    const auto found = tf::align(away, home);
     double most = 0.0;
     for (std::size_t i = 0; i < home.size(); ++i)
         most = std::max({most, std::abs(found.points[i].x - home[i].x),
@@ -152,7 +153,7 @@ TEST_CASE("align: a scale of 2 or a half is found, on clouds and on meshes, both
         for (const point3& p : home) there.push_back(away(p));
         for (const bool cloud : {false, true}) {
             CAPTURE(cloud);
-            const auto found = cloud ? tf::align(there, {other, {}}, {.scale = true})
+            const auto found = cloud ? tf::align(there, other, {.scale = true})
                                      : tf::align(there, solid, {.scale = true});
             CHECK(found.converged);
             CHECK(found.scale == doctest::Approx(1.0 / scale).epsilon(cloud ? 2e-3 : 1e-9));
@@ -175,7 +176,7 @@ TEST_CASE("align: a scale stays within its bounds, and is in doubt at one") {
         const auto within = [&](double least, double most, unsigned starts = 1) {
             const tf::align_options how{
                 .scale = true, .least_scale = least, .most_scale = most, .starts = starts};
-            return cloud ? tf::align(there, {other, {}}, how) : tf::align(there, solid, how);
+            return cloud ? tf::align(there, other, how) : tf::align(there, solid, how);
         };
         for (const auto& [least, most] : {std::pair{1.5, 3.0}, {1.9, none}, {0.0, 2.1}}) {
             const auto found = within(least, most);
@@ -208,7 +209,7 @@ TEST_CASE("align: no scale puts all points on one, wherever they start") {
         for (point3& p : there) p = away(p);
         const bool cloud = round % 2 == 0;
         const auto method = static_cast<tf::align_method>(source.below(4));
-        const auto found = cloud ? tf::align(there, {other, {}}, {.method = method, .scale = true})
+        const auto found = cloud ? tf::align(there, other, {.method = method, .scale = true})
                                  : tf::align(there, solid, {.method = method, .scale = true});
         CHECK(found.scale > 0.4);
         CHECK(found.scale < 2.5);
@@ -229,10 +230,10 @@ TEST_CASE("align: planes of both clouds are the same on any number of threads") 
     test::random source(6);
     const std::vector<point3> fixed = sweep(room, {0, 0, 1.8}, 0.01, source);
     const std::vector<point3> moving = sweep(room, {0.5, 0.3, 1.8}, 0.01, source);
-    const auto one = tf::align(moving, {fixed, {}}, {.scale = true});
+    const auto one = tf::align(moving, fixed, {.scale = true});
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const auto other = tf::align(moving, {fixed, {}}, {.scale = true});
+        const auto other = tf::align(moving, fixed, {.scale = true});
         CHECK(other.matrix == one.matrix);
         CHECK(other.uncertainty == one.uncertainty);
     }

@@ -99,7 +99,7 @@ TEST_CASE("align: a known motion is found to the last digits, on planes and on p
         CHECK(distance(on_planes.matrix(on_planes.pivot), on_planes.pivot_moved) < 1e-14);
         // a cloud, so near that most points have the right partner
         const std::vector<point3> near = moved(home, motion(0.004, 1.0, {0.004, -0.002, 0.003}));
-        const auto on_points = tf::align(near, {home, {}});
+        const auto on_points = tf::align(near, home);
         CHECK(on_points.converged);
         CHECK(largest_difference(moved(near, on_points.matrix), home) < 1e-12);
     }
@@ -136,8 +136,8 @@ TEST_CASE("align: far from the origin as well as the coordinates there allow, an
     const tf::mesh fixed = test::moved(three_boxes(), offset);
     const std::vector<point3> home = points_on(source, fixed, 3000);
     const auto about = [&](const tf::transform<3>& m) {
-        return tf::after(tf::translation<3>(offset),
-                         tf::after(m, tf::translation<3>(point3{-offset.x, -offset.y, -offset.z})));
+        return tf::transform<3>::translation(offset).after(
+            m.after(tf::transform<3>::translation(point3{-offset.x, -offset.y, -offset.z})));
     };
     const std::vector<point3> there = moved(home, about(motion(0.08, 1.0, {0.1, -0.05, 0.06})));
     const auto found = tf::align(there, fixed);
@@ -172,7 +172,7 @@ TEST_CASE("align: a uniform scale is found when it is asked for, and only then")
     CHECK(largest_difference(moved(there, found.matrix), home) < 1e-12);
     CHECK(tf::align(there, fixed).scale == 1.0);
     const std::vector<point3> cloud = moved(home, motion(0.003, 1.002, {0.002, 0.001, 0.002}));
-    const auto points = tf::align(cloud, {home, {}}, {.scale = true});
+    const auto points = tf::align(cloud, home, {.scale = true});
     CHECK(largest_difference(moved(cloud, points.matrix), home) < 1e-12);
 }
 
@@ -239,7 +239,7 @@ TEST_CASE("align: flat on flat slides nowhere, and a mirror image is not mirrore
     const std::vector<point3> cloud{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {0, 0, 1}};
     std::vector<point3> mirrored = cloud;
     for (point3& p : mirrored) p.z = -p.z;
-    const auto m = tf::align(mirrored, {cloud, {}}).matrix.rows;
+    const auto m = tf::align(mirrored, cloud).matrix.rows;
     const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
                                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
@@ -443,15 +443,15 @@ TEST_CASE("align: clouds to planes fitted to clouds, the same points thousands o
     for (int i = 0; i < 3000; ++i) fixed.push_back({0, 0, 0});
     const auto there = moved(home, motion(0.03, 1.0, {0.02, -0.03, 0.01}));
     const auto planes =
-        tf::align(there, {fixed, {}}, {.method = align_method::point_to_plane, .overlap = 0.95});
+        tf::align(there, fixed, {.method = align_method::point_to_plane, .overlap = 0.95});
     CHECK(planes.converged);
     CHECK(largest_difference(moved(there, planes.matrix), home) < 0.01);
-    const auto points = tf::align(there, {fixed, {}});
+    const auto points = tf::align(there, fixed);
     CHECK(points.converged);
     CHECK(largest_difference(moved(there, points.matrix), home) < 0.02);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::align(there, {fixed, {}}).matrix == points.matrix);
+        CHECK(tf::align(there, fixed).matrix == points.matrix);
     }
 }
 

@@ -1,5 +1,6 @@
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -60,8 +61,8 @@ TEST_CASE("bodies: a file without faces is a cloud of its finite points") {
     CHECK(file.box->max == tf::point3{1, 1, 1});
     CHECK(found.shapes[0].is_cloud());
     CHECK(found.bodies[0].triangle(1) == 2);
-    tf::put_back(found, 0, std::vector<tf::point3>{{5, 5, 5}, {6, 6, 6}}, tf::transform<3>{},
-                 tf::precision::float64);
+    found.put_back(0, std::vector<tf::point3>{{5, 5, 5}, {6, 6, 6}}, tf::transform<3>{},
+                   tf::precision::float64);
     CHECK(file.content.mesh.points[0] == tf::point3{5, 5, 5});
     CHECK(file.content.mesh.points[2] == tf::point3{6, 6, 6});
 }
@@ -78,7 +79,7 @@ TEST_CASE("bodies: each part of a file is the mesh of its faces alone") {
     CHECK(found.labels() ==
           std::vector<std::string>{"whole.obj", "parts.obj: small", "parts.obj: part 1"});
     for (std::size_t i = 1; i < 3; ++i) {
-        const tf::mesh expected = tf::select_faces(both, found.bodies[i].triangle_of_face);
+        const tf::mesh expected = tf::submesh(both, found.bodies[i].triangle_of_face).mesh;
         const tf::mesh_view view = found.shapes[i].view();
         CHECK(tf::mesh{{view.points.begin(), view.points.end()},
                        {view.faces.begin(), view.faces.end()}} == expected);
@@ -101,14 +102,14 @@ TEST_CASE("bodies: points go back to where they are in the file, others move alo
     for (tf::point3& p : placed) p.z += 4;
     tf::transform<3> up;
     up.rows[2][3] = 4;
-    tf::put_back(found, 0, placed, up, tf::precision::float32);
+    found.put_back(0, placed, up, tf::precision::float32);
     const tf::mesh expected = moved(test::unjoined(box(1, 1, 1)), {0, 0, 4});
     for (std::size_t i = 0; i < expected.points.size(); ++i)
         CHECK(there.mesh.points[i] == expected.points[i]);
     CHECK(there.mesh.points.back() == tf::point3{double{0.1F}, 7, 11});
-    CHECK(tf::round_to_float32(there) == 0.0);
+    CHECK(there.round_to_float32() == 0.0);
     there.mesh.points.back().x = 0.1;
-    CHECK(tf::round_to_float32(there) == double{0.1F} - 0.1);
+    CHECK(there.round_to_float32() == double{0.1F} - 0.1);
 }
 
 TEST_CASE("bodies: how they lie to each other, in words, with the numbers of their files") {
@@ -121,7 +122,7 @@ TEST_CASE("bodies: how they lie to each other, in words, with the numbers of the
     const auto words = [&](std::size_t first, std::size_t count, double clearance) {
         const auto among = std::span<const tf::prepared_mesh>(fixed.shapes).subspan(first, count);
         const auto at = tf::measure_among(moving.shapes[0], among, {.clearance = clearance});
-        return tf::relation_in_words(at, moving, fixed);
+        return at.relation_in_words(moving, fixed);
     };
     const std::string text = words(0, 2, 0);
     CHECK(text.starts_with("touching on.obj ("));
@@ -139,7 +140,7 @@ TEST_CASE("bodies: how they lie to each other, in words, with the numbers of the
     fixed = {};
     fixed.add(file_of(moved(box(3, 3, 3), {-1, -1, -1})), "around.obj");
     CHECK(words(0, 1, 0) == "penetrating around.obj, inside it");
-    CHECK(tf::relation_in_words(tf::drop(moving.shapes[0]), moving, {}) == "touching the bed");
+    CHECK(tf::drop(moving.shapes[0]).relation_in_words(moving, {}) == "touching the bed");
 }
 
 TEST_CASE("what has been laid flat or aligned says so in words") {
@@ -161,14 +162,14 @@ TEST_CASE("classes in files: those of bodies, by file, and of clouds only where 
     tf::contact_classes met;
     met.moving.assign(12, contact_class::near);
     met.fixed = {{contact_class::near}, {}, std::vector(12, contact_class::touching)};
-    CHECK(tf::classes_in_files(met, moving) == met.moving);
+    CHECK(met.in_files(moving) == met.moving);
     std::vector<contact_class> expected(36);
     std::fill_n(expected.begin(), 12, contact_class::near);
     std::fill_n(expected.begin() + 24, 12, contact_class::touching);
-    CHECK(tf::classes_in_files(met, moving, fixed) == expected);
+    CHECK(met.in_files(moving, fixed) == expected);
     tf::body_set cloud;
     cloud.add(file_of({{{0, 0, 9}}, {}}));
-    CHECK(tf::classes_in_files({.moving = {contact_class::near}}, cloud) ==
+    CHECK(tf::contact_classes{.moving = {contact_class::near}}.in_files(cloud) ==
           std::vector{contact_class::near});
 }
 
@@ -184,9 +185,9 @@ TEST_CASE("contact colors: a stored face has the gravest class of its triangles"
     tf::mesh_file picture = file;
     const auto numbers = [](const tf::mesh_file& from) {
         std::vector<double> found;
-        const tf::element* const rows = tf::find_element(from.attributes, "face");
+        const tf::element* const rows = from.attributes.find("face");
         for (std::size_t i = 0; i < rows->rows; ++i)
-            found.push_back(tf::number_at(*tf::find_column(*rows, "tf_class"), i));
+            found.push_back(rows->find("tf_class")->number(i));
         return found;
     };
     tf::color_contacts(file, classes);
@@ -234,13 +235,12 @@ TEST_CASE("bodies: what is around a contact has a tint, but no class") {
     const auto yellow = [&](double halo) {
         tf::mesh_file colored = file;
         tf::color_contacts(colored, classes, {.halo = halo});
-        const tf::element* const rows = tf::find_element(colored.attributes, "face");
+        const tf::element* const rows = colored.attributes.find("face");
         REQUIRE(rows != nullptr);
         std::size_t tinted = 0, classed = 0;
         for (std::size_t f = 0; f < classes.size(); ++f) {
-            tinted += tf::number_at(*tf::find_column(*rows, "blue"), f) <
-                      tf::number_at(*tf::find_column(*rows, "red"), f);
-            classed += tf::number_at(*tf::find_column(*rows, "tf_class"), f) != 0.0;
+            tinted += rows->find("blue")->number(f) < rows->find("red")->number(f);
+            classed += rows->find("tf_class")->number(f) != 0.0;
         }
         CHECK(classed == 1);
         return tinted;

@@ -3,6 +3,7 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_faces.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/mesh/distance.hpp>

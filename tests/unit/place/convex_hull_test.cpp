@@ -1,5 +1,5 @@
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/mesh/convex_hull.hpp>
-#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

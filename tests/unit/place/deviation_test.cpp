@@ -221,7 +221,7 @@ TEST_CASE("deviation: points that are not finite are named, and it stops when to
                          "treeform::deviation: point 1 is not finite", std::invalid_argument);
     const auto stopped =
         found_for(ball(3, 1), box(1, 1, 1), {.progress = [](double) { return false; }});
-    CHECK(stopped.cancelled);
+    CHECK(stopped.status == tf::status::cancelled);
     CHECK(stopped.distances.empty());
 }
 
@@ -233,18 +233,17 @@ TEST_CASE("deviation: distances come back to the points of the file, with colors
     set.add(file);
     std::vector<double> distances;
     for (const tf::point3& p : set.shapes[0].view().points) distances.push_back(p.x - 0.5);
-    const auto back = tf::distances_in_file(set, 0, distances);
+    const auto back = set.distances_in_file(0, distances);
     REQUIRE(back.size() == file.mesh.points.size());
     for (std::size_t i = 0; i + 1 < back.size(); ++i) CHECK(back[i] == file.mesh.points[i].x - 0.5);
     CHECK(std::isnan(back.back()));
     tf::color_distances(file, back, -0.5, 0.5);
-    const tf::element* const rows = tf::find_element(file.attributes, "vertex");
+    const tf::element* const rows = file.attributes.find("vertex");
     REQUIRE(rows != nullptr);
-    const tf::column *const red = tf::find_column(*rows, "red"), *const blue =
-                                                                     tf::find_column(*rows, "blue");
+    const tf::column *const red = rows->find("red"), *const blue = rows->find("blue");
     for (std::size_t i = 0; i + 1 < back.size(); ++i)
-        CHECK((tf::number_at(*red, i) > tf::number_at(*blue, i)) == (back[i] > 0.0));
-    CHECK(tf::number_at(*red, back.size() - 1) == 128.0);
+        CHECK((red->number(i) > blue->number(i)) == (back[i] > 0.0));
+    CHECK(red->number(back.size() - 1) == 128.0);
     CHECK_THROWS_AS(tf::color_distances(file, distances, -1, 1), std::invalid_argument);
     CHECK_THROWS_AS(tf::color_distances(file, back, 0.5, 1), std::invalid_argument);
 }

@@ -1,3 +1,4 @@
+#include <libmesh/place/barycentric.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/tf.hpp>
 
@@ -104,7 +105,7 @@ TEST_CASE("measure: weights give points of slivers, segments and single points")
         tf::point3 p{};
         for (std::size_t k = 0; k < 3; ++k)
             p[k] = t[0][k] + u * (t[1][k] - t[0][k]) + v * (t[2][k] - t[0][k]);
-        const auto w = tf::barycentric_weights(t, p);
+        const auto w = tf::detail::place::barycentric_weights(t, p);
         tf::point3 q{};
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t k = 0; k < 3; ++k) q[k] += w[i] * t[i][k];

@@ -1,3 +1,4 @@
+#include <libmesh/base/max_displacement.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -84,7 +85,8 @@ void check_packed(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         const tf::packed_part& one = found.parts[i];
         REQUIRE(one.points.size() == parts[i].points.size());
-        moved = std::max(moved, tf::max_displacement(parts[i].points, one.matrix, one.points));
+        moved =
+            std::max(moved, tf::detail::max_displacement(parts[i].points, one.matrix, one.points));
         if (!one.placed) {
             not_placed.push_back(i);
             CHECK(one.points == parts[i].points);

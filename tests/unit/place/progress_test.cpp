@@ -2,8 +2,8 @@
 /// What every operation that finds a place says of its progress, and how it hears that it should
 /// stop.
 
-#include <libmesh/place/moves_apart.hpp>
-#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/separation_search.hpp>
+#include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/convex_hull.hpp>
@@ -100,13 +100,13 @@ struct operations {
              }},
             {"settle among",
              [=, this](const auto& p) {
-                 return cancelled(tf::detail::place::settle_among(above, parts, downwards, 3.0,
-                                                                  {.progress = p}));
+                 return cancelled(tf::detail::place::snap_to_representable(above, parts, downwards,
+                                                                           3.0, {.progress = p}));
              }},
             {"moves apart",
              [=, this](const auto& p) {
                  return cancelled(
-                     tf::detail::place::find_moves_apart(shape(inside), parts, {.progress = p}));
+                     tf::detail::place::search_separations(shape(inside), parts, {.progress = p}));
              }},
             {"slide",
              [=, this](const auto& p) {

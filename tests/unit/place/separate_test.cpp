@@ -1,5 +1,5 @@
-#include <libmesh/place/moves_apart.hpp>
-#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/separation_search.hpp>
+#include <libmesh/place/snap_to_representable.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/slide.hpp>
@@ -22,24 +22,24 @@ using test::box;
 using test::moved;
 using tf::mesh_relation;
 using tf::prepared_mesh;
-using tf::detail::place::find_moves_apart;
-using tf::detail::place::move_apart;
-using tf::detail::place::settle_among;
-using tf::detail::place::settled_among;
+using tf::detail::place::search_separations;
+using tf::detail::place::separation;
 using tf::detail::place::shape;
+using tf::detail::place::snap_to_representable;
+using tf::detail::place::snapped;
 
-std::vector<move_apart> moves(const tf::mesh& a, const tf::mesh& b, double clearance = 0.0) {
+std::vector<separation> moves(const tf::mesh& a, const tf::mesh& b, double clearance = 0.0) {
     const auto one = prepared_mesh::borrow(a), other = prepared_mesh::borrow(b);
     const shape part(other);
-    return find_moves_apart(shape(one), {&part, 1}, {.clearance = clearance}).moves;
+    return search_separations(shape(one), {&part, 1}, {.clearance = clearance}).moves;
 }
 
-settled_among settled(const tf::mesh& a, const tf::mesh& b, const move_apart& move,
-                      double clearance = 0.0) {
+snapped settled(const tf::mesh& a, const tf::mesh& b, const separation& move,
+                double clearance = 0.0) {
     const auto other = prepared_mesh::borrow(b);
     const shape part(other);
-    return settle_among(prepared_mesh::borrow(a), {&part, 1}, move.direction, move.time,
-                        {.clearance = clearance, .forward = true});
+    return snap_to_representable(prepared_mesh::borrow(a), {&part, 1}, move.direction, move.time,
+                                 {.clearance = clearance, .forward = true});
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <libmesh/base/max_displacement.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/rounding.hpp>
@@ -120,7 +121,7 @@ TEST_CASE("slide: what is returned does not penetrate, and keeps the clearance")
         CHECK(found.certificate.precision ==
               (single ? tf::precision::float32 : tf::precision::float64));
         CHECK(found.certificate.max_displacement ==
-              tf::max_displacement(a.points, found.matrix, found.points));
+              tf::detail::max_displacement(a.points, found.matrix, found.points));
         CHECK(found.certificate.max_displacement <= (far + 8) * (single ? 0x1p-24 : 0x1p-52));
         stepped_back += found.statistics.backed_off > 0;
         double least = std::numeric_limits<double>::infinity();

@@ -1,4 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>

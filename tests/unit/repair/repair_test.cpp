@@ -354,7 +354,8 @@ TEST_CASE("repair: defects are found as they are") {
     CHECK(found.repeated == 1);
     CHECK(found.degenerate == 1);
     CHECK(found.nonmanifold_edges == 3);
-    CHECK(tf::find_solid_defects(ball, [](double) { return false; }).cancelled);
+    CHECK(tf::find_solid_defects(ball, [](double) { return false; }).status ==
+          tf::status::cancelled);
 }
 
 TEST_CASE("repair: what cannot be used is a defect, and no error") {

@@ -18,13 +18,13 @@ namespace {
 
 using bytes = std::vector<std::uint8_t>;
 
-/// As many faces as may be called sound: none is degenerate, no two of them meet.
-bytes soundness(const tf::mesh& mesh, const std::vector<tf::face_pair>& pairs) {
-    bytes sound(mesh.faces.size(), 1);
-    for (const std::uint32_t f : tf::find_defects(mesh).degenerate_faces) sound[f] = 0;
+/// As many faces as may be called certified: none is degenerate, no two of them meet.
+bytes certified_faces(const tf::mesh& mesh, const std::vector<tf::face_pair>& pairs) {
+    bytes certified(mesh.faces.size(), 1);
+    for (const std::uint32_t f : tf::find_defects(mesh).degenerate_faces) certified[f] = 0;
     for (const tf::face_pair& pair : pairs)
-        if (sound[pair.a] != 0) sound[pair.b] = 0;
-    return sound;
+        if (certified[pair.a] != 0) certified[pair.b] = 0;
+    return certified;
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ TEST_CASE("faults: of a surface of which nothing is known, all are found") {
     CHECK(tf::detail::round::find_faults({}, {}).pairs.empty());
 }
 
-TEST_CASE("faults: what is sound is not looked at, and all else is found against everything") {
+TEST_CASE("faults: what is certified is not looked at, and all else is found against everything") {
     std::size_t doubted = 0, met = 0;
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         CAPTURE(seed);
@@ -56,12 +56,12 @@ TEST_CASE("faults: what is sound is not looked at, and all else is found against
         }
         mesh.faces.push_back({0, 1, 1});
         const auto pairs = tf::self_intersections(mesh).pairs;
-        const bytes sound = soundness(mesh, pairs);
-        for (const std::uint8_t s : sound) doubted += s == 0 ? 1 : 0;
+        const bytes certified = certified_faces(mesh, pairs);
+        for (const std::uint8_t s : certified) doubted += s == 0 ? 1 : 0;
         for (const unsigned threads : {1U, 2U, 8U}) {
             const tf::thread_scope scope(threads);
             const auto found =
-                tf::detail::round::find_faults(mesh, {.sound = sound, .solid = false});
+                tf::detail::round::find_faults(mesh, {.certified = certified, .solid = false});
             CHECK(found.pairs == pairs);
             CHECK(found.degenerate == tf::find_defects(mesh).degenerate_faces);
         }
@@ -86,19 +86,20 @@ TEST_CASE("faults: are found in soups of any size and place, flat ones, and amon
             p = {(p.x + static_cast<double>(seed % 7)) * scale, p.y * scale, p.z * scale};
         }
         const auto pairs = tf::self_intersections(mesh).pairs;
-        const bytes sound = soundness(mesh, pairs);
-        CHECK(tf::detail::round::find_faults(mesh, {.sound = sound, .solid = false}).pairs ==
-              pairs);
+        const bytes certified = certified_faces(mesh, pairs);
+        CHECK(
+            tf::detail::round::find_faults(mesh, {.certified = certified, .solid = false}).pairs ==
+            pairs);
     }
 }
 
-TEST_CASE("faults: edges of faces that are not sound are looked at, and no others") {
+TEST_CASE("faults: edges of faces that are not certified are looked at, and no others") {
     tf::mesh mesh = test::ball(3, 1.0);
     const tf::face hole = mesh.faces[100];
     mesh.faces.erase(mesh.faces.begin() + 100);
-    bytes sound(mesh.faces.size(), 1);
-    CHECK_FALSE(tf::detail::round::find_faults(mesh, {.sound = sound}).open);
-    sound[0] = 0;  // not at the hole
+    bytes certified(mesh.faces.size(), 1);
+    CHECK_FALSE(tf::detail::round::find_faults(mesh, {.certified = certified}).open);
+    certified[0] = 0;  // not at the hole
     const auto shared = [&](std::size_t f) {
         std::size_t count = 0;
         for (const std::uint32_t p : mesh.faces[f])
@@ -106,15 +107,15 @@ TEST_CASE("faults: edges of faces that are not sound are looked at, and no other
         return count;
     };
     REQUIRE(shared(0) < 2);
-    CHECK_FALSE(tf::detail::round::find_faults(mesh, {.sound = sound}).open);
-    CHECK_FALSE(
-        tf::detail::round::find_faults(mesh, {.sound = bytes(sound.size(), 0), .solid = false})
-            .open);
-    CHECK(tf::detail::round::find_faults(mesh, {.sound = bytes(sound.size(), 0)}).open);
+    CHECK_FALSE(tf::detail::round::find_faults(mesh, {.certified = certified}).open);
+    CHECK_FALSE(tf::detail::round::find_faults(
+                    mesh, {.certified = bytes(certified.size(), 0), .solid = false})
+                    .open);
+    CHECK(tf::detail::round::find_faults(mesh, {.certified = bytes(certified.size(), 0)}).open);
     std::size_t beside = 0;
     while (shared(beside) != 2) ++beside;
-    sound[beside] = 0;
-    CHECK(tf::detail::round::find_faults(mesh, {.sound = sound}).open);
+    certified[beside] = 0;
+    CHECK(tf::detail::round::find_faults(mesh, {.certified = certified}).open);
 }
 
 TEST_CASE("faults: parts that are turned inside out, or outside, are found where they have moved") {
@@ -137,16 +138,16 @@ TEST_CASE("faults: parts that are turned inside out, or outside, are found where
         for (std::uint32_t f = 0; f < s.mesh.faces.size(); ++f)
             if (f < of_ball ? s.ball_is_turned : s.box_is_turned) expected.push_back(f);
         CHECK(tf::detail::round::find_faults(s.mesh, {}).turned == expected);
-        bytes sound(s.mesh.faces.size(), 1);
-        CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound}).turned.empty());
-        for (std::size_t f = of_ball; f < sound.size(); ++f) sound[f] = 0;
+        bytes certified(s.mesh.faces.size(), 1);
+        CHECK(tf::detail::round::find_faults(s.mesh, {.certified = certified}).turned.empty());
+        for (std::size_t f = of_ball; f < certified.size(); ++f) certified[f] = 0;
         if (s.ball_is_turned) expected.clear();  // it was so before
-        CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound}).turned == expected);
-        CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound, .solid = false})
+        CHECK(tf::detail::round::find_faults(s.mesh, {.certified = certified}).turned == expected);
+        CHECK(tf::detail::round::find_faults(s.mesh, {.certified = certified, .solid = false})
                   .turned.empty());
         // Of the ball some faces have moved: the others say what is inside.
-        sound.assign(sound.size(), 1);
-        sound[0] = sound[7] = 0;
-        CHECK(tf::detail::round::find_faults(s.mesh, {.sound = sound}).turned.empty());
+        certified.assign(certified.size(), 1);
+        certified[0] = certified[7] = 0;
+        CHECK(tf::detail::round::find_faults(s.mesh, {.certified = certified}).turned.empty());
     }
 }

@@ -81,7 +81,8 @@ TEST_CASE("build_within: touching counts, an empty box keeps nothing, an infinit
 
 TEST_CASE("build_within: with all elements it is the tree of a build") {
     const boxes<3> of = box_family<3>("random", 3000, 1);
-    const auto part = tf::build_within(of, itself, tf::box_of_all(of, itself));
+    const auto part =
+        tf::build_within(of, itself, tf::detail::box_around<3>("treeform::box_of_all", of, itself));
     CHECK(std::ranges::equal(part.boxes.ids(), tf::build(of, itself).ids()));
 }
 
@@ -127,7 +128,7 @@ TEST_CASE("build_within: refuses boxes that are not finite, also far off, and na
     CHECK_THROWS_WITH_AS((void)tf::build_within(of, itself, of[0]),
                          "treeform::build_within: the box of element 20001 is empty or not finite",
                          std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::box_of_all(of, itself),
+    CHECK_THROWS_WITH_AS((void)tf::detail::box_around<3>("treeform::box_of_all", of, itself),
                          "treeform::box_of_all: the box of element 20001 is empty or not finite",
                          std::invalid_argument);
     CHECK_THROWS_AS((void)tf::build_within(boxes<3>{}, itself, of[29'000]), std::invalid_argument);

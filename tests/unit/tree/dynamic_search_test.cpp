@@ -78,7 +78,7 @@ void check_nearness(const twin<D>& both, const box<D>& query) {
     std::vector<tf::neighbor<double>> expected;
     for (const auto& [id, of] : both.all) expected.push_back({id, squared_between(of, query)});
     std::sort(expected.begin(), expected.end(),
-              [](const auto& a, const auto& b) { return tf::nearer(a, b); });
+              [](const auto& a, const auto& b) { return nearer(a, b); });
     const auto distance = [&](std::uint32_t id) { return squared_between(both.all.at(id), query); };
     const auto nearest = tf::nearest(both.tree, query, distance);
     REQUIRE(nearest.has_value() == !expected.empty());
@@ -279,7 +279,7 @@ TEST_CASE("dynamic_tree: two dynamic trees, moved or not, meet where brute force
         CHECK(tf::search_all(first, b.tree, meet) == expected);
         CHECK(tf::search_any(first, b.tree, meet) == !expected.empty());
         std::sort(near.begin(), near.end(),
-                  [](const auto& x, const auto& y) { return tf::nearer(x, y); });
+                  [](const auto& x, const auto& y) { return nearer(x, y); });
         near.resize(12);
         const auto beyond_zero = [&](std::uint32_t x, std::uint32_t y) {
             const double squared = distance(x, y);

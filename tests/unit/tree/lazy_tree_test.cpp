@@ -159,7 +159,7 @@ TEST_CASE("lazy_tree: pairs, k nearest, batches and all hits are those of a whol
         const double squared = squared_between(of[x], few[y]);
         return squared > 0.0 ? squared : std::numeric_limits<double>::infinity();
     };
-    const tf::transform<3> map = tf::translation<3>(std::array{0.0, 0.0, 0.0});
+    const tf::transform<3> map = tf::transform<3>::translation(std::array{0.0, 0.0, 0.0});
     CHECK(tf::k_nearest_pairs(tf::transformed(tree, map), others, 9, between) ==
           tf::k_nearest_pairs(whole, tf::build(few, itself), 9, between));
     const auto from = [&](std::size_t query, std::uint32_t id) {

@@ -133,9 +133,9 @@ TEST_CASE("nearest pair: a tree that is treated as transformed is searched where
     const auto between = [&](std::uint32_t i, std::uint32_t j) {
         return squared_between(a[i], there[j]);
     };
-    const auto found =
-        tf::k_nearest_pairs(tf::transformed<3>(tree_a),
-                            tf::transformed<3>(tree_b, tf::translation<3>(offset)), 9, between);
+    const auto found = tf::k_nearest_pairs(
+        tf::transformed<3>(tree_a),
+        tf::transformed<3>(tree_b, tf::transform<3>::translation(offset)), 9, between);
     CHECK(are_first(found, pairs_by_brute_force(a, there), 9));
 }
 

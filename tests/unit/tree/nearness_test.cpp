@@ -26,8 +26,7 @@ answers neighbors_by_brute_force(const boxes<D>& of, const tf::aabb<double, D>& 
         const double squared = squared_between(of[i], query);
         if (std::sqrt(squared) <= radius) all.push_back({i, squared});
     }
-    std::sort(all.begin(), all.end(),
-              [](const auto& a, const auto& b) { return tf::nearer(a, b); });
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return nearer(a, b); });
     return all;
 }
 

@@ -52,7 +52,7 @@ tf::transform<D> turned(test::random& source, double scale, double reach) {
         by.rows[k][j] = std::sin(angle);
         return by;
     };
-    tf::transform<D> by = tf::after(in_plane(0, 1), in_plane(D - 2, D - 1));
+    tf::transform<D> by = in_plane(0, 1).after(in_plane(D - 2, D - 1));
     for (auto& row : by.rows) {
         for (double& entry : row) entry *= scale;
         row[D] = source.in(-reach, reach);
@@ -165,7 +165,7 @@ TEST_CASE("search both ways: upright where nothing is turned, or both trees are 
         const tf::transformed<3> a(tree_a, by_a), b(tree_b, by_b);
         return pairs_of<3>(a, b) == pairs_of<3>(a, b, tf::turned_boxes::upright);
     };
-    const auto moved = tf::translation<3>(std::array{0.25, 0.5, 1e-3});
+    const auto moved = tf::transform<3>::translation(std::array{0.25, 0.5, 1e-3});
     CHECK(same({}, {}));
     CHECK(same({}, moved));
     CHECK(same(moved, {}));

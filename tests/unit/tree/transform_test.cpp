@@ -24,37 +24,37 @@ TEST_CASE("transform: as constructed it leaves every point where it is") {
 
 TEST_CASE("transform: rows hold the matrix and then the translation") {
     CHECK(quarter_turn(tf::point2{1, 2}) == tf::point2{-2, 1});
-    CHECK(tf::translation<2>(tf::point2{3, 4})(tf::point2{1, 2}) == tf::point2{4, 6});
+    CHECK(tf::transform<2>::translation(tf::point2{3, 4})(tf::point2{1, 2}) == tf::point2{4, 6});
     const tf::transform<3> shear{{{{1, 2, 3, 4}, {0, 1, 0, 5}, {0, 0, 1, 6}}}};
     CHECK(shear(tf::point3{1, 10, 100}) == tf::point3{325, 15, 106});
 }
 
 TEST_CASE("transform: `after` is the outer map of what the inner one gives") {
-    const tf::transform<2> move = tf::translation<2>(tf::point2{3, 4});
+    const tf::transform<2> move = tf::transform<2>::translation(tf::point2{3, 4});
     const tf::point2 p{1, 2};
-    CHECK(tf::after(quarter_turn, move)(p) == quarter_turn(move(p)));
-    CHECK(tf::after(move, quarter_turn)(p) == move(quarter_turn(p)));
-    CHECK(tf::after(move, quarter_turn) != tf::after(quarter_turn, move));
+    CHECK(quarter_turn.after(move)(p) == quarter_turn(move(p)));
+    CHECK(move.after(quarter_turn)(p) == move(quarter_turn(p)));
+    CHECK(move.after(quarter_turn) != quarter_turn.after(move));
 }
 
 TEST_CASE("transform: `inverse` undoes a map, exactly where nothing is rounded") {
     const tf::transform<3> exact{{{{0, -2, 0, 3}, {0, 0, 4, -5}, {0.5, 0, 0, 1e9}}}};
-    CHECK(tf::after(tf::inverse(exact), exact) == tf::transform<3>{});
-    CHECK(tf::after(exact, tf::inverse(exact)) == tf::transform<3>{});
-    CHECK(tf::inverse(quarter_turn)(quarter_turn(tf::point2{3, 4})) == tf::point2{3, 4});
+    CHECK(exact.inverse().after(exact) == tf::transform<3>{});
+    CHECK(exact.after(exact.inverse()) == tf::transform<3>{});
+    CHECK(quarter_turn.inverse()(quarter_turn(tf::point2{3, 4})) == tf::point2{3, 4});
     const tf::transform<3> skew{{{{1, 2, 3, 4}, {0, 1, 5, 5}, {7, 0, 1, 6}}}};
-    const tf::transform<3> around = tf::after(tf::inverse(skew), skew);
+    const tf::transform<3> around = skew.inverse().after(skew);
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 4; ++j)
             CHECK(around.rows[i][j] == doctest::Approx(i == j ? 1.0 : 0.0).epsilon(1e-13));
     const tf::transform<3> flat{{{{1, 2, 3, 4}, {2, 4, 6, 5}, {7, 0, 1, 6}}}};
-    CHECK_THROWS_AS(static_cast<void>(tf::inverse(flat)), std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(flat.inverse()), std::invalid_argument);
 }
 
 TEST_CASE("transform: mirrors where its determinant is negative") {
-    CHECK_FALSE(tf::mirrors(tf::transform<3>{}));
-    CHECK_FALSE(tf::mirrors(quarter_turn));
-    CHECK(tf::mirrors(tf::transform<2>{{{{0, 1, 5}, {1, 0, 5}}}}));
+    CHECK_FALSE(tf::transform<3>{}.mirrors());
+    CHECK_FALSE(quarter_turn.mirrors());
+    CHECK(tf::transform<2>{{{{0, 1, 5}, {1, 0, 5}}}}.mirrors());
     for (int bits = 0; bits < 8; ++bits) {
         tf::transform<3> scale, turned{{{{0, 3, 0, 1}, {0, 0, 2, 1}, {1, 0, 0, 1}}}};
         bool odd = false;
@@ -63,10 +63,10 @@ TEST_CASE("transform: mirrors where its determinant is negative") {
             scale.rows[k][k] = negative ? -1.0 : 1.0;
             odd = odd != negative;
         }
-        CHECK(tf::mirrors(scale) == odd);
-        CHECK(tf::mirrors(tf::after(turned, scale)) == odd);
+        CHECK(scale.mirrors() == odd);
+        CHECK(turned.after(scale).mirrors() == odd);
     }
-    CHECK_FALSE(tf::mirrors(tf::transform<3>{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}}}}));
+    CHECK_FALSE(tf::transform<3>{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}}}}.mirrors());
 }
 
 TEST_CASE("transform: knows whether an entry is NaN or infinite") {

@@ -223,7 +223,7 @@ TEST_CASE("join_groups: faces stay, also those that collapse, and kept points ar
         mesh.points.push_back({test::unit_number(engine), test::unit_number(engine), 0.0});
     for (std::uint32_t i = 0; i + 2 < 500; i += 3) mesh.faces.push_back({i, i + 1, i + 2});
     const auto joined = [](const tf::mesh& m) {
-        return tf::join_groups(m, group_points(m.points, {.tolerance = 0.05}));
+        return group_points(m.points, {.tolerance = 0.05}).joined(m);
     };
     const tf::mesh once = joined(mesh);
     CHECK(once.points.size() < mesh.points.size());
@@ -232,12 +232,10 @@ TEST_CASE("join_groups: faces stay, also those that collapse, and kept points ar
         for (std::uint32_t j = 0; j < i; ++j)
             REQUIRE_FALSE(linked(once.points, {.tolerance = 0.05}, i, j));
     CHECK(joined(once) == once);
-    CHECK_THROWS_AS(static_cast<void>(tf::join_groups(mesh, point_groups{})),
-                    std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(point_groups{}.joined(mesh)), std::invalid_argument);
     mesh.faces.push_back({0, 1, 500});
-    CHECK_THROWS_AS(
-        static_cast<void>(tf::join_groups(mesh, group_points(mesh.points, {.tolerance = 0.05}))),
-        std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(group_points(mesh.points, {.tolerance = 0.05}).joined(mesh)),
+                    std::invalid_argument);
 }
 
 namespace {

@@ -54,10 +54,10 @@ tf::mesh_file soup(std::uint32_t n) {
             number.push_back(static_cast<std::uint16_t>(number.size()));
         }
     file.stored_faces = number.size();
-    tf::element& vertices = tf::obtain_element(file.attributes, "vertex", file.mesh.points.size());
-    tf::set_column(vertices, tf::make_column<std::uint8_t>("red", red));
-    tf::element& faces = tf::obtain_element(file.attributes, "face", number.size());
-    tf::set_column(faces, tf::make_column<std::uint16_t>("number", number));
+    tf::element& vertices = file.attributes.obtain("vertex", file.mesh.points.size());
+    vertices.set(tf::column::of<std::uint8_t>("red", red));
+    tf::element& faces = file.attributes.obtain("face", number.size());
+    faces.set(tf::column::of<std::uint16_t>("number", number));
     return file;
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("mesh tiles: what is not written in tiles, and who does not") {
     tf::write(in, soup(5));
     const tf::cloud_outline outline = tf::outline({.paths = {in}});
     CHECK(outline.has_rows);
-    CHECK(tf::find_element(outline.header.attributes, "face")->rows == 25);
+    CHECK(outline.header.attributes.find("face")->rows == 25);
     CHECK_THROWS_AS(static_cast<void>(tf::outline({.paths = {in, in}})), tf::io_error);
     CHECK_THROWS_AS(tf::weld_stream(in, here.path / "out.xyz", {}), tf::io_error);
     CHECK_FALSE(fs::exists(here.path / "out.xyz"));
@@ -167,8 +167,8 @@ tf::mesh_file triangles() {
     file.stored_faces = file.mesh.faces.size();
     std::vector<std::int32_t> ends;
     for (std::int32_t i = 0; i < 300; ++i) ends.push_back(i);
-    tf::element& edges = tf::obtain_element(file.attributes, "edge", ends.size());
-    tf::set_column(edges, tf::make_column<std::int32_t>("vertex1", ends));
+    tf::element& edges = file.attributes.obtain("edge", ends.size());
+    edges.set(tf::column::of<std::int32_t>("vertex1", ends));
     return file;
 }
 
@@ -249,8 +249,8 @@ TEST_CASE("mesh tiles: a damaged face is told of as by one, whoever reads it") {
 TEST_CASE("edge files: edges of more than two faces, with little memory") {
     const test::own_folder here("edge_files");
     const stream::work_folder folder(here.path / "work", "test");
-    stream::pacer pace({});
-    const stream::team alone{tf::process_team{}};
+    stream::cancellable_progress pace({});
+    const stream::communicator alone{tf::process_team{}};
     test::random random(2);
     for (const std::uint32_t points : {3U, 40U, 2000U}) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
@@ -287,8 +287,8 @@ TEST_CASE("edge files: of a team, each writes its uses, and counts a share of al
     for (const auto& [edge, n] : uses) expected += n > 2 ? 1 : 0;
     std::vector<std::uint64_t> counted(size);
     CHECK(test::run_as_team(size, [&](const tf::process_team& some) {
-        const stream::team all(some);
-        stream::pacer pace({});
+        const stream::communicator all(some);
+        stream::cancellable_progress pace({});
         stream::edge_files<stream::numbered_edge> files(folder, all, "edges", 60000, 1 << 20);
         for (const stream::numbered_edge e : edges[all.rank()]) files.put(e);
         counted[all.rank()] = files.count_nonmanifold(pace);

@@ -1,6 +1,6 @@
 /// \file
-/// Compressed PCD read and written by a team: each rank unpacks and packs its share, and the bytes are
-/// those of one.
+/// Compressed PCD read and written by a team: each rank unpacks and packs its share, and the bytes
+/// are those of one.
 
 #include <libmesh/stream/unpacked_pcd.hpp>
 #include <treeform/mesh/carry.hpp>
@@ -40,8 +40,7 @@ tf::mesh_file shaded_cloud(std::size_t count, test::random& random) {
         file.mesh.points.push_back({random.unit(), random.unit(), random.unit()});
         shade.push_back(0.25F * static_cast<float>(random.below(4)));
     }
-    tf::set_column(tf::obtain_element(file.attributes, "vertex", count),
-                   tf::make_column<float>("shade", shade));
+    file.attributes.obtain("vertex", count).set(tf::column::of<float>("shade", shade));
     return file;
 }
 
@@ -53,7 +52,7 @@ std::string packed_values(const tf::mesh_file& file) {
             const double value = p[axis];
             all.append(reinterpret_cast<const char*>(&value), sizeof value);
         }
-    const auto& shade = tf::find_element(file.attributes, "vertex")->columns.front().values;
+    const auto& shade = file.attributes.find("vertex")->columns.front().values;
     return all.append(reinterpret_cast<const char*>(shade.data()), shade.size());
 }
 
@@ -63,8 +62,8 @@ std::set<std::string> unpack(const fs::path& pcd, const fs::path& to, std::size_
     std::set<std::string> said;
     std::size_t ended = 0;
     CHECK(test::run_as_team(size, [&](const tf::process_team& threads) {
-        const stream::team all(threads);
-        stream::pacer pace({});
+        const stream::communicator all(threads);
+        stream::cancellable_progress pace({});
         if (all.leads()) put(to, "");
         std::string words;
         try {

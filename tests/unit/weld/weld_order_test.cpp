@@ -58,7 +58,7 @@ ids survivors(const tf::mesh& cloud, const ids& order, tf::weld_rule rule, const
     return survivor;
 }
 
-void check_survivors(const tf::cloud_weld_result& welded, const ids& expected) {
+void check_survivors(const tf::weld_result& welded, const ids& expected) {
     ids found;
     for (const std::uint32_t g : welded.groups.group_of_point)
         found.push_back(welded.groups.first_of_group[g]);
@@ -99,7 +99,7 @@ TEST_CASE("weld: an order says which point stays, ties by number and NaN last") 
         cloud.points, {.tolerance = 1.0, .order = tf::weld_order::highest, .order_by = "x"});
     CHECK(by_axis.point_of_group == ids{1, 3});
     CHECK(by_axis.groups.group_of_point == ids{0, 0, 1, 1});
-    CHECK(by_axis.points == std::vector<tf::point3>{{1, 0, 0}, {3, 0, 0}});
+    CHECK(by_axis.mesh.points == std::vector<tf::point3>{{1, 0, 0}, {3, 0, 0}});
 }
 
 TEST_CASE("weld: in any order the groups are those of the definition") {
@@ -155,8 +155,8 @@ TEST_CASE("weld: an order of whole numbers that no double holds") {
     const std::vector<std::int64_t> time{large + 1, large, -large};
     const std::vector<std::uint64_t> id{~std::uint64_t{0} - 1, ~std::uint64_t{0}, 0};
     tf::attributes properties;
-    tf::obtain_element(properties, "vertex", 3).columns = {
-        tf::make_column<std::int64_t>("time", time), tf::make_column<std::uint64_t>("id", id)};
+    properties.obtain("vertex", 3).columns = {tf::column::of<std::int64_t>("time", time),
+                                              tf::column::of<std::uint64_t>("id", id)};
     const auto kept = [&](tf::weld_order order, const char* by) {
         return tf::weld(cloud.points, properties, {.order = order, .order_by = by}).point_of_group;
     };

@@ -29,10 +29,10 @@ using test::vertex_columns;
 using ids = std::vector<std::uint32_t>;
 
 std::vector<double> values_of(const tf::attributes& a, const char* element, const char* column) {
-    const tf::column* c = tf::find_column(*tf::find_element(a, element), column);
+    const tf::column* c = a.find(element)->find(column);
     REQUIRE(c != nullptr);
     std::vector<double> values;
-    for (std::size_t i = 0; i < tf::value_count(*c); ++i) values.push_back(tf::number_at(*c, i));
+    for (std::size_t i = 0; i < c->size(); ++i) values.push_back(c->number(i));
     return values;
 }
 
@@ -52,14 +52,17 @@ TEST_CASE("weld: a property that must be equal keeps points apart, NaN being equ
     const auto groups = [&](std::vector<tf::weld_condition> conditions) {
         return tf::weld(cloud, properties, {.same = std::move(conditions)}).groups.group_of_point;
     };
+    const auto seams_of = [](const tf::attributes& of) {
+        return tf::weld_options{.keep_seams = true}.conditions(of, true);
+    };
     CHECK(groups({}) == ids(8, 0));
     CHECK(groups({{"nx"}}) == ids{0, 0, 1, 1, 2, 2, 0, 3});
     CHECK(groups({{"nx"}, {"t"}}) == ids{0, 0, 1, 1, 2, 2, 0, 3});
     CHECK(groups({{"nx"}, {"t"}, {"blue"}}) == ids{0, 0, 1, 1, 2, 2, 3, 4});
     CHECK(groups({{"nx", 1.0}}) == ids{0, 0, 1, 1, 2, 2, 0, 0});
-    CHECK(groups(tf::seam_conditions(properties)) == ids{0, 0, 1, 1, 2, 2, 3, 4});
-    CHECK(tf::seam_conditions(properties).size() == 3);
-    CHECK(tf::seam_conditions({}).empty());
+    CHECK(groups(seams_of(properties)) == ids{0, 0, 1, 1, 2, 2, 3, 4});
+    CHECK(seams_of(properties).size() == 3);
+    CHECK(seams_of({}).empty());
 }
 
 TEST_CASE("weld: the tolerance of a property is inclusive to the last bit") {
@@ -89,8 +92,8 @@ TEST_CASE("weld: whole numbers that no double holds are told apart") {
     const std::vector<std::int64_t> time{large + 1, large, large + 3};
     const std::vector<std::uint64_t> id{~std::uint64_t{0}, ~std::uint64_t{0} - 1, 0};
     tf::attributes properties;
-    tf::obtain_element(properties, "vertex", 3).columns = {
-        tf::make_column<std::int64_t>("time", time), tf::make_column<std::uint64_t>("id", id)};
+    properties.obtain("vertex", 3).columns = {tf::column::of<std::int64_t>("time", time),
+                                              tf::column::of<std::uint64_t>("id", id)};
     const auto groups = [&](const char* name, double tolerance) {
         return tf::weld(cloud, properties, {.same = {{name, tolerance}}}).groups.group_of_point;
     };
@@ -108,8 +111,7 @@ TEST_CASE("weld: whole numbers that no double holds are told apart") {
     CHECK(kept(tf::weld_keep::highest, "time") == ids{2});
     CHECK(kept(tf::weld_keep::highest, "id") == ids{0});
     const std::vector<std::int64_t> below{-1, 0, std::numeric_limits<std::int64_t>::min()};
-    tf::obtain_element(properties, "vertex", 3).columns[0] =
-        tf::make_column<std::int64_t>("time", below);
+    properties.obtain("vertex", 3).columns[0] = tf::column::of<std::int64_t>("time", below);
     CHECK(kept(tf::weld_keep::lowest, "time") == ids{2});
     CHECK(groups("time", 1.0) == ids{0, 0, 1});
 }
@@ -172,8 +174,8 @@ TEST_CASE("weld: means are of places and of floating-point columns") {
     tf::element& vertices = properties.elements[0];
     const std::vector<float> single{0.5F, 1.0F, 0.0F, 0.1F};
     const std::vector<std::uint8_t> whole{7, 8, 9, 10};
-    vertices.columns.push_back(tf::make_column<float>("f", single));
-    vertices.columns.push_back(tf::make_column<std::uint8_t>("red", whole));
+    vertices.columns.push_back(tf::column::of<float>("f", single));
+    vertices.columns.push_back(tf::column::of<std::uint8_t>("red", whole));
     const auto welded =
         tf::weld(cloud, properties, {.tolerance = 4.0, .keep = tf::weld_keep::mean});
     CHECK(welded.groups.group_of_point == ids{0, 0, 0, 1});
@@ -216,18 +218,18 @@ TEST_CASE("weld: rows of vertices, faces and edges follow, parts keep their face
     const tf::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                         {{1, 2, 0}, {0, 1, 3}, {0, 2, 4}, {2, 1, 3}, {3, 2, 4}}};
     tf::attributes properties = vertex_columns({{"q", {10, 11, 12, 13, 14}}});
-    tf::element& faces = tf::obtain_element(properties, "face", 5);
+    tf::element& faces = properties.obtain("face", 5);
     const std::vector<std::int16_t> material{0, 1, 2, 3, 4};
-    faces.columns.push_back(tf::make_column<std::int16_t>("material", material));
+    faces.columns.push_back(tf::column::of<std::int16_t>("material", material));
     tf::column wedge{
         .name = "texcoord", .type = tf::scalar_type::uint8, .list_length = tf::scalar_type::uint8};
     wedge.list_begin = {0, 1, 1, 3, 4, 6};
     for (std::uint8_t i = 0; i < 6; ++i) wedge.values.push_back(std::byte{i});
     faces.columns.push_back(wedge);
-    tf::element& edges = tf::obtain_element(properties, "edge", 3);
+    tf::element& edges = properties.obtain("edge", 3);
     const std::vector<std::int32_t> ends[] = {{0, 1, -1}, {2, 4, 77}};
-    edges.columns.push_back(tf::make_column<std::int32_t>("vertex1", ends[0]));
-    edges.columns.push_back(tf::make_column<std::int32_t>("vertex2", ends[1]));
+    edges.columns.push_back(tf::column::of<std::int32_t>("vertex1", ends[0]));
+    edges.columns.push_back(tf::column::of<std::int32_t>("vertex2", ends[1]));
     properties.parts = {{.object = "a"},
                         {.object = "b", .first_face = 1},
                         {.object = "c", .first_face = 3},

@@ -82,11 +82,11 @@ TEST_CASE("weld_stream: files, map and counts are what weld gives") {
         CHECK(streamed.status == tf::status::ok);
         CHECK(streamed.survey.points == 2000);
         CHECK(streamed.survey.tiles > 3);
-        CHECK(streamed.counts.kept == whole.points.size());
+        CHECK(streamed.counts.kept == whole.mesh.points.size());
         CHECK(streamed.counts.groups == whole.statistics.groups);
         CHECK(streamed.counts.max_displacement == whole.statistics.max_displacement);
         CHECK(map == whole.groups.group_of_point);
-        CHECK(tf::read(folder.output()).mesh.points == whole.points);
+        CHECK(tf::read(folder.output()).mesh.points == whole.mesh.points);
         CHECK_FALSE(fs::exists(folder.work()));
         const std::string bytes = content_of(folder.output());
         fs::remove(folder.output());
@@ -101,9 +101,10 @@ TEST_CASE("weld_stream: a relative tolerance is a share of the diagonal") {
     options.tolerance = 0.05;
     options.relative = true;
     const auto streamed = tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
-    const double length = 0.05 * tf::diagonal(*tf::bounding_box(folder.points()));
+    const double length = 0.05 * tf::bounding_box(folder.points())->diagonal();
     CHECK(streamed.survey.tolerance == length);
-    CHECK(streamed.counts.kept == tf::weld(folder.points(), {.tolerance = length}).points.size());
+    CHECK(streamed.counts.kept ==
+          tf::weld(folder.points(), {.tolerance = length}).mesh.points.size());
 }
 
 TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the next call goes on") {
@@ -124,7 +125,7 @@ TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the nex
         options.progress = {};
         const auto again = tf::weld_stream(folder.inputs(), outputs, options);
         CHECK(again.survey.continued == has_tiles);
-        CHECK(tf::read(folder.output()).mesh.points == whole.points);
+        CHECK(tf::read(folder.output()).mesh.points == whole.mesh.points);
         fs::remove(folder.output());
     }
 }

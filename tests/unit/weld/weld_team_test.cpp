@@ -139,10 +139,10 @@ class team_folder : public test::own_folder {
             file.mesh.points.assign(points.begin() + (second ? std::ptrdiff_t(half) : 0),
                                     second ? points.end() : points.begin() + std::ptrdiff_t(half));
             const std::size_t rows = file.mesh.points.size();
-            tf::element& vertices = tf::obtain_element(file.attributes, "vertex", rows);
+            tf::element& vertices = file.attributes.obtain("vertex", rows);
             std::vector<float> shade(rows);
             for (float& x : shade) x = 0.25F * static_cast<float>(random.below(4));
-            tf::set_column(vertices, tf::make_column<float>("shade", shade));
+            vertices.set(tf::column::of<float>("shade", shade));
             tf::write(input(second), file);
         }
     }
@@ -294,10 +294,10 @@ TEST_CASE("weld_team: text is read from where the share of each begins") {
             file.mesh.points.assign(of_file.begin() + std::ptrdiff_t(random.below(690)),
                                     of_file.end());
             const std::size_t rows = file.mesh.points.size();
-            tf::element& vertices = tf::obtain_element(file.attributes, "vertex", rows);
+            tf::element& vertices = file.attributes.obtain("vertex", rows);
             std::vector<float> shade(rows);
             for (float& x : shade) x = 0.25F * static_cast<float>(random.below(4));
-            tf::set_column(vertices, tf::make_column<float>("shade", shade));
+            vertices.set(tf::column::of<float>("shade", shade));
             work.inputs.paths.push_back(folder.path / (std::to_string(i) + "." + format));
             tf::write(work.inputs.paths.back(), file, {.ascii = true});
         }

@@ -1,4 +1,4 @@
-#include <treeform/mesh/predicates.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -268,7 +268,7 @@ TEST_CASE("weld: what cannot be meant is refused by name") {
     properties.elements[0].rows = 4;
     refused(properties, {}, "treeform::weld: column 'q' does not fit element 'vertex'");
     tf::attributes list;
-    tf::obtain_element(list, "vertex", 4).columns = {
+    list.obtain("vertex", 4).columns = {
         {.name = "l", .list_length = tf::scalar_type::uint8, .list_begin = {0, 0, 0, 0, 0}}};
     refused(list, {.same = {{"l"}}}, "treeform::weld: the vertex property 'l' is a list");
     tf::attributes faces;

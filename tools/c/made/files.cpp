@@ -32,7 +32,7 @@ void glue::fill(keeper&, const tf::column& from, treeform_column& to) {
     to.is_list = from.list_length.has_value();
     to.is_stored_elsewhere = from.role != tf::column_role::data;
     to.values = from.values.data();
-    to.value_count = tf::value_count(from);
+    to.value_count = from.size();
     if (from.list_length) to.list_begin = from.list_begin.data();
 }
 
@@ -233,7 +233,7 @@ treeform_code treeform_file_copy(const treeform_file* file, treeform_file** copy
 }
 
 treeform_code treeform_file_split_polygons(treeform_file* file) {
-    return glue::guard([&] { tf::split_polygons(glue::need(file, "file").content); });
+    return glue::guard([&] { glue::need(file, "file").content.split_polygons(); });
 }
 
 treeform_code treeform_file_round_to_las(treeform_file* file, double* moved) {
@@ -246,7 +246,7 @@ treeform_code treeform_file_round_to_las(treeform_file* file, double* moved) {
 treeform_code treeform_file_round_to_float32(treeform_file* file, double* moved) {
     return glue::guard([&] {
         (void)glue::need(moved, "moved");
-        *moved = tf::round_to_float32(glue::need(file, "file").content);
+        *moved = glue::need(file, "file").content.round_to_float32();
     });
 }
 

@@ -54,7 +54,7 @@ treeform_code treeform_select_faces(const treeform_mesh* mesh, const uint32_t* f
     return glue::guard([&] {
         glue::start(made);
         return glue::give(
-            tf::select_faces(glue::ref(mesh, "mesh"), glue::array(faces, count, "faces")), made);
+            tf::submesh(glue::ref(mesh, "mesh"), glue::array(faces, count, "faces")).mesh, made);
     });
 }
 

@@ -154,19 +154,6 @@ treeform_code treeform_feature_at_face(const treeform_mesh* mesh, treeform_featu
     });
 }
 
-treeform_code treeform_feature_at_point(const treeform_mesh* mesh, treeform_feature_kind kind,
-                                        const double point[3],
-                                        const treeform_feature_options* options,
-                                        treeform_features** features) {
-    return glue::guard([&] {
-        glue::start(features);
-        return glue::give(glue::as_list(tf::feature_at(
-                              glue::view(mesh), glue::choice<tf::feature_kind>(kind, 2, "kind"),
-                              glue::finite(point, "point"), glue::read(options))),
-                          features);
-    });
-}
-
 treeform_code treeform_fit_feature(const treeform_mesh* mesh, treeform_feature_kind kind,
                                    const uint32_t* faces, size_t face_count,
                                    treeform_features** features) {

@@ -96,7 +96,6 @@ void fill(keeper& kept, const tf::weld_condition& from, treeform_weld_condition&
 [[nodiscard]] tf::weld_options read(const treeform_weld_options* options);
 [[nodiscard]] tf::weld_options read(const treeform_weld_options& o);
 void fill(keeper& kept, const tf::weld_result& from, treeform_weld_result& to);
-void fill(keeper& kept, const tf::cloud_weld_result& from, treeform_weld_result& to);
 void fill(keeper& kept, const tf::file_weld_result& from, treeform_weld_result& to);
 void fill(keeper& kept, const tf::weld_stream_result& from, treeform_weld_stream_result& to);
 /// Those of the options that an operation has.

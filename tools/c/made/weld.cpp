@@ -82,24 +82,6 @@ void glue::fill(keeper&, const tf::weld_result& from, treeform_weld_result& to) 
     to.left_alone = from.statistics.left_alone;
 }
 
-void glue::fill(keeper&, const tf::cloud_weld_result& from, treeform_weld_result& to) {
-    to.mesh = arrays({from.points, {}});
-    to.group_of_point = or_null(from.groups.group_of_point);
-    to.point_count = from.groups.group_of_point.size();
-    to.first_of_group = or_null(from.groups.first_of_group);
-    to.group_count = from.groups.first_of_group.size();
-    to.point_of_group = or_null(from.point_of_group);
-    to.merged_groups = from.statistics.groups;
-    to.non_finite = from.statistics.non_finite;
-    to.collapsed = from.statistics.collapsed;
-    to.degenerate = from.statistics.degenerate;
-    to.max_displacement = from.statistics.max_displacement;
-    to.nonmanifold_before = from.statistics.nonmanifold_before;
-    to.nonmanifold_after = from.statistics.nonmanifold_after;
-    to.flipped = from.statistics.flipped;
-    to.left_alone = from.statistics.left_alone;
-}
-
 void glue::fill(keeper&, const tf::file_weld_result& from, treeform_weld_result& to) {
     to.group_of_point = or_null(from.groups.group_of_point);
     to.point_count = from.groups.group_of_point.size();

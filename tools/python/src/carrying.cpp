@@ -41,12 +41,12 @@ py::tuple turned(const held_mesh& body, const array_of<double>& matrix) {
 
 py::tuple turned_over(const held_mesh& body, const tf::transform<3>& by) {
     const bool bare = body.data().is_none();
-    if (bare && !tf::mirrors(by)) return py::make_tuple(body.faces(), py::none());
+    if (bare && !by.mirrors()) return py::make_tuple(body.faces(), py::none());
     file_data copy = bare ? file_data() : body.data().cast<const file_data&>();
     tf::mesh_file& file = copy.own();
     const auto faces = body.view().faces;
     file.mesh = {{}, {faces.begin(), faces.end()}};
-    tf::transform_file(file, by);
+    file.move(by);
     py::array there = as_array(std::move(file.mesh.faces));
     file.mesh = {};
     return py::make_tuple(std::move(there), bare ? py::none() : py::cast(std::move(copy)));
@@ -69,7 +69,7 @@ void require_rows(const tf::mesh_file& file, std::size_t operand) {
             refuse(e.name + " has " + std::to_string(e.rows) + " rows; there are " +
                    std::to_string(rows));
     }
-    if (const std::string fault = tf::fault_of(file.attributes.corners, triangles); !fault.empty())
+    if (const std::string fault = file.attributes.corners.fault(triangles); !fault.empty())
         refuse(fault);
 }
 
@@ -85,22 +85,24 @@ carrying::carrying(const held_meshes& operands) {
         file.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
         require_rows(file, files_.size() - 1);
     }
-    for (const tf::mesh_file& file : files_) sources_.push_back({&file, {}});
+    std::vector<tf::carry_source> sources;
+    for (const tf::mesh_file& file : files_) sources.push_back({&file, {}});
+    sources_ = std::move(sources);
 }
 
 void carrying::keep_apart(tf::boolean_options& options) const {
-    if (!options.simplify && tf::has_vertex_values(sources_)) options.keep_cuts = true;
+    if (!options.simplify && sources_.has_vertex_values()) options.keep_cuts = true;
 }
 
-bool carrying::mixes() const { return !sources_.empty() && tf::merging_mixes_values(sources_); }
+bool carrying::mixes() const { return sources_.merging_mixes_values(); }
 
 std::vector<std::uint32_t> carrying::face_groups() const {
-    return sources_.empty() ? std::vector<std::uint32_t>() : tf::face_groups(sources_, true, false);
+    return sources_.face_groups(true, false);
 }
 
 template <class Carry>
 py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
-    if (sources_.empty()) return py::none();
+    if (sources_.all().empty()) return py::none();
     tf::mesh_file result;
     without_lock([&] {
         result.mesh = made;
@@ -111,14 +113,13 @@ py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
 }
 
 py::object carrying::to(const tf::mesh& made, const tf::carried_elements& elements) const {
-    return carried(made, [&](tf::mesh_file& file) { tf::carry(file, sources_, elements); });
+    return carried(made, [&](tf::mesh_file& file) { sources_.carry(file, elements); });
 }
 
 py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
                         std::span<const std::uint32_t> vertex_source) const {
-    return carried(made, [&](tf::mesh_file& file) {
-        tf::carry(file, sources_.front(), face_source, vertex_source);
-    });
+    return carried(made,
+                   [&](tf::mesh_file& file) { sources_.carry(file, face_source, vertex_source); });
 }
 
 void add_carrying(py::module_& module) { module.def("turned", &turned); }

@@ -41,7 +41,8 @@ class carrying {
     py::object carried(const tf::mesh& made, Carry&& carry) const;
 
     std::vector<tf::mesh_file> files_;
-    std::vector<tf::carry_source> sources_;  ///< empty: there is nothing to carry
+    tf::carry_sources sources_{
+        std::vector<tf::carry_source>{}};  ///< empty: there is nothing to carry
 };
 
 /// The faces of a body that `by` moves, turned over where it mirrors, and a copy of what the body has,

@@ -90,7 +90,7 @@ py::tuple read_by(bool join, const Take& take) {
         if (join && !read.indexed) {
             for (tf::element& e : read.attributes.elements)
                 if (e.name == "vertex")
-                    e = gather(e, tf::find_equal_points(read.mesh.points).first_of_new);
+                    e = e.gathered(tf::find_equal_points(read.mesh.points).first_of_new);
             read.mesh = tf::join_equal_points(read.mesh);
             read.indexed = true;
         }
@@ -196,7 +196,7 @@ py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const f
 
 py::object column_values(const tf::column& c) {
     return tf::with_type(c.type, [&]<class T>(T) -> py::object {
-        std::vector<T> values(tf::value_count(c));
+        std::vector<T> values(c.size());
         if (!values.empty()) std::memcpy(values.data(), c.values.data(), c.values.size());
         py::array numbers = as_array<T>(std::move(values));
         if (!c.list_length) return numbers;
@@ -207,7 +207,7 @@ py::object column_values(const tf::column& c) {
 
 py::dict columns(const file_data& data, const std::string& element) {
     py::dict all;
-    if (const tf::element* rows = tf::find_element(data.file().attributes, element))
+    if (const tf::element* rows = data.file().attributes.find(element))
         for (const tf::column& c : rows->columns)
             if (c.role == tf::column_role::data) all[py::str(c.name)] = column_values(c);
     return all;
@@ -219,13 +219,13 @@ void set_column(file_data& data, const std::string& element, const std::string& 
         throw std::invalid_argument(name +
                                     ": one value for each row, in an array of one dimension");
     const auto rows = static_cast<std::size_t>(values.size());
-    tf::element& to = tf::obtain_element(data.own().attributes, element, rows);
+    tf::element& to = data.own().attributes.obtain(element, rows);
     if (to.rows != rows)
         throw std::invalid_argument(name + ": " + std::to_string(rows) + " values for " +
                                     std::to_string(to.rows) + " rows");
     const auto add = [&]<class T>(T) {
         const auto typed = array_of<T>::ensure(values);
-        tf::set_column(to, tf::make_column<T>(name, {typed.data(), rows}));
+        to.set(tf::column::of<T>(name, {typed.data(), rows}));
     };
     for (int type = 0; type < 10; ++type) {
         const auto scalar = static_cast<tf::scalar_type>(type);

@@ -43,7 +43,7 @@ py::tuple read_urdf(const std::filesystem::path& path,
         tf::urdf_robot content =
             tf::read_urdf(path, {.visual = visual, .package_folders = package_folders});
         double files = 0.0;
-        tf::robot_parts all = tf::parts_of(content, [&](const std::filesystem::path& file) {
+        tf::robot_parts all = content.parts([&](const std::filesystem::path& file) {
             const double share = files++ / static_cast<double>(content.meshes.size());
             if (report && !report(share)) throw cancelled();
             return tf::as_mesh(tf::read(file)).mesh;
@@ -74,7 +74,7 @@ py::array_t<double> poses(const robot& of, const std::vector<std::string>& joint
     for (std::size_t p = 0; p < count; ++p) {
         for (std::size_t j = 0; j < joints.size(); ++j)
             given[j].value = values.data()[p * joints.size() + j];
-        const auto places = tf::link_transforms(of.content, given);
+        const auto places = of.content.link_transforms(given);
         for (const std::uint32_t link : of.parts.links) {
             for (const auto& row : places[link].rows) to = std::copy(row.begin(), row.end(), to);
             for (const double entry : {0.0, 0.0, 0.0, 1.0}) *to++ = entry;

@@ -86,12 +86,12 @@ py::dict weld_cloud(const points_array& points, const file_data* data, tf::weld_
     const std::optional<file_data> kept = copy_of(data);
     const tf::points_view all = points_of(points);
     options.label = rows_of<std::uint32_t>(label);
-    tf::cloud_weld_result result = run([&](const tf::progress_callback& report) {
+    tf::weld_result result = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return kept ? tf::weld(all, kept->file().attributes, options) : tf::weld(all, options);
     });
     py::dict made = common(result, kept);
-    made["points"] = as_array(std::move(result.points));
+    made["points"] = as_array(std::move(result.mesh.points));
     return made;
 }
 

@@ -190,9 +190,6 @@ struct align_result {
 ///         Patterns, PAMI 13 (1991); trimming: Chetverikov, Stepanov and Krsek, IVC 23 (2005);
 ///         weights and acceleration: Zhang, Yao and Deng, Fast and Robust Iterative Closest Point,
 ///         PAMI 44 (2022); turns: Alexa, Super-Fibonacci Spirals, CVPR (2022)
-[[nodiscard]] TREEFORM_API align_result align(points_view moving, const mesh_ref& fixed,
-                                              const align_options& options = {});
-/// The same of a mesh's points.
 [[nodiscard]] TREEFORM_API align_result align(const mesh_ref& moving, const mesh_ref& fixed,
                                               const align_options& options = {});
 

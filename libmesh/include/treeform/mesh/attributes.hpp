@@ -34,26 +34,24 @@ struct corner_values {
     std::vector<face> texture_of_corner{};  ///< [F] numbers in `texture`; empty: no corner has any
     std::vector<face> normal_of_corner{};   ///< [F] numbers in `normals`; empty: no corner has any
 
+    /// The values of the corners of some triangles, in the order of `triangles`. `texture` and
+    /// `normals` stay complete.
+    ///
+    /// \pre each of `triangles` is one of those that have these values
+    [[nodiscard]] TREEFORM_API corner_values
+    gathered(std::span<const std::uint32_t> triangles) const;
+
+    /// Appends the values of `more_triangles` triangles to these of `triangles` triangles.
+    ///
+    /// \pre together, both have fewer texture coordinates, and fewer normals, than `none`
+    TREEFORM_API void append(std::size_t triangles, const corner_values& more,
+                             std::size_t more_triangles);
+
+    /// What is wrong with them as values of `triangles` triangles; empty when they are valid.
+    [[nodiscard]] TREEFORM_API std::string fault(std::size_t triangles) const;
+
     friend bool operator==(const corner_values&, const corner_values&) = default;
 };
-
-/// The values of the corners of some triangles, in the order of `triangles`. `texture` and
-/// `normals` stay complete.
-///
-/// \pre each number is less than the number of triangles that `c` is for
-[[nodiscard]] TREEFORM_API corner_values gather(const corner_values& c,
-                                                std::span<const std::uint32_t> triangles);
-
-/// Appends the values of `more`, which is for `more_triangles` triangles, to `to`, which is for
-/// `triangles` triangles.
-///
-/// \pre together, both have fewer texture coordinates, and fewer normals, than
-///      `corner_values::none`
-TREEFORM_API void append(corner_values& to, std::size_t triangles, const corner_values& more,
-                         std::size_t more_triangles);
-
-/// What is wrong with `c` as values of `triangles` triangles, in words; empty when it is valid.
-[[nodiscard]] TREEFORM_API std::string fault_of(const corner_values& c, std::size_t triangles);
 
 /// The type of the values of a column.
 enum class scalar_type : std::uint8_t {
@@ -145,27 +143,25 @@ struct column {
     std::vector<std::byte> values{};          ///< in the machine's byte order, row after row
     std::vector<std::uint64_t> list_begin{};  ///< [rows + 1] first value of each list; else empty
 
+    /// A column with one value a row.
+    template <class T>
+    [[nodiscard]] static column of(std::string name, std::span<const T> values) {
+        column c;
+        c.name = std::move(name);
+        c.type = scalar_type_of<T>();
+        c.values.resize(values.size_bytes());
+        if (!values.empty()) std::memcpy(c.values.data(), values.data(), values.size_bytes());
+        return c;
+    }
+
+    /// Number of values, over all rows.
+    [[nodiscard]] std::size_t size() const { return values.size() / size_of(type); }
+
+    /// Value `i` as a double: exact, except that whole numbers beyond 2^53 are rounded.
+    [[nodiscard]] TREEFORM_API double number(std::size_t i) const;
+
     friend bool operator==(const column&, const column&) = default;
 };
-
-/// Number of values a column holds, over all its rows.
-[[nodiscard]] inline std::size_t value_count(const column& c) {
-    return c.values.size() / size_of(c.type);
-}
-
-/// Value number `i` as a double: exact, except that whole numbers beyond 2^53 are rounded.
-[[nodiscard]] TREEFORM_API double number_at(const column& c, std::size_t i);
-
-/// A column with one value a row.
-template <class T>
-[[nodiscard]] column make_column(std::string name, std::span<const T> values) {
-    column c;
-    c.name = std::move(name);
-    c.type = scalar_type_of<T>();
-    c.values.resize(values.size_bytes());
-    if (!values.empty()) std::memcpy(c.values.data(), values.data(), values.size_bytes());
-    return c;
-}
 
 /// A kind of row in a file, such as vertices, with its properties in the order of the file.
 struct element {
@@ -173,27 +169,27 @@ struct element {
     std::size_t rows = 0;
     std::vector<column> columns{};
 
+    /// The column of that name; null when there is none.
+    [[nodiscard]] TREEFORM_API const column* find(std::string_view column_name) const;
+
+    /// Names of the columns with values that a name stands for: the one of that name, or else those
+    /// of a kind, "normal", "uv" or "color", whatever formats call them. Empty where there are none.
+    [[nodiscard]] TREEFORM_API std::vector<std::string> columns_called(
+        std::string_view column_name) const;
+
+    /// Replaces the column with the name of `c`, or appends `c` when there is none. Returns whether
+    /// there was one.
+    ///
+    /// \pre `c` has a value for each row
+    TREEFORM_API bool set(column c);
+
+    /// Some rows, in the order of `which`; a row may come several times.
+    ///
+    /// \pre each of `which` is less than `rows`
+    [[nodiscard]] TREEFORM_API element gathered(std::span<const std::uint32_t> which) const;
+
     friend bool operator==(const element&, const element&) = default;
 };
-
-/// Some rows of `e`, in the order of `rows`; a row may come several times.
-///
-/// \pre every row is less than `e.rows`
-[[nodiscard]] TREEFORM_API element gather(const element& e, std::span<const std::uint32_t> rows);
-
-/// The column of that name; null when there is none.
-[[nodiscard]] TREEFORM_API const column* find_column(const element& e, std::string_view name);
-
-/// Names of the columns with values that `name` stands for: the one of that name, or else those of a
-/// kind, "normal", "uv" or "color", whatever formats call them. Empty where there are none.
-[[nodiscard]] TREEFORM_API std::vector<std::string> columns_called(const element& e,
-                                                                   std::string_view name);
-
-/// Replaces the column with the name of `c`, or appends `c` when there is none. Returns whether
-/// there was one.
-///
-/// \pre `c` has a value for each row of `e`
-TREEFORM_API bool set_column(element& e, column c);
 
 /// Consecutive faces that a file puts under one name. A part ends where the next one starts.
 struct part {
@@ -222,14 +218,13 @@ struct attributes {
     std::vector<std::string> obj_info{};  ///< PLY: one line each
     std::string header{};                 ///< binary STL: its first 80 bytes
 
+    /// The element of that name; null when there is none.
+    [[nodiscard]] TREEFORM_API const element* find(std::string_view element_name) const;
+
+    /// The element of that name; when there is none, a new one with `rows` rows, at the end.
+    [[nodiscard]] TREEFORM_API element& obtain(std::string_view element_name, std::size_t rows);
+
     friend bool operator==(const attributes&, const attributes&) = default;
 };
-
-/// The element of that name; null when there is none.
-[[nodiscard]] TREEFORM_API const element* find_element(const attributes& a, std::string_view name);
-
-/// The element of that name; when there is none, a new one with `rows` rows, at the end.
-[[nodiscard]] TREEFORM_API element& obtain_element(attributes& a, std::string_view name,
-                                                   std::size_t rows);
 
 }  // namespace treeform

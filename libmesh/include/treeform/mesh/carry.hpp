@@ -9,7 +9,6 @@
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/detail/export.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -46,39 +46,70 @@ struct carried_elements {
     std::span<const operand_element> face_of_cut_vertex{};  ///< [V] or empty
 };
 
-/// Gives `file`, whose mesh was made of the inputs, their attributes: columns of vertices and faces
-/// with one value a row, texture coordinates and normals of corners, materials and the files of
-/// materials and textures; of a single input, also the names of its parts.
-///
-/// A face gets the values of its source, the face that it lies in; a vertex those of its source.
-/// For a new vertex on a cut, values are interpolated between the corners of the face that it lies
-/// in (`face_of_cut_vertex`, or else the lowest source of its faces), and so are values of corners.
-/// Where an input lacks a column, or a face has no source, the value is 0 or NaN. Normals are
-/// flipped where the surface is, and interpolated ones are scaled to length 1. Lists and other
-/// elements are not carried.
-///
-/// \pre  sources are in range
-/// \cost O(V + F) for each column
-TREEFORM_API void carry(mesh_file& file, std::span<const carry_source> inputs,
-                        const carried_elements& made);
+/// The inputs of an operation, whose attributes its result gets. Files are not copied: they must
+/// live as long.
+class carry_sources {
+  public:
+    carry_sources(const carry_source& one) : all_{one} {}  // NOLINT: one is many, too
+    carry_sources(std::vector<carry_source> all) : all_(std::move(all)) {}  // NOLINT: as above
 
-/// The same for what was made of a single input, with sources as in `resolve_result`:
-/// `operand_element::none` stands for no source.
-TREEFORM_API void carry(mesh_file& file, const carry_source& input,
-                        std::span<const std::uint32_t> face_source,
-                        std::span<const std::uint32_t> vertex_source);
+    [[nodiscard]] const std::vector<carry_source>& all() const { return all_; }
+
+    /// Gives `file`, whose mesh was made of the inputs, their attributes: columns of vertices and
+    /// faces with one value a row, texture coordinates and normals of corners, materials and the
+    /// files of materials and textures; of a single input, also the names of its parts.
+    ///
+    /// A face gets the values of its source, the face that it lies in; a vertex those of its source.
+    /// For a new vertex on a cut, values are interpolated between the corners of the face that it
+    /// lies in (`face_of_cut_vertex`, or else the lowest source of its faces), and so are values of
+    /// corners. Where an input lacks a column, or a face has no source, the value is 0 or NaN.
+    /// Normals are flipped where the surface is, and interpolated ones are scaled to length 1. Lists
+    /// and other elements are not carried.
+    ///
+    /// \pre  sources are in range
+    /// \cost O(V + F) for each column
+    TREEFORM_API void carry(mesh_file& file, const carried_elements& made) const;
+
+    /// The same for what was made of a single input, with sources as in `resolve_result`:
+    /// `operand_element::none` stands for no source.
+    TREEFORM_API void carry(mesh_file& file, std::span<const std::uint32_t> face_source,
+                            std::span<const std::uint32_t> vertex_source) const;
+
+    /// [F of all inputs, in order] A group for each face, for `boolean_options::face_groups`. With
+    /// `by_values`, a group has one material and equal values in all columns that are carried; a
+    /// face whose corners differ in texture coordinates or normals is a group of its own. With
+    /// `by_input`, a group has faces of one input only. Empty when all would be in one group.
+    /// \cost O(V + F) for each column
+    [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> face_groups(bool by_values,
+                                                                      bool by_input) const;
+
+    /// Whether vertices of an input have values that are carried.
+    [[nodiscard]] TREEFORM_API bool has_vertex_values() const;
+
+    /// Whether merging faces, as `boolean_options::keep_cuts` prevents, may mix values that are
+    /// carried: vertices have some, or not all faces have the same.
+    /// \cost as `face_groups`
+    [[nodiscard]] TREEFORM_API bool merging_mixes_values() const;
+
+    /// Whether an input has values that are not carried.
+    [[nodiscard]] TREEFORM_API bool has_values_left_out() const;
+
+    /// Names of materials, ascending, that occur in inputs with different material files. An OBJ
+    /// made of these inputs can have only one material of that name.
+    [[nodiscard]] TREEFORM_API std::vector<std::string> ambiguous_materials() const;
+
+  private:
+    std::vector<carry_source> all_;
+};
 
 /// Gives faces the uint32 columns NAME_mesh and NAME_face: the operand that each comes from, and its
 /// number there. A comment for each of `inputs` says which one a number stands for. Columns and
-/// comments of these names from an earlier result go.
+/// comments of these names from an earlier result go; without `inputs`, none take their place.
 ///
-/// \pre `face_source` has an element for each face
-TREEFORM_API void add_source_columns(mesh_file& file, const std::string& name,
+/// \pre `face_source` has an element for each face, unless `inputs` is empty
+TREEFORM_API void set_source_columns(mesh_file& file, const std::string& name,
                                      std::span<const operand_element> face_source,
                                      std::span<const std::string> inputs);
-
-/// Drops these columns and comments, which an earlier result may have left.
-TREEFORM_API void drop_source_columns(mesh_file& file, const std::string& name);
 
 /// A part of a scene as a file of its own.
 struct file_part {
@@ -88,7 +119,7 @@ struct file_part {
 };
 
 /// The parts of a file (`scene_parts`), each with the points and faces that are its own, and with
-/// their attributes (`carry`). Parts whose open edges coincide are patches of one surface, and one
+/// their attributes (`carry_sources`). Parts whose open edges coincide are patches of one surface, and one
 /// part; solids that touch are not.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
@@ -113,7 +144,7 @@ struct repaired_part {
 
 /// A file whose mesh was mended.
 struct repaired_file {
-    mesh_file file{};  ///< in the format of the input, with its attributes (`carry`)
+    mesh_file file{};  ///< in the format of the input, with its attributes (`carry_sources`)
     /// [F'] the number in the input file of the face that each lies in, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
     std::vector<std::uint8_t> is_left{};  ///< [F] of the input's mesh, as in `repair_result`
@@ -129,10 +160,10 @@ struct repaired_file {
 /// Parts are those of `scene_parts` with the vertices as the file numbers them; those whose open
 /// edges coincide are patches of one surface, and one part. What `repair_options` says of the mesh,
 /// such as `max_loss`, then holds of each part. Cuts are kept where merging would mix values
-/// (`merging_mixes_values`), of faces within a part.
+/// (`carry_sources::merging_mixes_values`), of faces within a part.
 ///
 /// \throws std::invalid_argument as `repair`
-/// \cost   as `repair` and `carry`
+/// \cost   as `repair` and `carry_sources::carry`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repaired_file repair_file(const carry_source& input,
                                                      const repair_options& options = {},
@@ -148,33 +179,6 @@ struct repaired_file {
 find_solid_defects(const carry_source& input, repair_scope scope = repair_scope::each_part,
                    const progress_callback& progress = {});
 
-/// [F of all inputs, in order] A group for each face, for `boolean_options::face_groups`. With
-/// `by_values`, a group has one material and equal values in all columns that are carried; a face
-/// whose corners differ in texture coordinates or normals is a group of its own. With `by_input`, a
-/// group has faces of one input only. Empty when all faces would be in one group.
-/// \cost O(V + F) for each column
-[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> face_groups(
-    std::span<const carry_source> inputs, bool by_values, bool by_input);
-
-/// Whether vertices of an input have values that `carry` carries.
-[[nodiscard]] TREEFORM_API bool has_vertex_values(std::span<const carry_source> inputs);
-
-/// Whether merging faces, as `boolean_options::keep_cuts` prevents, may mix values that `carry`
-/// carries: vertices have some, or not all faces have the same.
-/// \cost as `face_groups`
-[[nodiscard]] TREEFORM_API bool merging_mixes_values(std::span<const carry_source> inputs);
-
-/// Whether an input has values that `carry` leaves out.
-[[nodiscard]] TREEFORM_API bool has_values_left_out(std::span<const carry_source> inputs);
-
-/// Names of materials, ascending, that occur in inputs with different material files. An OBJ made
-/// of these inputs can have only one material of that name.
-[[nodiscard]] TREEFORM_API std::vector<std::string> ambiguous_materials(
-    std::span<const mesh_file* const> inputs);
-
-/// The column "texnumber" of faces, numbers in `texture_files`; null when there is none.
-[[nodiscard]] TREEFORM_API const column* texture_numbers(const mesh_file& file);
-
 /// Gives all `files` one common list of texture files, and their faces int32 numbers in it
 /// ("texnumber"). The list is that of the first file, then the names that further ones add. `names`
 /// has one name for each file, for the warnings.
@@ -186,46 +190,36 @@ find_solid_defects(const carry_source& input, repair_scope scope = repair_scope:
 [[nodiscard]] TREEFORM_API std::vector<io_warning> unite_textures(
     std::span<mesh_file* const> files, std::span<const std::string> names);
 
-/// Moves all of the file: its points, and its normals as below. Where `by` mirrors, faces are turned
-/// over, with the values of their corners, so that they look outward as before.
-TREEFORM_API void transform_file(mesh_file& file, const transform<3>& by);
-
-/// Turns normals as `by` does, and keeps their lengths: the columns nx, ny, nz of all elements, and
-/// the normals of corners. By a mirror, what looked outward does so still, as faces do that are
-/// turned over.
-TREEFORM_API void transform_normals(mesh_file& file, const transform<3>& by);
+/// "#rrggbb" of each mark: gray for faces in no pair, then by `pair_kind`.
+inline constexpr std::array<const char*, 1 + pair_kind_count> mark_colors{
+    "#b4bac2", "#e02020", "#f08c00", "#ecd000", "#d81fbf", "#7432d6", "#00a0c0", "#6b4a2b"};
 
 /// Faces that meet, marked by the kind of pair and by region.
 struct face_marks {
-    std::vector<std::uint8_t> kind;    ///< [F] 0: in no pair; else 1 + the gravest `pair_kind`
-    std::vector<std::int32_t> region;  ///< [F] -1: in no pair
+    std::vector<std::uint8_t> kind{};    ///< [F] 0: in no pair; else 1 + the gravest `pair_kind`
+    std::vector<std::int32_t> region{};  ///< [F] -1: in no pair
+
+    face_marks() = default;
+    /// The marks of `face_count` faces. Crossing is the gravest kind, then pierce, overlap, fold,
+    /// duplicate, touching, degenerate.
+    ///
+    /// \pre `regions` are those of `pairs`, whose faces are in range
+    TREEFORM_API face_marks(std::size_t face_count, std::span<const face_pair> pairs,
+                            const intersection_regions& regions);
+
+    /// Gives `file` these marks of `looked_at`, its faces that were looked at: colors of faces and
+    /// of vertices (at a vertex, of its first face that is in a pair), and the properties tf_class
+    /// and tf_region of faces. Polygons become triangles; a file without numbers of vertices gets
+    /// some, and its other properties are left out.
+    ///
+    /// \pre  `looked_at` is of this file, and the marks are of its faces
+    /// \cost O(V + F)
+    TREEFORM_API void color(mesh_file& file, const usable_mesh& looked_at) const;
 
     /// Faces in at least one pair.
     [[nodiscard]] std::uint64_t marked() const {
         return kind.size() - static_cast<std::uint64_t>(std::count(kind.begin(), kind.end(), 0));
     }
 };
-
-/// The marks of `face_count` faces. Crossing is the gravest kind, then pierce, overlap, fold,
-/// duplicate, touching, degenerate.
-///
-/// \pre `regions` are those of `pairs`, whose faces are in range
-[[nodiscard]] TREEFORM_API face_marks mark_faces(std::size_t face_count,
-                                                 std::span<const face_pair> pairs,
-                                                 const intersection_regions& regions);
-
-/// "#rrggbb" of each mark: gray for faces in no pair, then by `pair_kind`.
-inline constexpr std::array<const char*, 1 + pair_kind_count> mark_colors{
-    "#b4bac2", "#e02020", "#f08c00", "#ecd000", "#d81fbf", "#7432d6", "#00a0c0", "#6b4a2b"};
-
-/// Gives `file` the marks of `looked_at`, its faces that were looked at: colors of faces and of
-/// vertices (at a vertex, of its first face that is in a pair), and the properties tf_class and
-/// tf_region of faces. Polygons become triangles; a file without numbers of vertices gets some, and
-/// its other properties are left out.
-///
-/// \pre  `looked_at` is of this file, and `marks` of its faces
-/// \cost O(V + F)
-TREEFORM_API void color_marks(mesh_file& file, const usable_mesh& looked_at,
-                              const face_marks& marks);
 
 }  // namespace treeform

@@ -3,6 +3,7 @@
 /// Which parts of an assembly penetrate each other, touch, or are too close; where, and how deep.
 /// The same meshes in many poses.
 
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -75,7 +76,7 @@ struct clash_result {
     std::uint64_t boxes_apart = 0;          ///< pairs that their boxes keep apart: not looked at
     std::uint64_t ignored = 0;              ///< pairs left out whose boxes are not apart
     std::uint64_t parts_indexed = 0;
-    bool cancelled = false;  ///< `progress` asked to stop: nothing else is set
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
 
     /// Pairs that penetrate or are closer than the clearance; with a clearance, those that touch,
     /// too.
@@ -99,18 +100,6 @@ struct clash_result {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API clash_result clash(const mesh_refs& parts,
                                               const clash_options& options = {});
-
-/// Adds a file with a body for each name in it (object and group, node of a scene), or one body
-/// where there are no names. Unlike `body_set::add_parts`, parts that have points in common stay
-/// apart, so that they may touch.
-///
-/// \cost O(V + F)
-TREEFORM_API body_file& add_named_parts(body_set& bodies, mesh_file file, std::string label = {},
-                                        std::string name = {});
-
-/// Whether `name` is what `pattern` says: `*` stands for any characters, also none, `?` for one.
-/// \cost O(pattern times name)
-[[nodiscard]] TREEFORM_API bool matches(std::string_view pattern, std::string_view name);
 
 /// All pairs of different parts of which one's name matches the first pattern, and the other's the
 /// second; ascending, each once, the lower number first.
@@ -158,7 +147,7 @@ struct pose_result {
     std::vector<std::vector<pose_clash>> poses{};
     std::uint64_t clashing = 0;     ///< poses with a pair that penetrates or is too close
     std::uint64_t boxes_apart = 0;  ///< pairs that their boxes keep apart, over all poses
-    bool cancelled = false;         ///< `progress` asked to stop: nothing else is set
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
 };
 
 /// What clashes in each of many poses. `poses` has a transform for each part, pose after pose:

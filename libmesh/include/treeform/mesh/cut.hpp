@@ -133,7 +133,9 @@ struct components_options {
 
 /// The faces of these numbers, in this order, and the points that they use, in the order of `mesh`.
 ///
-/// \throws std::invalid_argument as `select_faces`
+/// \throws std::invalid_argument naming the number that is no face of the mesh, or a face with a
+///         corner out of range
+/// \cost   O(V + F)
 [[nodiscard]] TREEFORM_API mesh_part submesh(const mesh_ref& mesh,
                                              std::span<const std::uint32_t> faces);
 

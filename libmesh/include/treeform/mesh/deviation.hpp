@@ -3,6 +3,7 @@
 /// How far the points of a mesh or cloud are from a surface, each with its sign, and what that comes
 /// to: means, percentiles, a histogram, the share within a tolerance band.
 
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -82,7 +83,7 @@ struct deviation_result {
     /// Points whose side was found by a winding number of their own; all others share that of a
     /// neighbor, from which no face separates them, or faces that were counted.
     std::uint64_t winding_numbers = 0;
-    bool cancelled = false;  ///< `progress` asked to stop: nothing else is set
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
 };
 
 /// How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of all
@@ -104,12 +105,6 @@ struct deviation_result {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<deviation_result> deviation(
     const mesh_ref& a, const mesh_refs& b, const deviation_options& options = {});
-
-/// [V] the distances of a body's points, as points of its file; NaN for points that are not the
-/// body's. `distances` are those of the points of its shape.
-[[nodiscard]] TREEFORM_API std::vector<double> distances_in_file(const body_set& bodies,
-                                                                 std::size_t body,
-                                                                 std::span<const double> distances);
 
 /// Gives the vertices of `file` the property "distance" and colors from blue (`low` or less) over
 /// white (0) to red (`high` or more); gray where a distance is NaN.

@@ -2,6 +2,7 @@
 /// \file
 /// Intersections of two meshes, and of a mesh with a box.
 
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
@@ -41,7 +42,7 @@ struct mesh_intersection_result {
     std::uint64_t exact_pairs = 0;    ///< of these, undecided by the filter
     predicate_counters predicates{};  ///< what the undecided pairs cost
     search_statistics searched{};     ///< what was looked at; the rest of both meshes was skipped
-    bool cancelled = false;           ///< `progress` asked to stop
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`
 };
 
 /// All pairs of a face of `a` and a face of `b` that have a common point.

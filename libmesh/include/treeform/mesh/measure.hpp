@@ -122,13 +122,6 @@ struct mesh_measure {
 [[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(const mesh_ref& a, const mesh_ref& b,
                                                                const measure_options& options = {});
 
-/// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.
-///
-/// \pre coordinates are finite; `p` is on the triangle, except for rounding: otherwise the weights
-///      are those of some other point of it
-[[nodiscard]] TREEFORM_API std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t,
-                                                                     const point3& p);
-
 /// How to look for a way out.
 struct depth_options {
     std::size_t directions =

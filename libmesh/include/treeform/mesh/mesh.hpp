@@ -75,6 +75,10 @@ struct mesh {
 struct box3 {
     point3 min;
     point3 max;
+
+    /// Length of the diagonal, rounded. Where it would be infinite, the largest double.
+    [[nodiscard]] TREEFORM_API double diagonal() const;
+
     friend bool operator==(const box3&, const box3&) = default;
 };
 
@@ -83,8 +87,5 @@ struct box3 {
 /// \cost O(V) time
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<box3> bounding_box(points_view points);
-
-/// Length of the diagonal, rounded. Where it would be infinite, the largest double.
-[[nodiscard]] TREEFORM_API double diagonal(const box3& box);
 
 }  // namespace treeform

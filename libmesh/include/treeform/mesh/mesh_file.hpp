@@ -6,6 +6,7 @@
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <array>
 #include <cstddef>
@@ -106,7 +107,7 @@ struct named_column {
 struct read_options {
     /// Of XYZ, PTS and CSV: names for columns. Those for x, y and z are the coordinates.
     std::vector<named_column> columns{};
-    bool drop_nan = false;  ///< `drop_non_finite`, which a warning says; of `read` alone
+    bool drop_nan = false;  ///< `mesh_file::drop_non_finite`, which a warning says; of `read` alone
 };
 
 /// The content of a file. Points and faces keep the order and the numbers that they have in it:
@@ -128,16 +129,28 @@ struct mesh_file {
     /// Of colors and intensities whose scale shows in their values alone. Another format is written
     /// by what is here; what is not here is looked for in the columns.
     std::vector<value_range> ranges{};
+
+    /// Makes each triangle a face of its own, for callers who then give each triangle a value. Rows
+    /// of the element "face" are repeated for the triangles of a polygon, parts are renumbered, and
+    /// `stored_face` becomes empty.
+    TREEFORM_API void split_polygons();
+
+    /// Drops the points with a coordinate that is NaN or infinite, and the faces with such a corner.
+    /// Returns how many points those were.
+    TREEFORM_API std::size_t drop_non_finite();
+
+    /// Rounds every point to float32. Returns the largest change of a coordinate.
+    TREEFORM_API double round_to_float32();
+
+    /// Moves all of the file: its points, and its normals as `turn_normals`. Where `by` mirrors,
+    /// faces are turned over, with the values of their corners, so that they look outward as before.
+    TREEFORM_API void move(const transform<3>& by);
+
+    /// Turns normals as `by` does, and keeps their lengths: the columns nx, ny, nz of all elements,
+    /// and the normals of corners. By a mirror, what looked outward does so still, as faces do that
+    /// are turned over.
+    TREEFORM_API void turn_normals(const transform<3>& by);
 };
-
-/// Makes each triangle a face of its own, for callers who then give each triangle a value. Rows of
-/// the element "face" are repeated for the triangles of a polygon, parts are renumbered, and
-/// `stored_face` becomes empty.
-TREEFORM_API void split_polygons(mesh_file& file);
-
-/// Drops the points with a coordinate that is NaN or infinite, and the faces with such a corner. Returns
-/// how many points those were.
-TREEFORM_API std::size_t drop_non_finite(mesh_file& file);
 
 /// Whether float32 holds every coordinate exactly, or it is NaN or infinite.
 [[nodiscard]] TREEFORM_API bool fits_single(std::span<const point3> points);

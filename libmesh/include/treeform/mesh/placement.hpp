@@ -73,6 +73,8 @@ struct placement_statistics {
     predicate_counters predicates{};  ///< used for these
 };
 
+struct body_set;
+
 /// Where a mesh goes. "At the place" is where it goes, or where it is if it does not move.
 struct placement {
     /// ok: the mesh has a place, and `points` were checked exactly as they are. Otherwise
@@ -105,6 +107,10 @@ struct placement {
     /// Why there is no place: half a sentence about the mesh that moves, without a stop at its end.
     /// `names` are those of the fixed meshes. Empty when there is one.
     [[nodiscard]] TREEFORM_API std::string message(std::span<const std::string> names = {}) const;
+    /// How the one body of `moving` lies to `fixed` at its place, in words: "touching bed.stl (1
+    /// pair of faces, the first 3 and 7)", "separate, 0.5 from bed.stl". Faces are those of files.
+    [[nodiscard]] TREEFORM_API std::string relation_in_words(const body_set& moving,
+                                                             const body_set& fixed) const;
 };
 
 struct measure_among_options {
@@ -134,6 +140,16 @@ enum class contact_class : std::uint8_t {
 struct contact_classes {
     std::vector<contact_class> moving{};              ///< [F] of the moving mesh
     std::vector<std::vector<contact_class>> fixed{};  ///< by mesh: [F], or empty when all are none
+
+    /// The classes of all triangles of the files, of one cloud of all its points; for
+    /// `color_contacts`. With `fixed`, its files follow that of `moving`, which has one body. Clouds
+    /// are then left out, as in `scene_of`.
+    ///
+    /// \cost O(V + F)
+    [[nodiscard]] TREEFORM_API std::vector<contact_class> in_files(const body_set& moving,
+                                                                   const body_set& fixed) const;
+    /// The same without `fixed`.
+    [[nodiscard]] TREEFORM_API std::vector<contact_class> in_files(const body_set& moving) const;
 };
 
 /// The class of each face, with `moving` at the place. Contacts of the placement are contacts here,
@@ -184,6 +200,10 @@ struct TREEFORM_API body_set {
     body_file& add(mesh_file file, std::string label = {}, std::string name = {});
     /// The same with a body for each part of the file (see `scene_parts`) where it has several.
     body_file& add_parts(mesh_file file, std::string label = {}, std::string name = {});
+    /// The same with a body for each part that has a name of its own (OBJ o and g, nodes of a
+    /// scene), or one body where there are no names. Unlike `add_parts`, parts that have points in
+    /// common stay apart, so that they may touch.
+    body_file& add_named_parts(mesh_file file, std::string label = {}, std::string name = {});
 
     [[nodiscard]] const body_file& file_of(std::size_t body) const;
     /// The number that face `f` of a body has in its file.
@@ -191,32 +211,20 @@ struct TREEFORM_API body_set {
     /// For people: the file, and the part.
     [[nodiscard]] std::string label(std::size_t body) const;
     [[nodiscard]] std::vector<std::string> labels() const;  ///< [B] for `placement::message`
-};
 
-/// How the one body of `moving` lies to `fixed` at its place, in words: "touching bed.stl (1 pair
-/// of faces, the first 3 and 7)", "separate, 0.5 from bed.stl". Faces have the numbers of files.
-[[nodiscard]] TREEFORM_API std::string relation_in_words(const placement& at,
-                                                         const body_set& moving,
-                                                         const body_set& fixed);
+    /// Moves the points of a body's file: those of the body to `placed` (in the numbering of its
+    /// shape), all others by `matrix`, rounded to float32 if `written_as` says so.
+    void put_back(std::size_t body, points_view placed, const transform<3>& matrix,
+                  precision written_as);
+
+    /// [V of its file] The distances of a body's points, `distances` by points of its shape; NaN for
+    /// points that are not the body's.
+    [[nodiscard]] std::vector<double> distances_in_file(std::size_t body,
+                                                        std::span<const double> distances) const;
+};
 
 /// "separate", "closer-than-clearance".
 [[nodiscard]] TREEFORM_API const char* name_of(standing how);
-
-/// Moves the points of a body's file: those of the body to `placed` (in the numbering of its
-/// shape), all others by `matrix`, rounded to float32 if `written_as` says so.
-TREEFORM_API void put_back(body_set& bodies, std::size_t body, points_view placed,
-                           const transform<3>& matrix, precision written_as);
-
-/// Rounds every point of the file to float32. Returns the largest change of a coordinate.
-TREEFORM_API double round_to_float32(mesh_file& file);
-
-/// The classes of all triangles of the files, of one cloud of all its points; for
-/// `color_contacts`. With `fixed`, its files follow that of `moving`, which has one body. Clouds
-/// are then left out, as in `scene_of`.
-///
-/// \cost O(V + F)
-[[nodiscard]] TREEFORM_API std::vector<contact_class> classes_in_files(
-    const contact_classes& classes, const body_set& moving, const body_set& fixed = {});
 
 struct contact_color_options {
     /// Make each triangle a face of its own, as pictures need it. Otherwise polygons stay, and have

@@ -89,24 +89,16 @@ struct curve_view {
     std::span<const curve_edge> edges;  ///< [E]
 };
 
-/// The edges of the closed polygon through points 0, 1, ... count - 1.
-[[nodiscard]] TREEFORM_API std::vector<curve_edge> polygon_edges(std::uint32_t count);
-
-/// The tree over the boxes of the edges.
-///
-/// \throws std::invalid_argument as `build_face_tree`
-[[nodiscard]] TREEFORM_API tree<2> edge_tree(curve_view curves);
-
 /// Locates points with respect to closed curves in the plane: any number of curves, even crossing
 /// or repeated ones. Exact as `locate` is.
 class TREEFORM_API curve_locator {
   public:
-    /// `tree` is `edge_tree(curves)`. It and the arrays of `curves` must outlive the locator.
+    /// The arrays of `curves` must outlive the locator.
     ///
     /// \throws std::invalid_argument naming the lowest point where a curve is open (more edges lead
-    ///         to it than from it, or fewer), or an edge with an end out of range; or for a tree
-    ///         with another number of edges
-    curve_locator(curve_view curves, const tree<2>& tree);
+    ///         to it than from it, or fewer), or an edge with an end out of range or not finite
+    /// \cost   a tree over the edges
+    explicit curve_locator(curve_view curves);
 
     /// \throws std::invalid_argument when a coordinate is not finite; likewise below
     /// \cost   O(log E + B) for the B edges whose boxes meet the ray from the point along +x
@@ -118,7 +110,7 @@ class TREEFORM_API curve_locator {
 
   private:
     curve_view curves_;
-    const tree<2>* tree_;
+    tree<2> tree_;
 };
 
 }  // namespace treeform

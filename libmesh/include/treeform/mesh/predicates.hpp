@@ -65,47 +65,10 @@ namespace treeform {
 [[nodiscard]] TREEFORM_API bool collinear(const point3& a, const point3& b, const point3& c,
                                           predicate_counters* counters = nullptr);
 
-/// Sign of (b - a) . (d - c): along the direction from a to b, d lies ahead of c (+1), behind (-1).
-[[nodiscard]] TREEFORM_API int compare_along(const point3& a, const point3& b, const point3& c,
-                                             const point3& d,
-                                             predicate_counters* counters = nullptr);
-
 /// Sign of |a - b|^2 - |c - d|^2.
 [[nodiscard]] TREEFORM_API int compare_distance(const point3& a, const point3& b, const point3& c,
                                                 const point3& d,
                                                 predicate_counters* counters = nullptr);
-
-/// Three corners that span a plane; its normal is (b - a) x (c - a).
-struct plane_points {
-    point3 a, b, c;
-};
-
-/// Sign of n . m for the normals n, m of two planes: +1 when they face the same half-space.
-[[nodiscard]] TREEFORM_API int normal_dot(const plane_points& p, const plane_points& q,
-                                          predicate_counters* counters = nullptr);
-
-/// Sign of (n x m) . (b - a) for the normals n, m of two planes: the order of two half-planes
-/// about the directed edge a -> b (radial sort).
-[[nodiscard]] TREEFORM_API int normal_turn(const plane_points& p, const plane_points& q,
-                                           const point3& a, const point3& b,
-                                           predicate_counters* counters = nullptr);
-
-/// Sign of (n x m) . k for the normals of three planes: 0 when they share a direction.
-[[nodiscard]] TREEFORM_API int normal_determinant(const plane_points& p, const plane_points& q,
-                                                  const plane_points& r,
-                                                  predicate_counters* counters = nullptr);
-
-/// Sign of ((b - a) x (c - a)) . d: +1 when d points to the side of the plane a, b, c that its
-/// normal points to, 0 when d is parallel to the plane. With a = o: +1 when the line o + t d, seen
-/// against its direction, passes to the left of the directed line b -> c, 0 when they are coplanar.
-[[nodiscard]] TREEFORM_API int direction_side(const point3& a, const point3& b, const point3& c,
-                                              const point3& d,
-                                              predicate_counters* counters = nullptr);
-
-/// Sign of component `axis` (0, 1 or 2) of d x (p - o): +1 when p lies to the left of the line
-/// o + t d, both projected along the axis as by `orient2d`.
-[[nodiscard]] TREEFORM_API int line_side(int axis, const point3& o, const point3& d,
-                                         const point3& p, predicate_counters* counters = nullptr);
 
 /// A plane through a point along two vectors, each the difference of two points. Its normal is
 /// (u_to - u_from) x (v_to - v_from).
@@ -114,29 +77,5 @@ struct cutting_plane {
     point3 u_from, u_to;
     point3 v_from, v_to;
 };
-
-/// Sign of t - s for the parameters t, s at which the line o + t d meets planes p and q.
-/// \pre d points to the positive side of both: their normals . d > 0
-[[nodiscard]] TREEFORM_API int compare_cuts(const point3& o, const point3& d,
-                                            const cutting_plane& p, const cutting_plane& q,
-                                            predicate_counters* counters = nullptr);
-
-/// The same for two lines of one direction: t at which o + t d meets p, s at which r + s d meets q.
-[[nodiscard]] TREEFORM_API int compare_cuts(const point3& d, const point3& o,
-                                            const cutting_plane& p, const point3& r,
-                                            const cutting_plane& q,
-                                            predicate_counters* counters = nullptr);
-
-/// Sign of t - s for the parameter t at which the line o + t d meets plane p.
-/// \pre normal . d > 0, s is finite
-[[nodiscard]] TREEFORM_API int compare_cut(const point3& o, const point3& d, const cutting_plane& p,
-                                           double s, predicate_counters* counters = nullptr);
-
-/// The parameter at which the line o + t d meets plane p, with a relative error below 2^-40. Its
-/// sign is right, and it is 0 when the exact one is. Beyond the range of double, infinite or 0.
-/// \pre  normal . d != 0
-/// \cost as a predicate: double arithmetic where that is accurate enough, otherwise integers
-[[nodiscard]] TREEFORM_API double cut_parameter(const point3& o, const point3& d,
-                                                const cutting_plane& p);
 
 }  // namespace treeform

@@ -85,6 +85,11 @@ class mesh_ref {
     mesh_ref(const mesh& mesh TREEFORM_LIFETIMEBOUND) : view_(mesh) {}  // NOLINT: all are implicit
     mesh_ref(mesh_view mesh) : view_(mesh) {}                           // NOLINT
     mesh_ref(points_view points, std::span<const face> faces) : view_{points, faces} {}
+    /// A cloud: points without faces.
+    template <std::ranges::contiguous_range Points>
+    requires std::same_as<std::ranges::range_value_t<const Points&>, point3> mesh_ref(
+        const Points& points TREEFORM_LIFETIMEBOUND)
+        : view_{points, {}} {}                                  // NOLINT
     mesh_ref(const prepared_mesh& mesh TREEFORM_LIFETIMEBOUND)  // NOLINT
         : view_(mesh.view()), prepared_(&mesh) {}
     TREEFORM_API mesh_ref(const usable_mesh& mesh TREEFORM_LIFETIMEBOUND);  // NOLINT

@@ -127,16 +127,6 @@ struct mass_properties {
 [[nodiscard]] TREEFORM_API std::optional<mass_properties> find_mass_properties(
     const mesh_ref& mesh);
 
-/// A mesh of the given faces, in the order of `faces`, and of the points that they use, in the
-/// order of `mesh`.
-///
-/// \throws std::invalid_argument naming the number that is no face of the mesh, or a face with a
-///         corner out of range
-/// \cost   O(V + F) time
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh select_faces(const mesh_ref& mesh,
-                                             std::span<const std::uint32_t> faces);
-
 /// Whether faces are compared in their order, each from its first corner on.
 enum class face_order : std::uint8_t { kept, any };
 
@@ -189,9 +179,6 @@ struct feature_options {
 /// \throws std::invalid_argument as `find_features`, and for a face out of range
 [[nodiscard]] TREEFORM_API std::optional<mesh_feature> feature_at(
     mesh_view mesh, feature_kind kind, std::uint32_t face, const feature_options& options = {});
-/// That around the face nearest to a point.
-[[nodiscard]] TREEFORM_API std::optional<mesh_feature> feature_at(
-    mesh_view mesh, feature_kind kind, const point3& near, const feature_options& options = {});
 
 /// The plane, or axis, of exactly these faces, whatever their deviation. None where they have no
 /// area, or for an axis, where they are flat.

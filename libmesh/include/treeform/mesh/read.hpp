@@ -122,6 +122,19 @@ struct urdf_mesh {
     mesh shape{};
 };
 
+/// A robot as parts of an assembly: its links that have faces.
+struct robot_parts {
+    std::vector<mesh> parts{};           ///< [P] all meshes of a link as one, in its frame
+    std::vector<std::uint32_t> links{};  ///< [P] ascending
+    std::vector<std::array<std::uint32_t, 2>> adjacent{};  ///< `urdf_robot::adjacent`, by parts
+};
+
+/// The value of a joint: an angle in radians, or a length.
+struct joint_value {
+    std::string joint{};
+    double value = 0.0;
+};
+
 /// A robot.
 struct urdf_robot {
     std::string name{};
@@ -134,6 +147,20 @@ struct urdf_robot {
     /// Pairs of links that a joint connects, and of links with meshes between which there are only
     /// joints and links without; the lower number first, ascending.
     [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent() const;
+
+    /// Its links that have faces. `mesh_of_file` gives the mesh of a file, and is asked in the order
+    /// of `meshes`, once for each that has one.
+    [[nodiscard]] TREEFORM_API robot_parts
+    parts(const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const;
+
+    /// [L] Where each link is: from its own frame to that of the robot. Joints without a value are
+    /// at 0, fixed ones stay, and those that mimic another follow it unless they have a value of
+    /// their own. Limits are not looked at.
+    ///
+    /// \throws std::invalid_argument for a joint that is not there or fixed, or a value that is not
+    ///         finite
+    [[nodiscard]] TREEFORM_API std::vector<transform<3>> link_transforms(
+        std::span<const joint_value> values) const;
 };
 
 /// How to read a robot.
@@ -152,32 +179,5 @@ struct urdf_options {
 ///         that are none, sizes that are not above 0, a mesh whose file is not found
 [[nodiscard]] TREEFORM_API urdf_robot read_urdf(const std::filesystem::path& path,
                                                 const urdf_options& options = {});
-
-/// A robot as parts of an assembly: its links that have faces.
-struct robot_parts {
-    std::vector<mesh> parts{};           ///< [P] all meshes of a link as one, in its frame
-    std::vector<std::uint32_t> links{};  ///< [P] ascending
-    std::vector<std::array<std::uint32_t, 2>> adjacent{};  ///< `urdf_robot::adjacent`, by parts
-};
-
-/// The parts of a robot. `mesh_of_file` gives the mesh of a file, and is asked in the order of
-/// `urdf_robot::meshes`, once for each that has one.
-[[nodiscard]] TREEFORM_API robot_parts parts_of(
-    const urdf_robot& robot, const std::function<mesh(const std::filesystem::path&)>& mesh_of_file);
-
-/// The value of a joint: an angle in radians, or a length.
-struct joint_value {
-    std::string joint{};
-    double value = 0.0;
-};
-
-/// [L] Where each link is: from its own frame to that of the robot. Joints without a value are at
-/// 0, fixed ones stay, and those that mimic another follow it unless they have a value of their own.
-/// Limits are not looked at.
-///
-/// \throws std::invalid_argument for a joint that is not there or fixed, or a value that is not
-///         finite
-[[nodiscard]] TREEFORM_API std::vector<transform<3>> link_transforms(
-    const urdf_robot& robot, std::span<const joint_value> values);
 
 }  // namespace treeform

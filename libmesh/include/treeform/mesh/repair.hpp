@@ -5,6 +5,7 @@
 ///     tf::mesh solid = tf::repair(mesh).value();
 
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -232,8 +233,7 @@ struct TREEFORM_API solid_defects {
     std::uint64_t inverted = 0;  ///< closed components that are inside out, and in no other one
     /// Closed components that meet nowhere lie in each other, but not as a solid and its cavities.
     bool wrongly_nested = false;
-    bool cancelled = false;  ///< `progress` asked to stop: nothing is known
-
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
     [[nodiscard]] bool any() const;
     /// "open at 37 edges, 2 pairs of faces meet"; "none" where there are none.
     [[nodiscard]] std::string message() const;

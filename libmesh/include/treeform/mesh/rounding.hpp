@@ -22,19 +22,12 @@ namespace treeform {
 /// its range.
 [[nodiscard]] TREEFORM_API std::vector<point3> rounded(points_view points, precision to);
 
-/// Largest difference of a coordinate between `placed` and `points` moved by `by`; computed in
-/// twice the precision of double. Infinite when a number is not finite.
-///
-/// \pre `points` and `placed` have the same size
-[[nodiscard]] TREEFORM_API double max_displacement(points_view points, const transform<3>& by,
-                                                   points_view placed);
-
 /// What rounding has broken.
 struct rounding_defects {
     std::uint64_t collapsed = 0;  ///< faces that have lost their area
     /// Pairs of faces that meet now, and did not before: all kinds except touching and degenerate.
     std::uint64_t meeting = 0;
-    bool cancelled = false;  ///< `progress` asked to stop; the rest means nothing
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
 };
 
 /// What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved and
@@ -76,10 +69,7 @@ struct rounding_effects {
 /// \cost   O(V); where coordinates are coarser, two `self_intersections` at most
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API rounding_effects
-effects_of_rounding(const prepared_mesh& moving, const transform<3>& by, points_view placed,
-                    const rounding_options& options = {});
-[[nodiscard]] TREEFORM_API rounding_effects
-effects_of_rounding(mesh_view moving, const transform<3>& by, points_view placed,
+effects_of_rounding(const mesh_ref& moving, const transform<3>& by, points_view placed,
                     const rounding_options& options = {});
 
 }  // namespace treeform

@@ -22,19 +22,6 @@
 
 namespace treeform {
 
-/// The plane through a point across a normal: p is above it where normal . (p - at) > 0. The length
-/// of the normal does not matter, only that it is not zero.
-struct oriented_plane {
-    point3 at{};
-    point3 normal{0.0, 0.0, 1.0};
-    friend bool operator==(const oriented_plane&, const oriented_plane&) = default;
-};
-
-/// The plane at a height above another one: through at + height n, n the normal at length 1, each
-/// number rounded to a double. Along an axis, from the origin, these are exact.
-[[nodiscard]] TREEFORM_API oriented_plane parallel_plane(const oriented_plane& plane,
-                                                         double height);
-
 /// Axes of planes, of length 1, rounded; x, y and the normal are right-handed. Along an axis of
 /// space, x and y are the next two: (x, y) for +z, (y, z) for +x, (z, x) for +y.
 struct plane_frame {
@@ -43,8 +30,22 @@ struct plane_frame {
     point3 normal{0.0, 0.0, 1.0};
 };
 
-/// \throws std::invalid_argument for a normal that is zero or not finite
-[[nodiscard]] TREEFORM_API plane_frame frame_of(const oriented_plane& plane);
+/// The plane through a point across a normal: p is above it where normal . (p - at) > 0. The length
+/// of the normal does not matter, only that it is not zero.
+struct oriented_plane {
+    point3 at{};
+    point3 normal{0.0, 0.0, 1.0};
+
+    /// Its axes.
+    /// \throws std::invalid_argument for a normal that is zero or not finite
+    [[nodiscard]] TREEFORM_API plane_frame frame() const;
+
+    /// The plane at a height above this one: through at + height n, n the normal at length 1, each
+    /// number rounded to a double. Along an axis, from the origin, these are exact.
+    [[nodiscard]] TREEFORM_API oriented_plane parallel(double height) const;
+
+    friend bool operator==(const oriented_plane&, const oriented_plane&) = default;
+};
 
 /// A closed polygon, or, where the mesh ends, an open polyline.
 struct section_loop {
@@ -92,7 +93,7 @@ struct section_options {
     progress_callback progress{};
 };
 
-/// Sections of a mesh by the planes at `heights` above `plane` (`parallel_plane`).
+/// Sections of a mesh by the planes at `heights` above `plane` (`oriented_plane::parallel`).
 ///
 /// Which side of a plane a vertex is on, which segments make a loop, and which loop lies in which
 /// are decided exactly, on the coordinates as given. Then points are rounded.

@@ -104,7 +104,7 @@ struct self_intersection_result {
     predicate_counters predicates{};                      ///< what the undecided pairs cost
     double tree_seconds = 0.0;                            ///< time to build the tree
     double pair_seconds = 0.0;                            ///< time to find and decide pairs
-    bool cancelled = false;                               ///< `progress` asked to stop
+    treeform::status status = treeform::status::ok;       ///< or `cancelled`
 };
 
 /// All pairs of faces that meet where they should not: in a point that is neither a shared corner

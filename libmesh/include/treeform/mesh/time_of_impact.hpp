@@ -83,12 +83,6 @@ struct impact {
                                                  const point3& motion,
                                                  const impact_options& options = {});
 
-/// The greatest double that is not beyond the exact time of a contact.
-///
-/// \pre `contact` was returned by `time_of_impact` for `motion`
-[[nodiscard]] TREEFORM_API double time_not_beyond(const sweep_contact& contact,
-                                                  const point3& motion);
-
 /// How far to look.
 struct approach_options {
     double latest = std::numeric_limits<double>::infinity();  ///< as for `time_of_impact`

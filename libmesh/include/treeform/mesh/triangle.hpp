@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Triangles, exactly: what two of them have in common, where a ray hits one, and when a
-/// triangle in straight motion first meets another. Triangles include their edges.
+/// Triangles, exactly: what two of them have in common, and where a ray hits one. Triangles include
+/// their edges.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -101,12 +101,6 @@ struct ray_contact {
 [[nodiscard]] TREEFORM_API std::optional<ray_contact> intersect(
     const ray3& ray, const triangle3& triangle, predicate_counters* counters = nullptr);
 
-/// Sign of the difference of the exact parameters of two contacts of one ray: -1 when the ray gets
-/// to `a` first, 0 when both are the same point.
-/// \pre both were returned by `intersect` for `ray`
-[[nodiscard]] TREEFORM_API int compare(const ray3& ray, const ray_contact& a, const ray_contact& b,
-                                       predicate_counters* counters = nullptr);
-
 /// The first time at which two triangles have a common point.
 struct sweep_contact {
     /// Features that meet at that time: a corner and any feature, or two edges. There may be
@@ -119,31 +113,5 @@ struct sweep_contact {
     point3 from{};
     cutting_plane until{};
 };
-
-/// The least t >= 0 for which the closed triangle `a`, moved by t d, meets the closed triangle `b`;
-/// none when there is no such t.
-///
-/// Exact on the coordinates as given. A translation makes this linear: moved triangles meet when
-/// t d lies in the convex set { y - x : x in a, y in b }, whose facets come from a corner and a
-/// face or from two edges, so t is the quotient of two determinants. Where that set is flat and
-/// the motion runs in its plane, a corner and an edge, or two corners, give t. Degenerate
-/// triangles are the segment or point that their corners span.
-///
-/// \pre    coordinates are finite; the triangles do not meet at t = 0, or else the answer is some
-///         t >= 0 at which they meet, not the least
-/// \cost   O(1), no allocation; 18 `direction_side` and a few quotients for a hit, fewer for most
-///         misses
-/// \source facets of Minkowski sums: de Berg et al., Computational Geometry, chapter 13; why no
-///         cubic is needed: Wang et al., A Large-Scale Benchmark and an Inclusion-Based Algorithm
-///         for Continuous Collision Detection, ACM TOG 40 (2021), for the general case
-[[nodiscard]] TREEFORM_API std::optional<sweep_contact> first_contact(
-    const triangle3& a, const triangle3& b, const point3& d,
-    predicate_counters* counters = nullptr);
-
-/// Sign of the difference of the exact times of two contacts under one motion d.
-/// \pre both were returned by `first_contact` for d
-[[nodiscard]] TREEFORM_API int compare(const point3& d, const sweep_contact& a,
-                                       const sweep_contact& b,
-                                       predicate_counters* counters = nullptr);
 
 }  // namespace treeform

@@ -24,6 +24,14 @@ struct point_groups {
     /// [G] the first point of each, ascending: the lowest-numbered, unless `order` asks for another
     std::vector<std::uint32_t> first_of_group{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
+
+    /// `mesh` with the points of each group joined: the groups' first points in order and unmoved,
+    /// faces in order, also those that now repeat a corner. Nothing else is dropped.
+    ///
+    /// \throws std::invalid_argument for groups of another number of points, or naming the lowest
+    ///         face with a corner out of range
+    /// \cost   O(V + F)
+    [[nodiscard]] TREEFORM_API mesh joined(mesh_view mesh) const;
 };
 
 /// What welding has done to points and faces.
@@ -52,16 +60,6 @@ struct weld_result {
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
 };
 
-/// The welded cloud.
-struct cloud_weld_result {
-    std::vector<point3> points{};                 ///< [G]
-    treeform::attributes attributes{};            ///< rows of "vertex" match the points
-    point_groups groups{};                        ///< of the input points
-    std::vector<std::uint32_t> point_of_group{};  ///< [G] input point that gave its properties
-    weld_statistics statistics{};                 ///< counts of faces are 0
-    treeform::status status = status::ok;         ///< or cancelled; then the rest is empty
-};
-
 /// The welded file.
 struct file_weld_result {
     mesh_file file{};       ///< like the input, with the points and faces that are kept
@@ -70,9 +68,15 @@ struct file_weld_result {
     std::vector<std::uint32_t> face_of_new{};     ///< [F'] input triangle that each triangle was
     weld_statistics statistics{};                 ///< of triangles
     treeform::status status = status::ok;         ///< or cancelled; then the rest is empty
+
+    /// Sets the flag "withheld" of LAS (a column of "vertex", made where there is none) at the
+    /// points of `input`, of which `weld` made this, that are not kept; others keep theirs.
+    ///
+    /// \throws std::invalid_argument when it is of another number of points
+    TREEFORM_API void withhold(mesh_file& input) const;
 };
 
-/// `mesh` with the points merged that are within the tolerance of each other.
+/// `mesh`, or a cloud of points, with the points merged that are within the tolerance of each other.
 ///
 /// Whether two points are within the tolerance is decided exactly on the coordinates as given, and
 /// so is which of two points is nearer. Points are in the order of the first points of their
@@ -119,9 +123,7 @@ struct file_weld_result {
 ///         40 more in an `order`; faces 24 each besides the result, 100 with
 ///         `keep_manifold`; conditions 8 a point and property
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API weld_result weld(mesh_view mesh, const weld_options& options = {});
-[[nodiscard]] TREEFORM_API weld_result weld(const prepared_mesh& mesh,
-                                            const weld_options& options = {});
+[[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const weld_options& options = {});
 
 /// The same, and `properties` follow their points and faces. Corners keep their own texture
 /// coordinates and normals, even where their points become one. Rows of other elements are kept;
@@ -130,15 +132,8 @@ struct file_weld_result {
 ///
 /// \throws std::invalid_argument also when there is not one row for each point and each face, or
 ///         when columns or corners do not fit
-[[nodiscard]] TREEFORM_API weld_result weld(mesh_view mesh, const attributes& properties,
+[[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const attributes& properties,
                                             const weld_options& options);
-
-/// `points` with those merged that are within the tolerance of each other, as for a mesh without
-/// faces.
-[[nodiscard]] TREEFORM_API cloud_weld_result weld(points_view points,
-                                                  const weld_options& options = {});
-[[nodiscard]] TREEFORM_API cloud_weld_result weld(points_view points, const attributes& properties,
-                                                  const weld_options& options);
 
 /// `file` welded, with its attributes, parts and names. In a format that does not number its
 /// vertices (STL), equal corners are merged first, unless `keep_manifold` is set or vertices have
@@ -146,12 +141,6 @@ struct file_weld_result {
 /// still one fan.
 [[nodiscard]] TREEFORM_API file_weld_result weld(const mesh_file& file,
                                                  const weld_options& options = {});
-
-/// Sets the flag "withheld" of LAS (a column of "vertex", made where there is none) at the points of
-/// `file` that `welded` does not keep; others keep theirs. `welded` is what `weld` made of `file`.
-///
-/// \throws std::invalid_argument when it is of another number of points
-TREEFORM_API void withhold(mesh_file& file, const file_weld_result& welded);
 
 /// How many points of `welded` would be merged if it were written with precision `written_as`, read
 /// and welded again. Rounding, or `options.keep`, can bring points together again. `welded` is what
@@ -174,13 +163,5 @@ TREEFORM_API void withhold(mesh_file& file, const file_weld_result& welded);
 ///
 /// \cost as `group_points`
 [[nodiscard]] TREEFORM_API std::uint64_t count_nearly_equal(points_view points, double distance);
-
-/// `mesh` with the points of each group joined: the groups' first points in order and unmoved,
-/// faces in order, also those that now repeat a corner. Nothing else is dropped.
-///
-/// \throws std::invalid_argument for groups of another number of points, or naming the lowest face
-///         with a corner out of range
-/// \cost   O(V + F)
-[[nodiscard]] TREEFORM_API mesh join_groups(mesh_view mesh, const point_groups& groups);
 
 }  // namespace treeform

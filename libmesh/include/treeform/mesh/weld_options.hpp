@@ -90,6 +90,15 @@ struct weld_options {
     bool keep_manifold = false;  ///< split groups that would make non-manifold edges or points
     bool keep_degenerate = false;  ///< keep faces that repeat a corner
     progress_callback progress{};
+
+    /// The conditions on single columns that these imply: those of `same`, then of seams.
+    ///
+    /// A name is that of a column, or else of a group of columns. `across` may name a group that the
+    /// vertices do not have.
+    ///
+    /// \throws weld_property_error for a name that is neither, or a column of lists
+    [[nodiscard]] TREEFORM_API std::vector<weld_condition> conditions(const attributes& properties,
+                                                                      bool has_faces) const;
 };
 
 /// `weld_options` names a property that the vertices do not have, or not in a usable form.
@@ -109,21 +118,5 @@ class TREEFORM_API weld_property_error : public std::invalid_argument {
     fault fault_;
     std::string name_;
 };
-
-/// The conditions on single columns that `options` imply: those of `same`, then of seams.
-///
-/// A name is that of a column, or else of a group of columns. `across` may name a group that the
-/// vertices do not have.
-///
-/// \throws weld_property_error for a name that is neither, or a column of lists
-[[nodiscard]] TREEFORM_API std::vector<weld_condition> weld_conditions(const attributes& properties,
-                                                                       bool has_faces,
-                                                                       const weld_options& options);
-
-/// The conditions that keep seams: equality of each column of normals (nx, ny, nz), texture
-/// coordinates (u, v, s, t, texture_u, texture_v) and colors (red, green, blue, alpha) that
-/// "vertex" has, in the order of the columns. Empty when it has none.
-[[nodiscard]] TREEFORM_API std::vector<weld_condition> seam_conditions(
-    const attributes& properties);
 
 }  // namespace treeform

@@ -58,6 +58,20 @@ struct weld_stream_options {
     /// is done. Returning false cancels.
     std::function<bool(std::string_view, double)> progress{};
     std::function<void()> step_done{};  ///< called after what an interruption does not undo
+
+    /// The memory limit when none is given: three quarters of the machine's memory, in bytes.
+    [[nodiscard]] TREEFORM_API static std::uint64_t default_memory();
+
+    /// About how many bytes it takes to weld `points` points with the properties of `header` in memory,
+    /// from measurements: coordinates once, properties twice, and the index that finds neighbors. The
+    /// process itself takes some 32 MB more.
+    [[nodiscard]] TREEFORM_API static std::uint64_t memory_to_weld(const mesh_file& header,
+                                                                   std::uint64_t points);
+
+    /// The least `memory` with which `points` points can be welded in tiles. Where
+    /// points are crowded, and by `weld_rule::chain`, the limit may turn out higher (`stream_error`).
+    [[nodiscard]] TREEFORM_API static std::uint64_t memory_to_stream(const mesh_file& header,
+                                                                     std::uint64_t points);
 };
 
 /// What is known of a cloud before it is welded.
@@ -232,19 +246,5 @@ class TREEFORM_API stream_weld {
     struct state;
     std::unique_ptr<state> state_;
 };
-
-/// The memory limit when none is given: three quarters of the machine's memory, in bytes.
-[[nodiscard]] TREEFORM_API std::uint64_t default_memory();
-
-/// About how many bytes it takes to weld `points` points with the properties of `header` in memory,
-/// from measurements: coordinates once, properties twice, and the index that finds neighbors. The
-/// process itself takes some 32 MB more.
-[[nodiscard]] TREEFORM_API std::uint64_t memory_to_weld(const mesh_file& header,
-                                                        std::uint64_t points);
-
-/// The least `weld_stream_options::memory` with which `points` points can be welded in tiles. Where
-/// points are crowded, and by `weld_rule::chain`, the limit may turn out higher (`stream_error`).
-[[nodiscard]] TREEFORM_API std::uint64_t memory_to_stream(const mesh_file& header,
-                                                          std::uint64_t points);
 
 }  // namespace treeform

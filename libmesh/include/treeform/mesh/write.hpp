@@ -53,7 +53,7 @@ struct write_result {
     /// Largest change of a coordinate by rounding to `written_as`.
     double max_displacement = 0.0;
     std::vector<io_warning> warnings{};
-    bool cancelled = false;  ///< `progress` asked to stop: nothing was written
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing was written
 };
 
 /// Writes `file` to `path`; "-" is standard output, which needs `options.format`.

@@ -41,6 +41,8 @@ struct search_statistics {
     friend bool operator==(const search_statistics&, const search_statistics&) = default;
 };
 
+namespace detail {
+
 /// The squared distance of an answer: the answer itself when it is a number, else its member
 /// `squared_distance`.
 template <class Answer>
@@ -51,23 +53,32 @@ template <class Answer>
         return static_cast<double>(answer.squared_distance);
 }
 
+/// Whether `a` comes before `b` in answers: by distance, then by what `less` says of equally near
+/// ones.
+template <class Neighbor, class Less>
+[[nodiscard]] constexpr bool comes_before(const Neighbor& a, const Neighbor& b, const Less& less) {
+    const double of_a = a.squared_distance();
+    const double of_b = b.squared_distance();
+    return of_a != of_b ? of_a < of_b : less(a, b);
+}
+
+}  // namespace detail
+
 /// A primitive near a query, and what the caller's function returned for it.
 template <class Answer = double>
 struct neighbor {
     std::uint32_t id;
     Answer answer;
 
-    [[nodiscard]] constexpr double squared_distance() const { return squared_distance_of(answer); }
+    [[nodiscard]] constexpr double squared_distance() const {
+        return detail::squared_distance_of(answer);
+    }
     friend bool operator==(const neighbor&, const neighbor&) = default;
+    /// Whether `a` comes before `b` in answers: by distance, then by id.
+    friend constexpr bool nearer(const neighbor& a, const neighbor& b) {
+        return detail::comes_before(a, b, [](const auto& x, const auto& y) { return x.id < y.id; });
+    }
 };
-
-/// Whether `a` comes before `b` in answers: by distance, then by id.
-template <class Neighbor>
-[[nodiscard]] constexpr bool nearer(const Neighbor& a, const Neighbor& b) {
-    const double of_a = a.squared_distance();
-    const double of_b = b.squared_distance();
-    return of_a != of_b ? of_a < of_b : a.id < b.id;
-}
 
 /// A list of answers for each of Q queries, all in one array.
 template <class Neighbor>

@@ -163,19 +163,6 @@ void refuse_too_many(const char* function, const Range& range) {
 
 }  // namespace detail
 
-/// The smallest box, in double, around the boxes that `make_aabb` gives for the elements of
-/// `range`; empty when there are none.
-///
-/// \throws std::invalid_argument naming the element whose box is not finite or is empty
-/// \cost   O(N), parallel; `make_aabb` is called once an element
-/// \same   on any number of threads
-template <std::ranges::random_access_range Range, class MakeBox>
-requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
-[[nodiscard]] auto box_of_all(const Range& range, const MakeBox& make_aabb) {
-    return detail::box_around<detail::box_made<Range, MakeBox>::dimensions>("treeform::box_of_all",
-                                                                            range, make_aabb);
-}
-
 /// The tree over the elements of `range` whose boxes meet `within` (touching counts), and how many
 /// were left out. A search for anything inside that box finds the same as in a tree over all.
 ///

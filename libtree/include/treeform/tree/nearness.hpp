@@ -90,7 +90,7 @@ class nearest_one {
     template <class DistanceOf>
     void offer(std::uint32_t id, const DistanceOf& distance_of) {
         auto answer = distance_of(id);
-        const double squared = squared_distance_of(answer);
+        const double squared = detail::squared_distance_of(answer);
         if (!(squared < bound_ || (squared == bound_ && (!best || id < best->id)))) return;
         bound_ = squared;
         best = {id, std::move(answer)};

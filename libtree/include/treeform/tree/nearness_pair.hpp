@@ -28,18 +28,16 @@ struct near_pair {
     std::uint32_t b;
     Answer answer;
 
-    [[nodiscard]] constexpr double squared_distance() const { return squared_distance_of(answer); }
+    [[nodiscard]] constexpr double squared_distance() const {
+        return detail::squared_distance_of(answer);
+    }
     friend bool operator==(const near_pair&, const near_pair&) = default;
+    /// The order of pairs: by distance, then by the numbers of a, then of b.
+    friend constexpr bool nearer(const near_pair& x, const near_pair& y) {
+        return detail::comes_before(
+            x, y, [](const auto& p, const auto& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+    }
 };
-
-/// The order of pairs: by distance, then by the numbers of a, then of b.
-template <class Answer>
-[[nodiscard]] constexpr bool nearer(const near_pair<Answer>& x, const near_pair<Answer>& y) {
-    const double of_x = x.squared_distance();
-    const double of_y = y.squared_distance();
-    if (of_x != of_y) return of_x < of_y;
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-}
 
 namespace detail {
 

@@ -3,7 +3,7 @@
 /// Search of any kind of tree by a box, or by anything that can be held against a box. With the
 /// headers included here, all searches: `search`, `search_any`, `search_all` by one query and of
 /// two trees; `search_self`, `search_self_any`, `search_self_all`; and by blocks, `search_broad` by
-/// one query and of two trees, `search_self_broad`, `search_any_broad`.
+/// one query and of two trees, `search_self_broad`.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/search_chunks.hpp>

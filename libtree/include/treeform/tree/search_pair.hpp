@@ -145,6 +145,8 @@ template <class State, placed_tree A, placed_tree B, class Apply>
                                         });
 }
 
+namespace detail {
+
 /// Whether `accept(block)` is true for some block of candidates of two `tree`s; it is called from
 /// several threads, and no more once one is known.
 ///
@@ -168,7 +170,9 @@ template <placed_tree A, placed_tree B, class Accept>
     return detail::search_for_any(pair_search<A::dimensions>(a, b, boxes), accept);
 }
 
-/// The same by pairs: whether `accept(a, b)` is true for some pair of primitives whose boxes
+}  // namespace detail
+
+/// Whether `accept(a, b)` is true for some pair of primitives whose boxes
 /// overlap. `accept` is called from several threads, and may be asked about a pair twice.
 template <any_placed_tree A, any_placed_tree B, class Accept>
 [[nodiscard]] bool search_any(const A& first, const B& second, const Accept& accept) {
@@ -176,7 +180,7 @@ template <any_placed_tree A, any_placed_tree B, class Accept>
         const transformed<A::dimensions> a(first), b(second);
         const std::uint32_t* const ids_a = a.original().ids().data();
         const std::uint32_t* const ids_b = b.original().ids().data();
-        return search_any_broad(a, b, [&](const candidate_block& block) {
+        return detail::search_any_broad(a, b, [&](const candidate_block& block) {
             return detail::any_of_block<false>(block, ids_a, ids_b, accept);
         });
     } else {

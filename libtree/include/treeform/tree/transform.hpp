@@ -36,6 +36,49 @@ struct transform {
         return moved;
     }
 
+    /// The map that adds `offset`, anything with [], to every point.
+    template <class Vector>
+    [[nodiscard]] static constexpr transform translation(const Vector& offset) {
+        transform result;
+        for (std::size_t k = 0; k < D; ++k) result.rows[k][D] = offset[k];
+        return result;
+    }
+
+    /// First `inner`, then this one, in one map; its entries are rounded.
+    [[nodiscard]] constexpr transform after(const transform& inner) const {
+        transform result;
+        for (std::size_t k = 0; k < D; ++k)
+            for (std::size_t j = 0; j <= D; ++j) {
+                double sum = j == D ? rows[k][D] : 0.0;
+                for (std::size_t i = 0; i < D; ++i) sum += rows[k][i] * inner.rows[i][j];
+                result.rows[k][j] = sum;
+            }
+        return result;
+    }
+
+    /// The map that undoes this one: m.inverse().after(m) is the identity, except for rounding. It
+    /// is exact for translations, exchanges of axes and scalings by powers of two.
+    ///
+    /// \throws std::invalid_argument when this one is singular, by its rounded determinant, or when
+    ///         an entry of the result is not finite
+    /// \source Cramer's rule
+    [[nodiscard]] transform inverse() const requires(D == 2 || D == 3);
+
+    /// Whether the map turns what it moves over, as a mirror does: its determinant, as rounded, is
+    /// negative. A surface that is moved by it looks the other way, until its faces are turned over.
+    [[nodiscard]] constexpr bool mirrors() const requires(D == 2 || D == 3) {
+        if constexpr (D == 2) {
+            return rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0] < 0.0;
+        } else {
+            double determinant = 0.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+                determinant += rows[0][k] * (rows[1][i] * rows[2][j] - rows[1][j] * rows[2][i]);
+            }
+            return determinant < 0.0;
+        }
+    }
+
     /// Whether no entry is NaN or infinite.
     [[nodiscard]] bool finite() const {
         for (const row& r : rows)
@@ -54,47 +97,9 @@ struct transform {
     }
 };
 
-/// The map that adds `offset`, anything with [], to every point.
-template <std::size_t D, class Vector>
-[[nodiscard]] constexpr transform<D> translation(const Vector& offset) {
-    transform<D> result;
-    for (std::size_t k = 0; k < D; ++k) result.rows[k][D] = offset[k];
-    return result;
-}
-
-/// First `inner`, then `outer`, in one map; its entries are rounded.
-template <std::size_t D>
-[[nodiscard]] constexpr transform<D> after(const transform<D>& outer, const transform<D>& inner) {
-    transform<D> result;
-    for (std::size_t k = 0; k < D; ++k)
-        for (std::size_t j = 0; j <= D; ++j) {
-            double sum = j == D ? outer.rows[k][D] : 0.0;
-            for (std::size_t i = 0; i < D; ++i) sum += outer.rows[k][i] * inner.rows[i][j];
-            result.rows[k][j] = sum;
-        }
-    return result;
-}
-
-/// Whether the map turns what it moves over, as a mirror does: its determinant, as rounded, is
-/// negative. A surface that is moved by it looks the other way, until its faces are turned over.
-template <std::size_t D>
-requires(D == 2 || D == 3) [[nodiscard]] constexpr bool mirrors(const transform<D>& by) {
-    const auto& m = by.rows;
-    if constexpr (D == 2) {
-        return m[0][0] * m[1][1] - m[0][1] * m[1][0] < 0.0;
-    } else {
-        double determinant = 0.0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-            determinant += m[0][k] * (m[1][i] * m[2][j] - m[1][j] * m[2][i]);
-        }
-        return determinant < 0.0;
-    }
-}
-
 namespace detail {
 
-/// As `inverse`, but entries may be infinite or NaN.
+/// As `transform::inverse`, but entries may be infinite or NaN.
 template <std::size_t D>
 requires(D == 2 || D == 3) [[nodiscard]] transform<D> unchecked_inverse(const transform<D>& by) {
     const auto& m = by.rows;
@@ -125,16 +130,11 @@ requires(D == 2 || D == 3) [[nodiscard]] transform<D> unchecked_inverse(const tr
 
 }  // namespace detail
 
-/// The map that undoes `by`: after(inverse(by), by) is the identity, except for rounding. It is
-/// exact for translations, exchanges of axes and scalings by powers of two.
-///
-/// \throws std::invalid_argument when `by` is singular, by its rounded determinant, or when an
-///         entry of the result is not finite
-/// \source Cramer's rule
 template <std::size_t D>
-requires(D == 2 || D == 3) [[nodiscard]] transform<D> inverse(const transform<D>& by) {
-    const transform<D> result = detail::unchecked_inverse(by);
-    if (!result.finite()) throw std::invalid_argument("treeform::inverse: the map has no inverse");
+transform<D> transform<D>::inverse() const requires(D == 2 || D == 3) {
+    const transform result = detail::unchecked_inverse(*this);
+    if (!result.finite())
+        throw std::invalid_argument("treeform::transform::inverse: the map has no inverse");
     return result;
 }
 

@@ -34,7 +34,7 @@ typedef struct treeform_read_options {
     /// coordinates.
     const treeform_named_column* columns;
     size_t column_count;
-    /// `drop_non_finite`, which a warning says; of `treeform_read` alone
+    /// `mesh_file::drop_non_finite`, which a warning says; of `treeform_read` alone
     int32_t drop_nan;
 } treeform_read_options;
 /// Sets the defaults.

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Lines from faces of an arrangement to where nothing is.
+/// Escape rays: lines from faces of an arrangement out of everything, to where nothing is.
 
 #include <libmesh/arrange/corner_line.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
@@ -15,19 +15,19 @@
 namespace treeform::detail::arrange {
 
 /// A line through a face of an arrangement, and which way along it less of a box is.
-struct way_out {
+struct escape_ray {
     corner_line line;
     bool ahead;
 };
 
-/// Along the axis on which it is the least way out of the box, of those that the face is not too
-/// steep to, if there is one.
+/// Along the axis on which the box ends soonest, of those that the face is not too steep to, if there
+/// is one.
 /// \param mesh what `cut` is the arrangement of
-[[nodiscard]] way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
-                                   const aabb<double, 3>& box);
+[[nodiscard]] escape_ray find_escape_ray(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
+                                         const aabb<double, 3>& box);
 
 /// The same from its corners, and a face that it lies in.
-[[nodiscard]] way_out find_way_out(const std::array<implicit_point, 3>& corners,
-                                   const triangle3& whole, const aabb<double, 3>& box);
+[[nodiscard]] escape_ray find_escape_ray(const std::array<implicit_point, 3>& corners,
+                                         const triangle3& whole, const aabb<double, 3>& box);
 
 }  // namespace treeform::detail::arrange

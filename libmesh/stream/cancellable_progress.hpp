@@ -13,9 +13,9 @@ namespace treeform::detail::stream {
 /// Thrown through the work, and caught where it was called.
 struct cancelled {};
 
-class pacer {
+class cancellable_progress {
   public:
-    explicit pacer(std::function<bool(std::string_view, double)> progress)
+    explicit cancellable_progress(std::function<bool(std::string_view, double)> progress)
         : progress_(std::move(progress)) {}
 
     /// \throws cancelled

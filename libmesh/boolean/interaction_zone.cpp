@@ -2,7 +2,7 @@
 #include <libmesh/base/compact.hpp>
 #include <libmesh/base/face_boxes.hpp>
 #include <libmesh/base/parallel_sort.hpp>
-#include <libmesh/boolean/near_faces.hpp>
+#include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
@@ -27,8 +27,10 @@ constexpr std::size_t pair_grain = std::size_t{1} << 8;
 
 void mark(std::uint8_t& mark) { std::atomic_ref(mark).store(1, std::memory_order_relaxed); }
 
-/// Marks the faces whose boxes overlap that of a face that meets another one, or of a rough point.
-void mark_near(const bundles& operands, const std::vector<face_pair>& across, near_faces& result) {
+/// Marks the faces whose boxes overlap that of a face that meets another one, or of a point without
+/// a fan.
+void mark_near(const bundles& operands, const std::vector<face_pair>& across,
+               interaction_zone& result) {
     std::vector<aabb<double, 3>> reach;
     for (std::size_t k = 0; k < 2; ++k) {
         const mesh_view mesh = operands[k].view();
@@ -46,7 +48,7 @@ void mark_near(const bundles& operands, const std::vector<face_pair>& across, ne
             [&](std::size_t f, std::size_t place) {
                 reach[first + place] = base::face_boxes(mesh.points)(mesh.faces[f]);
             });
-        for (const std::uint32_t p : operands[k].known->rough)
+        for (const std::uint32_t p : operands[k].known->without_fan)
             reach.emplace_back().include(mesh.points[p]);
     }
     const tree<3> around = build(reach, [](const aabb<double, 3>& box) { return box; });
@@ -61,7 +63,7 @@ void mark_near(const bundles& operands, const std::vector<face_pair>& across, ne
 
 /// Appends the points of `faces`, ascending, and the faces in their numbers.
 void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
-            std::uint32_t faces_before, near_faces& result) {
+            std::uint32_t faces_before, interaction_zone& result) {
     buffer<std::uint32_t> number(mesh.points.size());
     for_chunks(number.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::fill(number.data() + begin, number.data() + end, 0U);
@@ -96,7 +98,7 @@ void append(mesh_view mesh, const ids& faces, std::uint32_t points_before,
 }
 
 /// Points of the second operand become those of the first that they are equal to.
-void join_equal(near_faces& near) {
+void join_equal(interaction_zone& near) {
     mesh& local = near.local;
     const auto equal = weld::few_equal_points(local.points);
     if (!equal) return;
@@ -116,7 +118,7 @@ void join_equal(near_faces& near) {
 }
 
 /// The pairs by local faces, ascending, without those that meet in shared corners only.
-void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, near_faces& near) {
+void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, interaction_zone& near) {
     const std::size_t faces_of_a = operands[0].view().faces.size();
     const auto local = [&](std::size_t face) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(near.face_of, face) -
@@ -146,7 +148,7 @@ void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, near_f
     near.pairs = std::move(across);
 }
 
-void find_own_pairs_of_second(near_faces& near) {
+void find_own_pairs_of_second(interaction_zone& near) {
     const std::span<const face> faces = near.local.faces;
     const self_intersection_result found =
         self_intersections({near.local.points, faces.subspan(near.first_of_b)},
@@ -166,8 +168,8 @@ std::vector<face_pair> pairs_across(const bundles& operands, bool once) {
 
 }  // namespace
 
-near_faces find_near_faces(const bundles& operands, bool once, bool all) {
-    near_faces result;
+interaction_zone find_interaction_zone(const bundles& operands, bool once, bool all) {
+    interaction_zone result;
     std::vector<face_pair> across = pairs_across(operands, once);
     if (all)
         for (std::size_t k = 0; k < 2; ++k)
@@ -198,7 +200,7 @@ near_faces find_near_faces(const bundles& operands, bool once, bool all) {
     return result;
 }
 
-ids numbers_as_given(const bundles& operands, const near_faces& near) {
+ids numbers_as_given(const bundles& operands, const interaction_zone& near) {
     ids numbers(near.face_of.size());
     const std::size_t faces_of_a = operands[0].view().faces.size();
     for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Triangles and segments whose corners are known roughly, and boxes that they certainly miss.
+/// Triangles and segments whose corners are intervals, and boxes that they certainly miss.
 
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -15,10 +15,10 @@
 namespace treeform::detail::boolean {
 
 /// A triangle or a segment, whose corners are off by no more than `off` along each axis.
-class rough_corners {
+class interval_triangle {
   public:
     /// In these boxes.
-    explicit rough_corners(std::span<const aabb<double, 3>> corners) : count_(corners.size()) {
+    explicit interval_triangle(std::span<const aabb<double, 3>> corners) : count_(corners.size()) {
         for (std::size_t i = 0; i < count_; ++i) {
             all_.include(corners[i]);
             for (std::size_t k = 0; k < 3; ++k) {
@@ -28,7 +28,7 @@ class rough_corners {
         }
     }
     /// A triangle that is known.
-    explicit rough_corners(const std::array<point3, 3>& corners) : count_(3), at_(corners) {
+    explicit interval_triangle(const std::array<point3, 3>& corners) : count_(3), at_(corners) {
         for (const point3& corner : corners) all_.include(corner);
     }
 

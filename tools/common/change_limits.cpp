@@ -1,4 +1,4 @@
-#include "tools/common/rails.hpp"
+#include "tools/common/change_limits.hpp"
 
 #include "tools/common/console.hpp"
 #include <treeform/mesh/rounding.hpp>
@@ -6,18 +6,18 @@
 
 namespace tools {
 
-void add_max_move(command_line& line, rails& target) {
+void add_max_move(command_line& line, change_limits& target) {
     line.option(target.max_move,
                 {"--max-move", "DIST", "fail (exit 1) if rounding moves a point further", "0.1%"});
 }
 
-void add_max_loss(command_line& line, rails& target) {
+void add_max_loss(command_line& line, change_limits& target) {
     line.option({"--max-loss", "SHARE", "fail (exit 1) if more of the solid is lost", "5%"},
                 [&t = target.max_loss](std::string_view v) { t = parse_share("--max-loss", v); });
     line.flag(target.accept_loss, {"--accept-loss", "", "write it all the same"});
 }
 
-std::string move_objection(json& entry, const rails& limits, double diagonal,
+std::string move_objection(json& entry, const change_limits& limits, double diagonal,
                            const tf::certificate& known, tf::points_view points) {
     const double allowed = limits.max_move.used(diagonal), moved = known.max_displacement;
     entry["max_move"] = {{"given", limits.max_move.given},

@@ -1,7 +1,7 @@
 /// \file
 /// Boxes that triangles and segments certainly miss, against exact triangle pairs.
 
-#include <libmesh/boolean/rough_corners.hpp>
+#include <libmesh/boolean/interval_triangle.hpp>
 #include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
@@ -17,7 +17,7 @@
 
 namespace {
 
-using tf::detail::boolean::rough_corners;
+using tf::detail::boolean::interval_triangle;
 using box3 = tf::aabb<double, 3>;
 using corners3 = std::array<tf::point3, 3>;
 
@@ -85,13 +85,13 @@ question ask(test::random& source, double scale, bool on_lattice) {
 
 }  // namespace
 
-TEST_CASE("rough corners: a triangle is told apart from boxes that it misses, and from no other") {
+TEST_CASE("interval triangle: boxes that it misses are told from it, and no others") {
     test::random source(71);
     std::size_t apart = 0, met = 0;
     for (const double scale : {1.0, 0x1p-200, 0x1p300})
         for (int i = 0; i < 4000; ++i) {
             const question q = ask(source, scale, i % 2 == 0);
-            const bool is_apart = rough_corners(q.triangle).is_apart_from(q.box);
+            const bool is_apart = interval_triangle(q.triangle).is_apart_from(q.box);
             if (is_apart) {
                 CHECK_FALSE(meets(q.triangle, q.box));
                 ++apart;
@@ -105,7 +105,7 @@ TEST_CASE("rough corners: a triangle is told apart from boxes that it misses, an
     CHECK(met > 1000);
 }
 
-TEST_CASE("rough corners: whatever their corners are in their boxes") {
+TEST_CASE("interval triangle: whatever their corners are in their boxes") {
     test::random source(72);
     std::size_t apart = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -116,8 +116,8 @@ TEST_CASE("rough corners: whatever their corners are in their boxes") {
             boxes[k] = wider(boxes[k], 0.05);
         }
         const bool is_segment = i % 3 == 0;
-        const rough_corners rough(std::span<const box3>(boxes).first(is_segment ? 2 : 3));
-        if (!rough.is_apart_from(q.box)) continue;
+        const interval_triangle corners(std::span<const box3>(boxes).first(is_segment ? 2 : 3));
+        if (!corners.is_apart_from(q.box)) continue;
         ++apart;
         for (int j = 0; j < 8; ++j) {
             corners3 some;
@@ -131,12 +131,13 @@ TEST_CASE("rough corners: whatever their corners are in their boxes") {
     CHECK(apart > 300);
 }
 
-TEST_CASE("rough corners: numbers too large or too small to tell are not told apart") {
+TEST_CASE("interval triangle: numbers too large or too small to tell are not told apart") {
     const box3 box{{0, 0, 0}, {0x1p600, 0x1p600, 0x1p600}};
     const corners3 large{{{0x1p601, 0, 0}, {0, 0x1p601, 0}, {0x1p601, 0x1p601, 0}}};
-    CHECK_FALSE(rough_corners(large).is_apart_from(box));
+    CHECK_FALSE(interval_triangle(large).is_apart_from(box));
     // Products underflow: what is left of them says nothing.
     const double tiny = 0x1p-530;
     const corners3 small{{{3 * tiny, 0, 0}, {0, 3 * tiny, 0}, {0, 0, 3 * tiny}}};
-    CHECK_FALSE(rough_corners(small).is_apart_from({{0, 0, 0}, {tiny / 2, tiny / 2, tiny / 2}}));
+    CHECK_FALSE(
+        interval_triangle(small).is_apart_from({{0, 0, 0}, {tiny / 2, tiny / 2, tiny / 2}}));
 }

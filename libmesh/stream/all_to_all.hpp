@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Rows that each of a team has for each, on their way through files of the folder.
+/// All-to-all: rows that each rank has for each, on their way through files of the folder.
 
+#include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/row_file.hpp>
-#include <libmesh/stream/team.hpp>
 #include <libmesh/stream/work_folder.hpp>
 
 #include <cstddef>
@@ -15,14 +15,14 @@
 
 namespace treeform::detail::stream {
 
-class posted_rows {
+class all_to_all {
   public:
     /// Rows of `width` numbers. About `memory` bytes are held.
-    posted_rows(const work_folder& folder, const team& all, std::string name, std::size_t width,
-                std::uint64_t memory);
+    all_to_all(const work_folder& folder, const communicator& all, std::string name,
+               std::size_t width, std::uint64_t memory);
 
     void put(std::size_t to, numbers row) { to_[to].put(row); }
-    /// Hands over what was put. All come here, each once.
+    /// Hands over what was put. Collective: every rank must call this, once.
     void send();
     /// What the process has been given by each, in the order of the ranks.
     [[nodiscard]] std::vector<row_reader> received() const;
@@ -38,7 +38,7 @@ class posted_rows {
     void add_received(std::size_t by, std::vector<row_reader>& readers) const;
 
     const work_folder& folder_;
-    const team& all_;
+    const communicator& all_;
     std::string name_;
     std::size_t width_;
     std::uint64_t memory_;
@@ -46,15 +46,15 @@ class posted_rows {
     std::vector<std::vector<record_count>> counts_{};  ///< of what [a] has put for [b]
 };
 
-/// A `row_sorter` for each of a team, of rows that any of it has for it.
+/// A `row_sorter` for each rank, of rows that any of it has for it.
 class shared_sorter {
   public:
-    shared_sorter(const work_folder& folder, const team& all, const std::string& name,
+    shared_sorter(const work_folder& folder, const communicator& all, const std::string& name,
                   row_sorter::shape size, std::uint64_t memory);
 
     void put(std::size_t to, numbers row) {
-        if (posted_)
-            posted_->put(to, row);
+        if (exchanged_)
+            exchanged_->put(to, row);
         else
             sorter_.put(row);
     }
@@ -64,7 +64,7 @@ class shared_sorter {
 
   private:
     row_sorter sorter_;
-    std::optional<posted_rows> posted_{};  ///< until they are sorted; none where one is alone
+    std::optional<all_to_all> exchanged_{};  ///< until they are sorted; none where one is alone
 };
 
 }  // namespace treeform::detail::stream

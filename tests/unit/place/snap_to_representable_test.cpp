@@ -1,4 +1,4 @@
-#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
@@ -24,8 +24,8 @@ using test::still_parts;
 using tf::mesh_relation;
 using tf::motion_end;
 using tf::prepared_mesh;
-using tf::detail::place::settle_among;
 using tf::detail::place::shape;
+using tf::detail::place::snap_to_representable;
 using tf::detail::place::sweep_among;
 
 tf::approach approach(const tf::mesh& a, const tf::mesh& b, const tf::point3& motion,
@@ -134,10 +134,10 @@ TEST_CASE("settle among: what is written neither penetrates nor is nearer than t
         const auto whole = prepared_mesh::borrow(a);
         const auto found = sweep_among(shape(whole), among.parts(), down, {.clearance = clearance});
         REQUIRE(found.end == motion_end::contact);
-        const auto settled =
-            settle_among(whole, among.parts(), down, found.time,
-                         {.precision = single ? tf::precision::float32 : tf::precision::float64,
-                          .clearance = clearance});
+        const auto settled = snap_to_representable(
+            whole, among.parts(), down, found.time,
+            {.precision = single ? tf::precision::float32 : tf::precision::float64,
+             .clearance = clearance});
         REQUIRE(settled.good);
         stepped_back += settled.backed_off > 0;
         CHECK(std::abs(settled.time - found.time) < 1e-2);
@@ -160,10 +160,10 @@ TEST_CASE("settle among: the lowest points come to lie on the floor exactly") {
         double lowest = std::numeric_limits<double>::infinity();
         for (const tf::point3& p : a.points) lowest = std::min(lowest, p.z);
         const bool single = round % 2 == 0 && floor == 0.0;
-        const auto settled =
-            settle_among(prepared_mesh::borrow(a), {}, {0, 0, -1}, lowest - floor,
-                         {.precision = single ? tf::precision::float32 : tf::precision::float64,
-                          .floor = floor});
+        const auto settled = snap_to_representable(
+            prepared_mesh::borrow(a), {}, {0, 0, -1}, lowest - floor,
+            {.precision = single ? tf::precision::float32 : tf::precision::float64,
+             .floor = floor});
         CHECK(settled.good);
         double reached = std::numeric_limits<double>::infinity();
         for (const tf::point3& p : settled.points) reached = std::min(reached, p.z);
@@ -175,8 +175,8 @@ TEST_CASE("settle among: forward it backs off to later times") {
     still_parts among;
     among.add(box(1, 1, 1));
     const tf::mesh a = moved(box(1, 1, 1), {0.25, 0.25, 0.25});
-    const auto out = settle_among(prepared_mesh::borrow(a), among.parts(), {0, 0, 1},
-                                  0.75 - 0x1p-52, {.forward = true});
+    const auto out = snap_to_representable(prepared_mesh::borrow(a), among.parts(), {0, 0, 1},
+                                           0.75 - 0x1p-52, {.forward = true});
     CHECK(out.good);
     CHECK(out.relation != mesh_relation::penetrating);
     CHECK(out.time >= 0.75);
@@ -193,10 +193,11 @@ TEST_CASE("settle among: what cannot be meant is refused") {
                         std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(approach(moved(b, {0, 0, 3}), b, {0, 0, 0}, 1.0)),
                     std::invalid_argument);
-    CHECK_THROWS_AS(static_cast<void>(settle_among(one, {}, {0, 0, 0}, 1.0)),
+    CHECK_THROWS_AS(static_cast<void>(snap_to_representable(one, {}, {0, 0, 0}, 1.0)),
                     std::invalid_argument);
-    CHECK_THROWS_AS(static_cast<void>(settle_among(one, {}, {0, 0, 1}, infinity)),
+    CHECK_THROWS_AS(static_cast<void>(snap_to_representable(one, {}, {0, 0, 1}, infinity)),
                     std::invalid_argument);
-    CHECK_THROWS_AS(static_cast<void>(settle_among(one, {}, {0, 0, 1}, 1.0, {.clearance = -1.0})),
-                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        static_cast<void>(snap_to_representable(one, {}, {0, 0, 1}, 1.0, {.clearance = -1.0})),
+        std::invalid_argument);
 }

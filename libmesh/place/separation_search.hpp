@@ -22,13 +22,13 @@ struct apart_options {
 };
 
 /// A translation by `time` times `direction`.
-struct move_apart {
+struct separation {
     point3 direction{};  ///< of length 1, rounded
     double time = 0.0;   ///< its length
 };
 
-struct moves_apart {
-    std::vector<move_apart> moves{};                 ///< the shortest first
+struct separations {
+    std::vector<separation> moves{};                 ///< the shortest first
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: `moves` is empty
 };
 
@@ -45,7 +45,7 @@ struct moves_apart {
 /// say that it is free is passed over, a way back of which it does is not gone. With an
 /// effort, the ways along the axes past all boxes are always among those given.
 ///
-/// The places are those of exact translations except for rounding: `settle_among`, backing off
+/// The places are those of exact translations except for rounding: `snap_to_representable`, backing off
 /// `forward`, decides in the coordinates that are written.
 ///
 /// \throws std::invalid_argument when the clearance is negative or not finite
@@ -54,8 +54,8 @@ struct moves_apart {
 /// \same   on any number of threads
 /// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
 ///         Computing the Intersection-Depth of Polyhedra, Algorithmica 9 (1993)
-[[nodiscard]] TREEFORM_API moves_apart find_moves_apart(const shape& a,
-                                                        std::span<const shape> parts,
-                                                        const apart_options& options = {});
+[[nodiscard]] TREEFORM_API separations search_separations(const shape& a,
+                                                          std::span<const shape> parts,
+                                                          const apart_options& options = {});
 
 }  // namespace treeform::detail::place

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The faces that can matter to each other, of one operand or several.
+/// The interaction zone: the faces that can matter to each other, of one operand or several.
 
 #include <libmesh/boolean/cut_operand.hpp>
 #include <treeform/mesh/boolean.hpp>
@@ -60,7 +60,7 @@ using bundles = std::array<bundle, 2>;
 
 /// Faces near where surfaces meet, with points of their own. Faces and points of both bundles are
 /// counted through, those of the first before those of the second.
-struct near_faces {
+struct interaction_zone {
     mesh local;                           ///< ascending; equal points are one
     std::uint32_t first_of_b = 0;         ///< local faces from here on are of the second
     std::vector<std::uint32_t> face_of;   ///< [F] face of a bundle
@@ -74,15 +74,16 @@ struct near_faces {
 /// in common with the box of a face that is not near, and at each point of such a face, faces are one
 /// closed fan of which none is cut.
 ///
-/// What only later operations gain by is not prepared where there is just one, `once`. `all` are near
-/// for those who ask for cells.
+/// `once`: skips indexes that pay off only across operations. `all`: every face is near, as is needed
+/// by those who ask for cells.
 ///
 /// \cost   that of the faces that meet, and O(V + F / 8) besides
 /// \same   on any number of threads
-[[nodiscard]] near_faces find_near_faces(const bundles& operands, bool once, bool all = false);
+[[nodiscard]] interaction_zone find_interaction_zone(const bundles& operands, bool once,
+                                                     bool all = false);
 
 /// [local faces] their numbers among the faces of all operands as they were given.
 [[nodiscard]] std::vector<std::uint32_t> numbers_as_given(const bundles& operands,
-                                                          const near_faces& near);
+                                                          const interaction_zone& near);
 
 }  // namespace treeform::detail::boolean

@@ -60,7 +60,7 @@ tf::mesh rotated(tf::mesh mesh, double angle) {
 
 }  // namespace
 
-TEST_CASE("sound operands: apart, nested, equal or empty, the result is that of all faces") {
+TEST_CASE("certified operands: apart, nested, equal or empty, the result is that of all faces") {
     check_all_ways({ball(3, 1.0), moved(ball(3, 1.0), {5, 0, 0})});
     check_all_ways({ball(3, 1.0), ball(3, 0.5)});
     check_all_ways({ball(3, 0.5), ball(3, 1.0)});
@@ -70,7 +70,7 @@ TEST_CASE("sound operands: apart, nested, equal or empty, the result is that of 
     check_all_ways({tf::mesh{}, tf::mesh{}});
 }
 
-TEST_CASE("sound operands: balls that cross, with parts that do not, give that of all faces") {
+TEST_CASE("certified operands: balls that cross, with parts that do not, give that of all faces") {
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
@@ -87,7 +87,7 @@ TEST_CASE("sound operands: balls that cross, with parts that do not, give that o
 }
 
 TEST_CASE(
-    "sound operands: loose pieces that are cut off, or out of the middle, need no other way") {
+    "certified operands: loose pieces that are cut off, or out of the middle, need no other way") {
     // All faces of the piece are cut, or next to such; the large ball is far from it.
     const auto check = [](const operands& pair) { check_all_ways(pair); };
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
@@ -104,7 +104,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("sound operands: boxes on a lattice, that touch in every way, give that of all faces") {
+TEST_CASE(
+    "certified operands: boxes on a lattice, that touch in every way, give that of all faces") {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
@@ -112,7 +113,7 @@ TEST_CASE("sound operands: boxes on a lattice, that touch in every way, give tha
     }
 }
 
-TEST_CASE("sound operands: results are sound, with cavities and edges of four faces, too") {
+TEST_CASE("certified operands: results are certified, with cavities and edges of four faces, too") {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
@@ -134,7 +135,7 @@ TEST_CASE("sound operands: results are sound, with cavities and edges of four fa
     }
 }
 
-TEST_CASE("sound operands: turned boxes, thin ones too, give that of all faces") {
+TEST_CASE("certified operands: turned boxes, thin ones too, give that of all faces") {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
@@ -147,7 +148,7 @@ TEST_CASE("sound operands: turned boxes, thin ones too, give that of all faces")
     }
 }
 
-TEST_CASE("sound operands: where rounding breaks something, it is mended") {
+TEST_CASE("certified operands: where rounding breaks something, it is mended") {
     // A ball against itself, moved by less than rounding keeps apart.
     const operands pair{rotated(ball(3, 1.0), 0.7),
                         moved(rotated(ball(3, 1.0), 0.7), {1e-15, 0, 0})};
@@ -160,7 +161,7 @@ TEST_CASE("sound operands: where rounding breaks something, it is mended") {
     CHECK(floats.mesh == evaluate_pair(pair, "a*b", {.precision = tf::precision::float32}).mesh);
 }
 
-TEST_CASE("sound operands: points that no face uses may be anything, bad ones are refused") {
+TEST_CASE("certified operands: points that no face uses may be anything, bad ones are refused") {
     operands pair{ball(3, 1.0), moved(ball(3, 1.0), {0.5, 0, 0})};
     const tf::boolean_result before = evaluate_prepared(pair, "a+b", {});
     pair[0].points.push_back({NAN, 0, 0});
@@ -174,7 +175,7 @@ TEST_CASE("sound operands: points that no face uses may be anything, bad ones ar
     CHECK_THROWS_AS(static_cast<void>(evaluate_prepared(pair, "a+b", {})), std::invalid_argument);
 }
 
-TEST_CASE("sound operands: equal points are one") {
+TEST_CASE("certified operands: equal points are one") {
     tf::mesh soup;  // corners of its own for each face
     for (const tf::face& f : ball(2, 1.0).faces)
         for (const std::uint32_t corner : f) soup.points.push_back(ball(2, 1.0).points[corner]);
@@ -183,19 +184,19 @@ TEST_CASE("sound operands: equal points are one") {
     check_all_ways({soup, moved(ball(3, 1.0), {0.3, 0.2, 0.1})});
 }
 
-TEST_CASE("sound operands: a second question about prepared meshes builds nothing") {
+TEST_CASE("certified operands: a second question about prepared meshes builds nothing") {
     const operands pair{ball(3, 1.0), moved(ball(3, 1.0), {0.3, 0.2, 0.1})};
     const auto a = tf::prepared_mesh::borrow(pair[0]), b = tf::prepared_mesh::borrow(pair[1]);
     CHECK(a.indexes_built() == 0);
     CHECK(tf::unite(a, b).certificate);
     const auto built = a.indexes_built() + b.indexes_built();
     CHECK(built ==
-          10);  // of each: rough points, tree, own pairs, clusters, triangles in leaf order
+          10);  // of each: points without a fan, tree, own pairs, clusters, triangles in leaf order
     CHECK(tf::subtract(a, b).certificate);
     CHECK(a.indexes_built() + b.indexes_built() == built);
 }
 
-TEST_CASE("sound operands: progress can say stop while it is found out whether they are") {
+TEST_CASE("certified operands: progress can say stop while it is found out whether they are") {
     const operands pair{ball(3, 1.0), moved(ball(3, 1.0), {0.3, 0.2, 0.1})};
     const auto a = tf::prepared_mesh::borrow(pair[0]), b = tf::prepared_mesh::borrow(pair[1]);
     std::vector<double> told;
@@ -206,7 +207,7 @@ TEST_CASE("sound operands: progress can say stop while it is found out whether t
                          }});
     };
     CHECK(until(0.1).certificate.status == tf::status::cancelled);
-    CHECK(a.indexes_built() == 2);  // its rough points and its tree
+    CHECK(a.indexes_built() == 2);  // its points without a fan and its tree
     CHECK(until(0.5).certificate.status == tf::status::cancelled);
     CHECK(a.indexes_built() == 3);  // its own pairs, too
     CHECK(b.indexes_built() == 2);
@@ -220,7 +221,8 @@ TEST_CASE("sound operands: progress can say stop while it is found out whether t
     CHECK(told.front() < 0.3);
 }
 
-TEST_CASE("sound operands: the same bytes on any number of threads, and progress can say stop") {
+TEST_CASE(
+    "certified operands: the same bytes on any number of threads, and progress can say stop") {
     const operands pair{ball(5, 1.0), moved(rotated(ball(5, 1.0), 0.3), {0.4, 0.3, 0.2})};
     const tf::boolean_result all = evaluate_prepared(pair, "a-b", {});
     for (const unsigned threads : {1U, 2U, 8U}) {

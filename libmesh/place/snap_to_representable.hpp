@@ -18,7 +18,7 @@
 
 namespace treeform::detail::place {
 
-struct settle_among_options {
+struct snap_options {
     treeform::precision precision = treeform::precision::float64;  ///< of the coordinates returned
     double clearance = 0.0;  ///< the least distance to the parts, as `distance` computes it
     /// Where given, a level that the mesh stays above. What would come to lie below it is put on
@@ -36,7 +36,7 @@ struct settle_among_options {
     progress_callback progress{};
 };
 
-struct settled_among {
+struct snapped {
     std::vector<point3> points{};  ///< [V] of `a`, moved and rounded
     double time = 0.0;             ///< the one that `points` belong to
     unsigned backed_off = 0;       ///< steps taken
@@ -64,9 +64,9 @@ struct settled_among {
 /// \cost   a `build_face_tree` of `a` for each attempt, with `relation` and `distance` for the
 ///         parts whose boxes are within the clearance of its box
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API settled_among settle_among(const prepared_mesh& a,
-                                                      std::span<const shape> parts,
-                                                      const point3& motion, double time,
-                                                      const settle_among_options& options = {});
+[[nodiscard]] TREEFORM_API snapped snap_to_representable(const prepared_mesh& a,
+                                                         std::span<const shape> parts,
+                                                         const point3& motion, double time,
+                                                         const snap_options& options = {});
 
 }  // namespace treeform::detail::place

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The processes that do one work together: what each tells all, and which share is whose.
+/// The processes (ranks) that do one work together: what each sends to all, and which share is
+/// whose.
 
 #include <libmesh/stream/state_record.hpp>
 #include <treeform/mesh/process_team.hpp>
@@ -23,13 +24,13 @@ struct share {
     [[nodiscard]] bool has(std::uint64_t i) const { return i >= first && i < last; }
 };
 
-class team {
+class communicator {
   public:
-    explicit team(const process_team& all) : all_(all) {}
+    explicit communicator(const process_team& all) : all_(all) {}
 
     [[nodiscard]] std::size_t size() const { return all_.size; }
     [[nodiscard]] std::size_t rank() const { return all_.rank; }
-    [[nodiscard]] bool leads() const { return all_.rank == 0; }
+    [[nodiscard]] bool is_root() const { return all_.rank == 0; }
     /// One that is alone, where others do nothing.
     [[nodiscard]] bool is_alone() const { return all_.size == 1; }
 
@@ -50,52 +51,52 @@ class team {
                                                    : count % size() + (i - larger) / each);
     }
 
-    /// Tells all, and returns what each has told. All come here, or none goes on.
+    /// All-gather: returns what every rank gives, by rank. Collective: every rank must call this.
     [[nodiscard]] std::vector<state_reader> exchange(const state_writer& mine) const {
-        std::vector<state_reader> told;
+        std::vector<state_reader> received;
         if (is_alone())
-            told.emplace_back(mine.bytes());
+            received.emplace_back(mine.bytes());
         else
-            for (std::string& bytes : all_.exchange(mine.bytes())) told.emplace_back(bytes);
-        return told;
+            for (std::string& bytes : all_.exchange(mine.bytes())) received.emplace_back(bytes);
+        return received;
     }
-    /// Each in turn tells something, `tell(mine)`, which all hear before the next one does,
-    /// `hear(told)`. All come here, and none goes on alone.
-    template <class Tell, class Hear>
-    void take_turns(const Tell& tell, const Hear& hear) const {
+    /// Rank by rank: `send(mine)` writes what the rank sends, which all receive,
+    /// `receive(received)`, before the next rank begins. Collective: every rank must call this.
+    template <class Send, class Receive>
+    void sequential(const Send& send, const Receive& receive) const {
         for (std::size_t turn = 0; turn < size(); ++turn) {
             state_writer mine;
-            if (turn == rank()) tell(mine);
-            hear(std::move(exchange(mine)[turn]));
+            if (turn == rank()) send(mine);
+            receive(std::move(exchange(mine)[turn]));
         }
     }
-    /// Where this one stops in its turn, of so many bytes: at the end of its share; the last one goes to
-    /// the end, wherever that is.
+    /// Where this one stops in its turn, of so many bytes: at the end of its share; the last one
+    /// goes to the end, wherever that is.
     [[nodiscard]] std::uint64_t end_of_turn(std::uint64_t bytes) const {
         return rank() + 1 == size() ? std::numeric_limits<std::uint64_t>::max()
                                     : share_of(bytes, rank()).last;
     }
-    /// Goes on when all are here.
-    void meet() const { static_cast<void>(exchange({})); }
+    /// Returns when every rank has called it.
+    void barrier() const { static_cast<void>(exchange({})); }
     [[nodiscard]] double most(double mine) const {
-        state_writer told;
-        told.real(mine);
-        for (state_reader& one : exchange(told)) mine = std::max(mine, one.real());
+        state_writer sent;
+        sent.real(mine);
+        for (state_reader& one : exchange(sent)) mine = std::max(mine, one.real());
         return mine;
     }
     [[nodiscard]] std::uint64_t sum(std::uint64_t mine) const {
-        state_writer told;
-        told.number(mine);
+        state_writer sent;
+        sent.number(mine);
         std::uint64_t all = 0;
-        for (state_reader& one : exchange(told)) all += one.number();
+        for (state_reader& one : exchange(sent)) all += one.number();
         return all;
     }
 
-    /// Of what those tell that are ahead.
+    /// Of what lower ranks give.
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t mine) const {
-        state_writer told;
-        told.number(mine);
-        std::vector<state_reader> all = exchange(told);
+        state_writer sent;
+        sent.number(mine);
+        std::vector<state_reader> all = exchange(sent);
         std::uint64_t sum = 0;
         for (std::size_t r = 0; r < rank(); ++r) sum += all[r].number();
         return sum;

@@ -11,7 +11,7 @@
 
 namespace tools {
 
-struct rails {
+struct change_limits {
     distance max_move{.given = "0.1%", .value = 1e-3, .relative = true};  ///< of any point
     double max_loss = 0.05;
     bool accept_loss = false;
@@ -22,12 +22,12 @@ struct rails {
 /// By `fill_rule`.
 inline constexpr std::array<const char*, 3> fill_rules{"nonzero", "odd", "positive"};
 
-void add_max_move(command_line& line, rails& target);
-void add_max_loss(command_line& line, rails& target);
+void add_max_move(command_line& line, change_limits& target);
+void add_max_loss(command_line& line, change_limits& target);
 
 /// Enters given, used and largest move as "max_move"; why that is too far, or nothing where it is
 /// not. `diagonal` is that of the input's box.
-[[nodiscard]] std::string move_objection(json& entry, const rails& limits, double diagonal,
+[[nodiscard]] std::string move_objection(json& entry, const change_limits& limits, double diagonal,
                                          const tf::certificate& known, tf::points_view points);
 
 }  // namespace tools

@@ -4,8 +4,8 @@
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/facing.hpp>
-#include <libmesh/place/moves_apart.hpp>
 #include <libmesh/place/relation_of.hpp>
+#include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -65,8 +65,8 @@ class clearing {
         }
     }
 
-    [[nodiscard]] moves_apart moves() {
-        std::vector<move_apart> found;
+    [[nodiscard]] separations moves() {
+        std::vector<separation> found;
         const bool stays = a_.faces.empty() || !box_ || is_clear({});
         if (!stays && !work_.cancelled()) found = moves_out();
         work_.reach(1.0);
@@ -77,15 +77,15 @@ class clearing {
     }
 
   private:
-    [[nodiscard]] std::vector<move_apart> moves_out() {
-        std::vector<move_apart> found;
+    [[nodiscard]] std::vector<separation> moves_out() {
+        std::vector<separation> found;
         const auto pair = nearest({});
         const double lacking = pair ? options_.clearance - pair->distance : 0.0;
-        move_apart best{{}, infinity};
+        separation best{{}, infinity};
         const auto look = [&](const std::optional<point3>& direction) {
             ++looked_;
             if (!direction || !go_on()) return;
-            const auto time = way_out(*direction, lacking, best.time);
+            const auto time = time_to_leave(*direction, lacking, best.time);
             if (!time) return;
             found.push_back({*direction, *time});
             if (*time < best.time) best = found.back();
@@ -144,7 +144,7 @@ class clearing {
     /// The nearest pair at the offset within the clearance, over all parts.
     [[nodiscard]] std::optional<closest_points_result> nearest(const point3& offset) const {
         std::optional<closest_points_result> best;
-        const transformed<3> there(tree_, translation<3>(offset));
+        const transformed<3> there(tree_, transform<3>::translation(offset));
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             if (!boxes_within(i, offset)) continue;
             const double radius = best ? best->distance : options_.clearance;
@@ -173,18 +173,20 @@ class clearing {
         // What penetrates with its faces is found without a tree for the place.
         const std::vector<point3> points = points_at(offset);
         const mesh_view there{points, a_.faces};
-        mesh_intersection_options crossing{.move_a = translation<3>(offset), .first_only = true};
+        mesh_intersection_options crossing{.move_a = transform<3>::translation(offset),
+                                           .first_only = true};
         crossing.progress = asking_;
         crossing.kinds = pair_kind::crossing;
         for (const std::size_t i : close) {
             const auto found = intersect::mesh_intersections(
                 a_, tree_, parts_[i].mesh(), parts_[i].faces(), crossing, options_.effort);
-            if (!found.pairs.empty() || found.cancelled) return false;
+            if (!found.pairs.empty() || found.status == treeform::status::cancelled) return false;
         }
         const tree<3> faces = build_face_tree(there);
         for (const std::size_t i : close) {
-            const auto how = relation_of(shape(shape_.whose(), points, faces, parts_[i].vertices()),
-                                         parts_[i], asking_, options_.effort);
+            const auto how =
+                relation_of(shape(shape_.prepared(), points, faces, parts_[i].vertices()),
+                            parts_[i], asking_, options_.effort);
             if (how.relation == mesh_relation::penetrating || how.status == status::cancelled)
                 return false;
         }
@@ -211,8 +213,8 @@ class clearing {
     }
 
     /// The length of a free way back from the first free place along `direction`.
-    [[nodiscard]] std::optional<double> way_out(const point3& direction, double lacking,
-                                                double best) {
+    [[nodiscard]] std::optional<double> time_to_leave(const point3& direction, double lacking,
+                                                      double best) {
         std::vector<double> times;
         for (std::size_t i = 0; i < boxes_.size(); ++i)
             if (boxes_within(i, {})) times.push_back(beyond_box(boxes_[i], direction));
@@ -235,7 +237,7 @@ class clearing {
         const mesh_view there{points, a_.faces};
         const tree<3> faces = build_face_tree(there);
         const auto back =
-            sweep_among(shape(shape_.whose(), points, faces), parts_, scaled(direction, -1.0),
+            sweep_among(shape(shape_.prepared(), points, faces), parts_, scaled(direction, -1.0),
                         {.clearance = options_.clearance,
                          .latest = time - occupied,
                          .limit = 1,
@@ -326,8 +328,8 @@ class clearing {
 
 }  // namespace
 
-moves_apart find_moves_apart(const shape& a, std::span<const shape> parts,
-                             const apart_options& options) {
+separations search_separations(const shape& a, std::span<const shape> parts,
+                               const apart_options& options) {
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
         throw std::invalid_argument("treeform::separate: the clearance is negative or not finite");
     return clearing(a, parts, options).moves();

@@ -4,7 +4,7 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/place/relation_of.hpp>
-#include <libmesh/place/settle_among.hpp>
+#include <libmesh/place/snap_to_representable.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
 
@@ -20,8 +20,8 @@ namespace {
 class settling {
   public:
     settling(const prepared_mesh& a, std::span<const shape> parts, const point3& motion,
-             const settle_among_options& options)
-        : whose_(a),
+             const snap_options& options)
+        : prepared_(a),
           a_(a.view()),
           parts_(parts),
           motion_(motion),
@@ -30,9 +30,9 @@ class settling {
         for (const shape& part : parts) boxes_.push_back(bounding_box(part.mesh().points));
     }
 
-    [[nodiscard]] settled_among at(double time, bool rests) {
+    [[nodiscard]] snapped at(double time, bool rests) {
         ++tries_;
-        settled_among one;
+        snapped one;
         one.time = time;
         one.points.assign(a_.points.begin(), a_.points.end());
         for (point3& p : one.points)
@@ -53,7 +53,7 @@ class settling {
     [[nodiscard]] bool cancelled() const { return work_.cancelled(); }
     [[nodiscard]] bool single() const { return options_.precision == precision::float32; }
 
-    [[nodiscard]] settled_among finished(settled_among found) {
+    [[nodiscard]] snapped finished(snapped found) {
         work_.reach(1.0);
         if (cancelled()) found.status = status::cancelled;
         return found;
@@ -89,7 +89,7 @@ class settling {
             if (p.z <= level) p.z = *options_.floor;
     }
 
-    void look_around(settled_among& one) {
+    void look_around(snapped& one) {
         const mesh_view there{one.points, a_.faces};
         const auto box = bounding_box(one.points);
         one.good = true;
@@ -102,7 +102,7 @@ class settling {
             const auto go_on = [&](double) { return work_.step(0.0, 0.9, tries_, 4.0); };
             if (!go_on(0.0)) return;
             if (!faces) faces = build_face_tree(there);
-            const shape moved(whose_, one.points, *faces, part.vertices());
+            const shape moved(prepared_, one.points, *faces, part.vertices());
             const auto judged = relation_of(moved, part, go_on, options_.effort);
             if (judged.status == status::cancelled) {
                 one.good = false;
@@ -126,17 +126,17 @@ class settling {
         return pair && pair->distance < options_.clearance;
     }
 
-    const prepared_mesh& whose_;
+    const prepared_mesh& prepared_;
     mesh_view a_;
     std::span<const shape> parts_;
     point3 motion_;
-    settle_among_options options_;
+    snap_options options_;
     base::work_progress work_;
     std::size_t tries_ = 0;
     std::vector<std::optional<box3>> boxes_;
 };
 
-void check(const point3& motion, double time, const settle_among_options& options) {
+void check(const point3& motion, double time, const snap_options& options) {
     double speed = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
         speed = std::isnan(motion[k]) ? motion[k] : std::max(speed, std::abs(motion[k]));
@@ -148,20 +148,20 @@ void check(const point3& motion, double time, const settle_among_options& option
 
 }  // namespace
 
-settled_among settle_among(const prepared_mesh& a, std::span<const shape> parts,
-                           const point3& motion, double time, const settle_among_options& options) {
+snapped snap_to_representable(const prepared_mesh& a, std::span<const shape> parts,
+                              const point3& motion, double time, const snap_options& options) {
     check(motion, time, options);
     settling place(a, parts, motion, options);
-    settled_among best = place.at(time, true);
+    snapped best = place.at(time, true);
     if (!base::all_finite(best.points))
         throw std::overflow_error("treeform: the coordinates at the place are too large");
     const double unit = place.unit_of_time(best.points);
-    const auto closed_in = [&](settled_among found) {
+    const auto closed_in = [&](snapped found) {
         const bool wanted = options.close_in && !options.forward && !(options.clearance > 0.0);
         for (int steps = 0; wanted && steps < 4 && found.good &&
                             found.relation == mesh_relation::separate && !place.cancelled();
              ++steps) {
-            settled_among next = place.at(found.time + unit, true);
+            snapped next = place.at(found.time + unit, true);
             if (!next.good) break;
             next.backed_off = found.backed_off;
             found = std::move(next);
@@ -188,7 +188,7 @@ settled_among settle_among(const prepared_mesh& a, std::span<const shape> parts,
     while (best.good && std::abs(bad - best.time) > 2.0 * unit &&
            best.backed_off < options.attempts && !place.cancelled()) {
         const unsigned count = best.backed_off + 1;
-        settled_among middle = place.at(best.time + (bad - best.time) / 2, false);
+        snapped middle = place.at(best.time + (bad - best.time) / 2, false);
         if (middle.good)
             best = std::move(middle);
         else

@@ -1,4 +1,4 @@
-#include <libmesh/arrange/way_out.hpp>
+#include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/triangle.hpp>
@@ -10,15 +10,15 @@
 
 namespace treeform::detail::arrange {
 
-way_out find_way_out(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
-                     const aabb<double, 3>& box) {
+escape_ray find_escape_ray(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
+                           const aabb<double, 3>& box) {
     const auto& [a, b, c] = cut.faces[f];
-    return find_way_out({cut.point(a), cut.point(b), cut.point(c)},
-                        base::triangle_of(mesh, cut.covers_of(f).front().face), box);
+    return find_escape_ray({cut.point(a), cut.point(b), cut.point(c)},
+                           base::triangle_of(mesh, cut.covers_of(f).front().face), box);
 }
 
-way_out find_way_out(const std::array<implicit_point, 3>& corners, const triangle3& whole,
-                     const aabb<double, 3>& box) {
+escape_ray find_escape_ray(const std::array<implicit_point, 3>& corners, const triangle3& whole,
+                           const aabb<double, 3>& box) {
     const point3 normal =
         base::cross(base::minus(whole[1], whole[0]), base::minus(whole[2], whole[0]));
     const point3 size = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};

@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// How far points were moved.
+
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/transform.hpp>
+
+namespace treeform::detail {
+
+/// Largest difference of a coordinate between `placed` and `points` moved by `by`; computed in
+/// twice the precision of double. Infinite when a number is not finite.
+///
+/// \pre `points` and `placed` have the same size
+[[nodiscard]] double max_displacement(points_view points, const transform<3>& by,
+                                      points_view placed);
+
+}  // namespace treeform::detail

@@ -1,0 +1,21 @@
+#pragma once
+/// \file
+/// Some faces of a mesh.
+
+#include <treeform/mesh/prepared_mesh.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace treeform {
+
+/// A mesh of the given faces, in the order of `faces`, and of the points that they use, in the
+/// order of `mesh`.
+///
+/// \throws std::invalid_argument naming the number that is no face of the mesh, or a face with a
+///         corner out of range
+/// \cost   O(V + F) time
+/// \same   on any number of threads
+[[nodiscard]] mesh select_faces(const mesh_ref& mesh, std::span<const std::uint32_t> faces);
+
+}  // namespace treeform
