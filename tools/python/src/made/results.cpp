@@ -180,6 +180,42 @@ py::object object(of_result, tf::intersection_region&& from) {
     return object_of("treeform._intersections", "Region", made);
 }
 
+py::object object(of_result, tf::stream_search_result&& from) {
+    py::dict made;
+    made["face_in_file"] = faces_in_file(from.part);
+    made["mesh"] = mesh_object(std::move(from.part.mesh), py::none(), py::none());
+    made["dropped"] = py::cast(from.part.dropped);
+    made["pairs"] = column(from.found.pairs, [](const auto& one) {
+        return std::array{one.a, one.b};
+    });
+    made["kinds"] = column(from.found.pairs,
+                           [](const auto& one) { return static_cast<std::uint8_t>(one.kind); });
+    made["counts"] = counts_of<tf::pair_kind>(from.found.counts);
+    made["stored_faces"] = as_python(std::move(from.stored_faces));
+    made["tiles"] = as_python(std::move(from.tiles));
+    return object_of("treeform._intersections", "FilePairs", made);
+}
+
+py::object object(of_result, tf::write_result&& from) {
+    py::dict made;
+    made["format"] = as_python(std::move(from.format));
+    made["precision"] = as_python(std::move(from.written_as));
+    made["max_displacement"] = as_python(std::move(from.max_displacement));
+    made["warnings"] = texts_of(from.warnings);
+    return object_of("treeform._files", "Written", made);
+}
+
+py::object object(of_result, tf::weld_result&& from, const file_data* data) {
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), py::none(),
+                               with_attributes(data, std::move(from.attributes)));
+    made["index"] = as_python(std::move(from.groups.group_of_point));
+    made["source"] = as_python(std::move(from.point_of_group));
+    made["face_source"] = as_python(std::move(from.face_of_new));
+    made["statistics"] = counters(from.statistics);
+    return object_of("treeform._weld", "WeldResult", made);
+}
+
 py::object object(of_result, tf::weld_stream_result&& from) {
     py::dict made;
     made["points"] = py::cast(from.survey.points);
@@ -378,6 +414,22 @@ py::object object(of_result, tf::part_clash&& from) {
     made["move"] = as_python(std::move(from.move));
     made["depth_effort"] = as_python(std::move(from.depth_effort));
     return object_of("treeform._assembly", "PartClash", made);
+}
+
+py::object object(of_result, tf::pose_result&& from) {
+    py::dict made;
+    made["pose"] =
+        column_of_poses(from, [](std::uint32_t pose, const tf::pose_clash&) { return pose; });
+    made["parts"] = column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) {
+        return std::array{one.a, one.b};
+    });
+    made["how"] = column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) {
+        return static_cast<std::uint8_t>(one.how);
+    });
+    made["distance"] = column_of_poses(
+        from, [](std::uint32_t, const tf::pose_clash& one) { return one.distance; });
+    made["clashing"] = as_python(std::move(from.clashing));
+    return object_of("treeform._assembly", "PoseClashes", made);
 }
 
 py::object object(of_result, tf::clash_result&& from) {
