@@ -18,6 +18,11 @@ ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
           "vector<face>": ("Ids", "({}, 3)"), "vector<operand_element>": ("Ids", "({}, 2)")}
 
 
+#: What results are made in, as functions take it.
+CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
+            "moving": ", const held_mesh& moving", "data": ", const file_data* data"}
+
+
 @dataclass
 class Attribute:
     """An attribute of a result. `code` gives its value; in it, `from` is the struct of C++."""
@@ -41,7 +46,7 @@ class Result:
     names: dict[str, str] = field(default_factory=dict)
     leave: str = ""
     inherited: str = ""  #: fields that the base has
-    context: str = ""  #: what it is made in: "attributes", "moving"
+    context: str = ""  #: what it is made in, of `CONTEXTS`
     custom: dict[str, list[Attribute]] = field(default_factory=dict)  #: "+": more of them
     docs: dict[str, str] = field(default_factory=dict)
 
@@ -115,7 +120,7 @@ class Language:
             return []
         name, source = of.names.get(one.name, one.name), f"from.{path}{one.name}"
         type = one.type
-        context = {"": "", "attributes": ", attributes", "moving": ", moving"}[of.context]
+        context = f", {of.context}" if of.context else ""
         doc = of.docs.get(name) or self.sentence(one)
         if type == "mesh":
             return [Attribute(name, "Mesh", doc,
@@ -199,8 +204,7 @@ class Language:
     def object_code(self, of: Result) -> str:
         """The function that makes an object of it."""
         attributes = self.attributes(of)
-        parameter = {"": "", "attributes": ", const carrying& attributes",
-                     "moving": ", const held_mesh& moving"}[of.context]
+        parameter = CONTEXTS[of.context]
         text = f"py::object object(of_result, tf::{of.cpp}&& from{parameter}) {{\n"
         codes = [one.code for one in attributes]
         if "certificate" in " ".join(codes) and any(
@@ -209,16 +213,15 @@ class Language:
         elif any("certificate" in code for code in codes):
             text += "const py::object certificate = py::none();\n"
         if any("data)" in code for code in codes):
-            value = "data_of(from, attributes)" if of.context == "attributes" else "py::none()"
-            text += f"const py::object data = {value};\n"
+            value = {"attributes": "data_of(from, attributes)", "": "py::none()"}.get(of.context)
+            text += f"const py::object data = {value};\n" if value else ""
         text += "py::dict made;\n"
         for one in attributes:
             text += f'made["{one.name}"] = {one.code};\n'
         return text + f'return object_of("treeform.{of.module}", "{of.name}", made);\n}}\n'
 
     def declaration(self, of: Result) -> str:
-        parameter = {"": "", "attributes": ", const carrying& attributes",
-                     "moving": ", const held_mesh& moving"}[of.context]
+        parameter = CONTEXTS[of.context]
         return f"py::object object(of_result, tf::{of.cpp}&& from{parameter});\n"
 
     # ---- options ----

@@ -7,7 +7,7 @@ from python_language import Attribute, Function, Result
 
 #: Words of C++ in sentences, and those of Python.
 WORDS = {"`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
-         "`boolean_statistics`": "`BooleanResult.statistics`", "bounding_box": "Mesh.bounds"}
+         "`boolean_statistics`": "`BooleanResult.statistics`", "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
 
 MESSAGE = Attribute("message", "str", "Half a sentence for people.", "py::cast(from.message())")
 MESH_OF_PLACE = Attribute(
@@ -101,7 +101,43 @@ RESULTS = [
     Result("intersection_region", "Region", "_intersections", custom={
         "min": [Attribute("bounds", "Floats", "(2, 3) the box around them.",
                           "as_python(std::array{from.min, from.max})")], "max": []}),
+    Result("stream_search_result", "FilePairs", "_intersections", "FacePairs",
+           inherited="pairs kinds counts",
+           doc="Pairs of faces of a file that meet; they are numbers of faces of `mesh`.",
+           leave="triangles searched points bounds header finished_tiles started_anew",
+           docs={"tiles": "Parts that space was cut into."},
+           custom={
+               "part": [
+                   Attribute("face_in_file", "Ids", "(F,) the number in the file of each face of "
+                             "`mesh`.", "faces_in_file(from.part)"),
+                   Attribute("mesh", "Mesh", "Only the faces that meet others, in the order of the "
+                             "file.", "mesh_object(std::move(from.part.mesh), py::none(), "
+                             "py::none())"),
+                   Attribute("dropped", "int", "Triangles with a coordinate that is not finite, left "
+                             "out.", "py::cast(from.part.dropped)")],
+               "found": [
+                   column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
+                   column("kinds", "", "", "found.pairs", "static_cast<std::uint8_t>(one.kind)"),
+                   Attribute("counts", "", "", "counts_of<tf::pair_kind>(from.found.counts)")]}),
+    # _files
+    Result("write_result", "Written", "_files", doc="What `write` wrote.",
+           names={"written_as": "precision"},
+           docs={"format": "'stl-binary', 'ply-ascii', 'obj', ...",
+                 "precision": "Of the coordinates written: 'float32' or 'float64'."},
+           custom={"warnings": [Attribute("warnings", "list[str]", "What a person should know.",
+                                          "texts_of(from.warnings)")]}),
     # _weld
+    Result("weld_result", "WeldResult", "_weld", "MeshResult", context="data",
+           doc="A welded mesh or cloud.", leave="attributes",
+           names={"point_of_group": "source", "face_of_new": "face_source"},
+           docs={"source": "(m,) the input point that gave each new one its properties.",
+                 "face_source": "(F,) the input face that each face was; empty for a cloud.",
+                 "statistics": "Counts of what was done."},
+           custom={"groups": [Attribute("index", "Ids", "(n,) the new number of each point.",
+                                        "as_python(std::move(from.groups.group_of_point))")],
+                   "mesh": [Attribute("mesh", "Mesh", "The welded mesh; of a cloud, one without "
+                                      "faces.", "mesh_object(std::move(from.mesh), py::none(), "
+                                      "with_attributes(data, std::move(from.attributes)))")]}),
     Result("weld_stream_result", "WeldStreamResult", "_weld", doc="What `weld_stream` has done.",
            leave="written max_displacement points faces triangles tolerance non_finite box single "
                  "sources ranges warnings las_moved conditions finished_tiles unfinished "
@@ -243,6 +279,22 @@ RESULTS = [
            custom={"regions": [Attribute(
                "regions", "list[tuple[Floats, int, Ids, Ids]]", "Where they meet: (box (2, 3), "
                "pairs of faces, faces of a, faces of b).", "regions_of(from)")]}),
+    Result("pose_result", "PoseClashes", "_assembly", leave="boxes_apart",
+           doc="What is not clear in each of many poses: n pairs of parts, pose after pose.",
+           docs={"clashing": "Poses with a pair that penetrates or is too close."},
+           custom={"poses": [
+               Attribute("pose", "Ids", "(n,) the pose, ascending.",
+                         "column_of_poses(from, [](std::uint32_t pose, const tf::pose_clash&) "
+                         "{ return pose; })"),
+               *[Attribute(name, annotation, doc, "column_of_poses(from, [](std::uint32_t, const "
+                           f"tf::pose_clash& one) {{ return {value}; }})")
+                 for name, annotation, doc, value in (
+                     ("parts", "Ids", "(n, 2) the parts, the lower number first.",
+                      "std::array{one.a, one.b}"),
+                     ("how", "NDArray[np.uint8]", "(n,) uint8: how they lie, a place in "
+                      "`STANDINGS`.", "static_cast<std::uint8_t>(one.how)"),
+                     ("distance", "Floats", "(n,) of those that are closer than the clearance; else "
+                      "0.", "one.distance"))]]}),
     Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
            doc="How all parts lie to each other.",
            custom={"counts": [Attribute("counts", "dict[str, int]",

@@ -12,6 +12,8 @@ from python_language import Function, Language
 
 PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
+#: Modules whose results are in `places.cpp`.
+PLACES = ("_assembly", "_nearness", "_placement")
 BLOCK = re.compile(r"^# made of (results|options|functions)[^\n]*:\n((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
 
@@ -73,8 +75,10 @@ class Writer:
         options += "\nvoid add_options(py::module_& module) {\n" + "".join(
             self.language.option_class(name) for name in self.options)
         options += "}\n\n}  // namespace binding\n"
-        results = start.format("../parts.hpp") + "\n".join(
-            self.language.object_code(one) for one in self.language.results.values())
+        of_places, results = (start.format("../parts.hpp") + "\n".join(
+            self.language.object_code(one) for one in self.language.results.values()
+            if (one.module in PLACES) == places) for places in (True, False))
+        of_places += "\n}  // namespace binding\n"
         results += "\n" + "\n".join(self.language.counters_code(name, leave)
                                     for name, leave in self.counters.items())
         results += "\n}  // namespace binding\n"
@@ -87,7 +91,7 @@ class Writer:
             f"{'' if one.kind == 'by_elements' else ', job_kind::' + one.kind});\n"
             for one in self.functions)
         functions += "}\n\n}  // namespace binding\n"
-        made = {"words.hpp": words, "made.hpp": head, "options.cpp": options, "results.cpp": results,
+        made = {"words.hpp": words, "made.hpp": head, "options.cpp": options, "results.cpp": results, "places.cpp": of_places,
                 "functions.cpp": functions}
         return {MADE / name: formatted(text, f"tools/python/src/made/{name}")
                 for name, text in made.items()}

@@ -54,32 +54,16 @@ std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
     return all;
 }
 
-py::dict check_poses(const held_meshes& parts, const array_of<double>& matrices,
-                     tf::pose_options options, const ids_array& ignored) {
+py::object check_poses(const held_meshes& parts, const array_of<double>& matrices,
+                       tf::pose_options options, const ids_array& ignored) {
     options.ignored = rows_of<tf::part_pair>(ignored);
     const std::vector<tf::prepared_mesh> all = borrowed(parts);
     const std::vector<tf::transform<3>> poses = transforms_of(matrices);
-    const tf::pose_result found = run([&](const tf::progress_callback& report) {
+    tf::pose_result found = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::check_poses(all, poses, options);
     });
-    std::vector<std::uint32_t> pose;
-    std::vector<tf::pose_clash> clashes;
-    for (std::size_t p = 0; p < found.poses.size(); ++p)
-        for (const tf::pose_clash& one : found.poses[p]) {
-            pose.push_back(static_cast<std::uint32_t>(p));
-            clashes.push_back(one);
-        }
-    py::dict made;
-    made["pose"] = as_array(std::move(pose));
-    made["parts"] = column(clashes, [](const tf::pose_clash& c) {
-        return std::array<std::uint32_t, 2>{c.a, c.b};
-    });
-    made["how"] =
-        column(clashes, [](const tf::pose_clash& c) { return static_cast<std::uint8_t>(c.how); });
-    made["distance"] = column(clashes, [](const tf::pose_clash& c) { return c.distance; });
-    made["clashing"] = found.clashing;
-    return made;
+    return as_python(std::move(found));
 }
 
 /// `of(positions)` for pieces of the positions, its answers one after the other.

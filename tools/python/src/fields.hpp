@@ -4,6 +4,7 @@
 
 #include "arrays.hpp"
 #include "carrying.hpp"
+#include "file_data.hpp"
 #include "held_mesh.hpp"
 #include "made/words.hpp"
 #include <treeform/mesh/certificate.hpp>

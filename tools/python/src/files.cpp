@@ -2,7 +2,7 @@
 #include "file_data.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
-#include "made/words.hpp"
+#include "made/made.hpp"
 #include "state.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -159,12 +159,12 @@ tf::write_result write_to(const std::filesystem::path& path, const held_mesh& me
     return tf::detail::io::write_certified(path, file, as);
 }
 
-py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
-               bool certified, const std::string& format, bool ascii,
-               const std::optional<std::string>& precision, bool round,
-               const std::vector<std::string>& drop, const name_pairs& rename,
-               const std::optional<std::array<double, 3>>& las_scale,
-               const std::optional<std::array<double, 3>>& las_offset) {
+py::object write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
+                 bool certified, const std::string& format, bool ascii,
+                 const std::optional<std::string>& precision, bool round,
+                 const std::vector<std::string>& drop, const name_pairs& rename,
+                 const std::optional<std::array<double, 3>>& las_scale,
+                 const std::optional<std::array<double, 3>>& las_offset) {
     tf::write_options options{.format = format,
                               .ascii = ascii,
                               .drop = drop,
@@ -179,17 +179,10 @@ py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const f
         return done < 1.0 ? !report || report(done) : commit_job();
     };
     const std::optional<file_data> kept = data == nullptr ? std::nullopt : std::optional(*data);
-    const tf::write_result written = run([&](const tf::progress_callback&) {
+    tf::write_result written = run([&](const tf::progress_callback&) {
         return write_to(path, mesh, kept ? &*kept : nullptr, certified, options);
     });
-    py::dict made;
-    made["format"] = written.format;
-    made["precision"] = word_of(written.written_as);
-    made["max_displacement"] = written.max_displacement;
-    py::list warnings;
-    for (const tf::io_warning& one : written.warnings) warnings.append(one.text);
-    made["warnings"] = warnings;
-    return made;
+    return as_python(std::move(written));
 }
 
 // ---- columns ----

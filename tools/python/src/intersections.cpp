@@ -38,25 +38,11 @@ std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::
     return all;
 }
 
-py::dict as_dict(tf::stream_search_result&& result) {
-    py::dict made = as_python(std::move(result.found)).attr("__dict__");
-    std::vector<std::uint32_t> numbers(result.part.mesh.faces.size());
-    for (std::size_t f = 0; f < numbers.size(); ++f)
-        numbers[f] = result.part.face_in_file(static_cast<std::uint32_t>(f));
-    made["face_in_file"] = as_array(std::move(numbers));
-    made["points"] = as_array(std::move(result.part.mesh.points));
-    made["faces"] = as_array(std::move(result.part.mesh.faces));
-    made["stored_faces"] = result.stored_faces;
-    made["dropped"] = result.part.dropped;
-    made["tiles"] = result.tiles;
-    return made;
-}
-
-py::dict self_intersections_of_file(const std::filesystem::path& path,
-                                    tf::stream_search_options options, const py::object& team) {
+py::object self_intersections_of_file(const std::filesystem::path& path,
+                                      tf::stream_search_options options, const py::object& team) {
     options.team = team_of(team);
     const at_work here(team);
-    return as_dict(run([&](const tf::progress_callback& report) {
+    return as_python(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(step == "scatter" ? share / 2 : 0.5 + share / 2);
         };
@@ -96,11 +82,11 @@ void add_search_in_steps(py::module_& module) {
              [](search_in_steps& all, std::size_t tile) {
                  all.step([=](tf::stream_search& search) { return search.search_tile(tile); });
              })
-        .def(
-            "finish",
-            [](search_in_steps& all) {
-                return as_dict(all.step([](tf::stream_search& search) { return search.finish(); }));
-            })
+        .def("finish",
+             [](search_in_steps& all) {
+                 return as_python(
+                     all.step([](tf::stream_search& search) { return search.finish(); }));
+             })
         .def("remove_folder",
              [](search_in_steps& all) {
                  all.step([](tf::stream_search& search) {

@@ -34,12 +34,30 @@ py::list regions_of(tf::part_clash& from) {
     return regions;
 }
 
+py::list texts_of(const std::vector<tf::io_warning>& warnings) {
+    py::list texts;
+    for (const tf::io_warning& one : warnings) texts.append(one.text);
+    return texts;
+}
+
+py::array faces_in_file(const tf::usable_mesh& part) {
+    std::vector<std::uint32_t> numbers(part.mesh.faces.size());
+    for (std::uint32_t f = 0; f < numbers.size(); ++f) numbers[f] = part.face_in_file(f);
+    return as_array(std::move(numbers));
+}
+
+py::object with_attributes(const file_data* data, tf::attributes&& attributes) {
+    if (data == nullptr) return py::none();
+    file_data kept = *data;
+    kept.own().attributes = std::move(attributes);
+    return py::cast(std::move(kept));
+}
+
 py::list warnings_of(const tf::weld_stream_result& from) {
-    py::list warnings;
-    for (const tf::io_warning& one : from.survey.warnings) warnings.append(one.text);
+    py::list warnings = texts_of(from.survey.warnings);
     for (const auto* const written : {&from.written.welded, &from.written.removed})
         if (*written)
-            for (const tf::io_warning& one : (*written)->warnings) warnings.append(one.text);
+            for (const py::handle text : texts_of((*written)->warnings)) warnings.append(text);
     return warnings;
 }
 

@@ -236,6 +236,8 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
     return _core.clash(bodies, how, _pairs(ignored), progress=progress)
 
 
+# made of results:
+#   pose_result
 @dataclass(frozen=True, repr=False)
 class PoseClashes(Result):
     """What is not clear in each of many poses: n pairs of parts, pose after pose.
@@ -252,6 +254,7 @@ class PoseClashes(Result):
     how: NDArray[np.uint8]
     distance: Floats
     clashing: int
+# end
 
     def in_collision(self, poses: int) -> NDArray[np.bool_]:
         """(poses,) bool: whether something penetrates or is too close in each pose."""
@@ -291,5 +294,5 @@ def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
     if array.ndim != 4 or array.shape[1:] != (len(bodies), 4, 4):
         raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
     how = options(_core.PoseOptions, locals())
-    return PoseClashes(**_core.check_poses(bodies, _poses(array.reshape(-1, 4, 4), "poses"), how,
-                                           _pairs(ignored), progress=progress))
+    return _core.check_poses(bodies, _poses(array.reshape(-1, 4, 4), "poses"), how,
+                             _pairs(ignored), progress=progress)

@@ -140,12 +140,8 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
     >>> layers.areas.tolist(), layers.lengths.tolist()
     ([1.0, 1.0, 1.0, 1.0], [4.0, 4.0, 4.0, 4.0])
     """
-    data, made = _core.section(held(mesh), _arrays.vector(at, "at"),
-                               _arrays.vector(normal, "normal"), _heights(heights),
-                               progress=progress)
-    kept = {name: made.pop(name) for name in ("first_loop", "first_point", "closed", "oriented",
-                                              "parent", "depth", "loop_areas", "loop_lengths")}
-    return Section(**made, _data=data, _loops=kept)
+    return _core.section(held(mesh), _arrays.vector(at, "at"), _arrays.vector(normal, "normal"),
+                         _heights(heights), progress=progress)
 
 
 def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1),

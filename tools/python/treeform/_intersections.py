@@ -108,6 +108,8 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
     return _core.mesh_intersections(held(a), held(b), how, progress=progress)
 
 
+# made of results:
+#   stream_search_result
 @dataclass(frozen=True, repr=False)
 class FilePairs(FacePairs):
     """Pairs of faces of a file that meet; they are numbers of faces of `mesh`.
@@ -124,6 +126,7 @@ class FilePairs(FacePairs):
     stored_faces: int
     dropped: int
     tiles: int
+# end
 
     @property
     def pairs_in_file(self) -> Ids:
@@ -137,11 +140,6 @@ def _search_options(arguments: dict[str, Any]) -> _core.StreamSearchOptions:
         format=_arrays.word(arguments["format"], "format"),
         memory=_arrays.number(arguments["memory"], "memory", 0), folder=path_of(arguments["folder"]),
         faces_per_tile=_arrays.number(arguments["faces_per_tile"], "faces_per_tile", 0))
-
-
-def _file_pairs(made: dict[str, Any]) -> FilePairs:
-    mesh = Mesh._of(made.pop("points"), made.pop("faces"))
-    return FilePairs(mesh=mesh, **made)
 
 
 def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None,
@@ -166,8 +164,8 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     (78, (78, 2))
     """
     how = _search_options(locals())
-    return in_team(team, lambda all: _file_pairs(_core.self_intersections_of_file(
-        path_of(path), how, all, progress=progress)))
+    return in_team(team, lambda all: _core.self_intersections_of_file(
+        path_of(path), how, all, progress=progress))
 
 
 class StreamSearch(InSteps[_core.SearchInSteps]):
@@ -228,7 +226,7 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
 
     def finish(self, *, progress: Progress = None) -> FilePairs:
         """Puts together what was found, when all tiles are searched."""
-        return _file_pairs(self._work.finish(progress=progress))
+        return self._work.finish(progress=progress)
 
     def remove_folder(self) -> None:
         """Removes the folder of the tiles."""

@@ -22,6 +22,8 @@ __all__ = ["StreamWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal",
            "weld_stream"]
 
 
+# made of results:
+#   weld_result
 @dataclass(frozen=True, repr=False)
 class WeldResult(MeshResult):
     """A welded mesh or cloud.
@@ -38,6 +40,7 @@ class WeldResult(MeshResult):
     source: Ids
     face_source: Ids
     statistics: dict[str, Any]
+# end
 
     @property
     def points(self) -> Floats:
@@ -91,24 +94,17 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
     >>> thin.points.tolist(), thin.index.tolist()
     ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
     """
-    none: Ids = np.empty(0, np.uint32)
     how = options(_core.WeldOptions, locals(), same=_conditions(same),
                   across=_arrays.several(across, "across"))
-    labels = none if label is None else _labels(label)
+    labels = np.empty(0, np.uint32) if label is None else _labels(label)
     points = cloud_of(mesh_or_points)
     if points is not None:
-        made = _core.weld_cloud(points, None, how, labels, progress=progress)
-        made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
-    else:
-        mesh = as_mesh(mesh_or_points)
-        data = None if mesh._attributes is None else mesh._attributes._data
-        if len(mesh._faces):
-            made = _core.weld_mesh(mesh._held, data, how, labels, progress=progress)
-        else:
-            made = _core.weld_cloud(mesh._vertices, data, how, labels, progress=progress)
-            made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
-    welded = Mesh._of(made.pop("points"), made.pop("faces"), None, made.pop("data"))
-    return WeldResult(mesh=welded, **made)
+        return _core.weld_cloud(points, None, how, labels, progress=progress)
+    mesh = as_mesh(mesh_or_points)
+    data = None if mesh._attributes is None else mesh._attributes._data
+    if len(mesh._faces):
+        return _core.weld_mesh(mesh._held, data, how, labels, progress=progress)
+    return _core.weld_cloud(mesh._vertices, data, how, labels, progress=progress)
 
 
 def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress = None) -> int:

@@ -25,6 +25,7 @@
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/mesh/wrap.hpp>
+#include <treeform/mesh/write.hpp>
 
 namespace binding {
 
@@ -43,6 +44,9 @@ py::object object(of_result, tf::mesh_feature&& from);
 py::object object(of_result, tf::self_intersection_result&& from);
 py::object object(of_result, tf::mesh_intersection_result&& from);
 py::object object(of_result, tf::intersection_region&& from);
+py::object object(of_result, tf::stream_search_result&& from);
+py::object object(of_result, tf::write_result&& from);
+py::object object(of_result, tf::weld_result&& from, const file_data* data);
 py::object object(of_result, tf::weld_stream_result&& from);
 py::object object(of_result, tf::deviation_result&& from);
 py::object object(of_result, tf::closest_points_result&& from);
@@ -56,6 +60,7 @@ py::object object(of_result, tf::align_result&& from, const held_mesh& moving);
 py::object object(of_result, tf::packed_part&& from, const held_mesh& moving);
 py::object object(of_result, tf::packing&& from);
 py::object object(of_result, tf::part_clash&& from);
+py::object object(of_result, tf::pose_result&& from);
 py::object object(of_result, tf::clash_result&& from);
 
 py::dict counters(const tf::boolean_statistics& from);
