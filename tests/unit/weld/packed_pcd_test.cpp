@@ -64,7 +64,7 @@ std::set<std::string> unpack(const fs::path& pcd, const fs::path& to, std::size_
     CHECK(test::run_as_team(size, [&](const tf::process_team& threads) {
         const stream::communicator all(threads);
         stream::cancellable_progress pace({});
-        if (all.leads()) put(to, "");
+        if (all.is_root()) put(to, "");
         std::string words;
         try {
             stream::unpack_in_turn(pcd, to, all, pace);

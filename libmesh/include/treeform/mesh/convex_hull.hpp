@@ -1,14 +1,16 @@
 #pragma once
 /// \file
-/// The exact convex hull of points, and its flat sides.
+/// The exact convex hull of points, and its flat sides; the smallest box around points.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,6 +43,11 @@ struct convex_hull_result {
     [[nodiscard]] std::span<const face> faces_of(const hull_side& side) const {
         return std::span(faces).subspan(side.first_face, side.face_count);
     }
+
+    /// The hull as a closed mesh, with the points that it uses, in their order.
+    ///
+    /// \pre this is the hull of `points`
+    [[nodiscard]] TREEFORM_API treeform::mesh mesh(points_view points) const;
 };
 
 /// The convex hull of `points`, exact on the coordinates as given: no point is outside the plane of
@@ -63,5 +70,28 @@ struct convex_hull_result {
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> corners_of(const convex_hull_result& hull,
                                                                  const hull_side& side,
                                                                  points_view points);
+
+/// A box turned in any way.
+struct oriented_box {
+    point3 center{};
+    /// Of length 1, right-handed, rounded: along the longest side, the next, the shortest.
+    std::array<point3, 3> axes{point3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    point3 size{};  ///< along these
+    friend bool operator==(const oriented_box&, const oriented_box&) = default;
+};
+
+/// The box of least volume around points, of those with a side in a side of their convex hull, and
+/// another along an edge of it, or along the axes of space. Of flat points, the least area.
+/// None without points. Of a hull of more than some thousand sides, those of the largest areas are
+/// looked at, as many as 2^26 corners of sides allow.
+///
+/// Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
+///
+/// \throws std::invalid_argument as `convex_hull`
+/// \cost   `convex_hull`, and O(S H log H) for S sides and H corners of the hull
+/// \same   on any number of threads
+/// \source rectangles around polygons: Freeman and Shapira, Determining the Minimum-Area Encasing
+///         Rectangle for an Arbitrary Closed Curve, CACM 18 (1975)
+[[nodiscard]] TREEFORM_API std::optional<oriented_box> find_oriented_box(points_view points);
 
 }  // namespace treeform

@@ -103,6 +103,23 @@ struct cut_result {
 [[nodiscard]] TREEFORM_API cut_result cut_to_fit(const mesh_ref& mesh, const point3& size,
                                                  const cut_options& options = {});
 
+/// The mesh cut along its isolines (`isolines`): pieces with values below, between and from the
+/// levels on, K + 1 for K levels in ascending order, equal ones counted once. Pieces are open
+/// surfaces that end in the same points; together they are the mesh, for it is not moved: only new
+/// points are rounded, by less than a step of their largest coordinate.
+///
+/// The certificate says whether faces meet beyond common corners and edges in what is returned, all
+/// pieces together: where those of the mesh do, or rounding makes some do. `faces` of its pairs are
+/// numbered through all pieces. Of `options`, `caps`, `precision` and `keep_cuts` do not count.
+///
+/// \throws std::invalid_argument as `isolines`
+/// \cost   as `isolines` and `self_intersections`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API cut_result cut_along(const mesh_ref& mesh,
+                                                std::span<const double> values,
+                                                std::span<const double> levels,
+                                                const cut_options& options = {});
+
 /// Faces of a mesh by themselves, with the points that they use.
 struct mesh_part {
     treeform::mesh mesh;

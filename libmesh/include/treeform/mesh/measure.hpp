@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Whether two bodies are apart, touch or penetrate each other; how far apart they are, and where;
-/// how deep they penetrate, and how many points of a cloud are inside.
+/// how deep they penetrate, and how many points of a cloud are inside; how thick walls are.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -15,6 +15,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace treeform {
 
@@ -164,6 +165,37 @@ struct penetration_depth_result {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<penetration_depth_result> penetration_depth(
     const mesh_ref& a, const mesh_ref& b, const depth_options& options = {});
+
+/// How the thickness of a wall is measured at a face.
+enum class thickness_by : std::uint8_t {
+    ray,    ///< along its normal, inward from its center, to the first face that is left there
+    sphere  ///< the diameter of the largest ball within that touches its center
+};
+
+struct thickness_options {
+    thickness_by by = thickness_by::ray;
+    progress_callback progress{};
+};
+
+struct thickness_result {
+    /// [F] Infinite where nothing is behind a face, or it has no area.
+    std::vector<double> of_face{};
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t thinnest = 0;                      ///< the lowest face with that
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
+};
+
+/// How thick the walls of a solid are, face by face. Which face a ray leaves through is exact, for
+/// the center and normal as rounded; lengths are rounded. A ball is found to 2^-20 of its diameter.
+/// Near a sharp edge balls are small: there, they measure the edge.
+///
+/// \throws std::invalid_argument naming a face with a corner out of range or not finite
+/// \cost   a `raycast_all` for each face, and some ten `closest_point` for a ball
+/// \same   on any number of threads
+/// \source Ma, Bae and Choi, 3D Medial Axis Point Approximation Using Nearest Neighbors and the
+///         Normal Field, The Visual Computer 28 (2012)
+[[nodiscard]] TREEFORM_API thickness_result wall_thickness(const mesh_ref& mesh,
+                                                           const thickness_options& options = {});
 
 /// How many points are inside a solid, on a surface, outside of all.
 struct side_counts {

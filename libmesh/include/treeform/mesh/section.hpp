@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Sections of a mesh by parallel planes: closed loops, how they lie in each other, areas and
-/// lengths; files of them.
+/// lengths; files of them. Isolines: where a value at vertices has given levels.
 ///
 ///     tf::section_result layers = tf::section(mesh, {}, std::array{0.1, 0.3, 0.5});
 
@@ -124,6 +124,42 @@ struct section_options {
                                             const section_options& options = {}) {
     return section(mesh, plane, std::array{0.0}, options);
 }
+
+/// A line on a mesh along which a value has a level.
+struct isoline {
+    double level = 0.0;
+    std::size_t first_point = 0;  ///< its points follow one another; the first is not repeated
+    std::size_t point_count = 0;
+    bool closed = true;    ///< otherwise it ends where the mesh does
+    bool oriented = true;  ///< the faces along it agree: seen from outside, higher is to its left
+    double length = 0.0;
+};
+
+/// Lines of all levels, in the order of the levels as given.
+struct isolines_result {
+    std::vector<isoline> lines{};
+    std::vector<point3> points{};  ///< on edges of the mesh, rounded
+    std::vector<std::uint32_t>
+        faces{};  ///< [points] the face that the side from each point on lies in
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
+};
+
+/// Where a value has given levels: `values` has one for each vertex, and is linear in each face.
+///
+/// Which side of a level a vertex is on, and which sides make a line, is exact. A vertex at a level
+/// counts as above it, so that lines are those just below, as in `section`: a height as the value
+/// gives the sections by planes across z. Points are linear interpolations, rounded. Where
+/// neighbors with equal coordinates are vertices of their own, lines go on when the values there
+/// are equal; else they end.
+///
+/// \throws std::invalid_argument naming a face with a corner out of range or not finite, a corner
+///         or level whose value is not finite, or for another number of values than of vertices
+/// \cost   O(V log K + F + S log S) for K levels and S sides of lines
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API isolines_result isolines(const mesh_ref& mesh,
+                                                    std::span<const double> values,
+                                                    std::span<const double> levels,
+                                                    const section_options& options = {});
 
 /// Heights above `plane` of the middles of layers of this thickness, from the lowest point to the
 /// highest: half a thickness above the lowest is the first. Points that are not finite do not
