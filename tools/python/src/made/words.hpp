@@ -152,6 +152,10 @@ struct words_of<tf::status> {
                                    "no_place",     "cancelled"};
 };
 template <>
+struct words_of<tf::thickness_by> {
+    static constexpr words<2> all{"ray", "sphere"};
+};
+template <>
 struct words_of<tf::urdf_joint_kind> {
     static constexpr words<4> all{"fixed", "revolute", "continuous", "prismatic"};
 };
