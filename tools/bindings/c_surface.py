@@ -406,6 +406,19 @@ CALLS = {
     # weld.h
     "treeform_count_nearly_equal": "tf::count_nearly_equal(glue::view(mesh).points, distance)",
     # placement.h
+    **{f"treeform_{verb}": f"tf::{verb}($moving, $fixed, glue::read_as<tf::{verb}_options>(options))"
+       for verb in ("mate", "separate", "measure_among")},
+    "treeform_slide":
+        "tf::slide($moving, $fixed, $direction, glue::read_as<tf::slide_options>(options))",
+    "treeform_drop":
+        "fixed_count == 0 ? tf::drop($moving, glue::drop_options_of(options, direction)) "
+        ": tf::drop($moving, $fixed, glue::drop_options_of(options, direction))",
+    "treeform_turn": "tf::turn($moving, $fixed, {$origin, $direction}, "
+                     "glue::read_as<tf::turn_options>(options))",
+    "treeform_mate_features":
+        'tf::mate_features($moving, $fixed, glue::feature_of(of_moving, "of_moving"), '
+        'glue::feature_of(of_fixed, "of_fixed"), '
+        "glue::read_as<tf::feature_mate_options>(options))",
     "treeform_time_of_impact": "tf::time_of_impact($a, $b, $motion, $options)",
     # assembly.h
     "treeform_clash": "tf::clash($parts, $options)",
