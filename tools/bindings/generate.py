@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""generate.py [--check | --self-test]: makes the parts of the C library and of the Python package that follow from
-the headers of C++. With --check it changes nothing, and fails where a file is not what it would make.
+"""generate.py [--check | --self-test]: makes the parts of the C library and of the Python package
+that follow from the headers of C++. With --check it changes nothing, and fails where a file is not
+what it would make.
 """
 
 from __future__ import annotations
@@ -86,7 +87,7 @@ def main() -> int:
     there = {path for folder in (MADE, python_write.MADE) for path in folder.glob("*.[ch]pp")}
     wrong = 0
     for path in sorted(there | set(made)):
-        before, text = path.read_text() if path in there or path.exists() else "", made.get(path, "")
+        before, text = path.read_text() if path.exists() else "", made.get(path, "")
         if text == before:
             continue
         wrong += 1

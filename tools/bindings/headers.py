@@ -1,5 +1,5 @@
 """The structs and enumerations of the public C++ headers: fields with their types, defaults and
-sentences. It reads how this house writes them (clang-format'ed, nothing but plain declarations), and
+sentences. It reads what clang-format leaves, plain declarations alone, and
 ends with a message where it does not understand a line."""
 
 from __future__ import annotations

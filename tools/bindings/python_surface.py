@@ -7,7 +7,8 @@ from python_language import Attribute, Function, Result
 
 #: Words of C++ in sentences, and those of Python.
 WORDS = {"`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
-         "`boolean_statistics`": "`BooleanResult.statistics`", "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
+         "`boolean_statistics`": "`BooleanResult.statistics`",
+         "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
 
 MESSAGE = Attribute("message", "str", "Half a sentence for people.", "py::cast(from.message())")
 MESH_OF_PLACE = Attribute(
