@@ -48,6 +48,10 @@ def python_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pat
 
 
 def all_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pathlib.Path, str]:
+    for name in [*(one.cpp for one in c_surface.BOUND), *python_surface.OPTIONS,
+                 *(one.cpp for one in python_surface.RESULTS)]:
+        if name in structs and structs[name].unclear:
+            raise ValueError(f"{name} of {structs[name].header}: what is {structs[name].unclear}?")
     return c_files(structs, enums) | python_files(structs, enums)
 
 

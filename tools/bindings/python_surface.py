@@ -314,7 +314,7 @@ OPTIONS = {
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
     "feature_options": "", "self_intersection_options": "component_of_face between within",
     "mesh_intersection_options": "", "stream_search_options": "box team",
-    "weld_options": "label may_merge search", "weld_stream_options": "team shared las_scale",
+    "weld_options": "label may_merge search", "weld_stream_options": "team shared las_scale las_offset",
     "slide_options": "close_in limit vertices", "drop_options": "limit vertices",
     "mate_options": "limit vertices", "separate_options": "normals face_pairs limit vertices",
     "turn_options": "max_steps limit vertices", "feature_mate_options": "limit vertices",
