@@ -33,11 +33,11 @@ class Bound:
 
     cpp: str
     c: str = ""  #: "treeform_" is put in front; "": as in C++
-    kind: str = ""  #: "options", "result" (has an owner), "part" (within others), "same" (bit for bit)
+    kind: str = ""  #: "options", "result" (has an owner), "part" (of others), "same" (bit for bit)
     names: dict[str, str] = field(default_factory=dict)  #: that differ from those of C++
     counts: dict[str, str] = field(default_factory=dict)  #: of lists, where it is not "thing_count"
     leave: str = ""  #: fields that C does not have
-    custom: dict[str, list[Member]] = field(default_factory=dict)  #: fields by hand; "+": more of them
+    custom: dict[str, list[Member]] = field(default_factory=dict)  #: by hand; "+": more of them
     of: str = ""  #: the structs that it is the options of all of
     doc: str = ""  #: then, what is said
 
@@ -240,8 +240,8 @@ class Language:
             ending = "; or null" if "*" in decl and "char" not in decl else ""
             if type == "optional<double>" and "NaN" not in doc:
                 ending = "; NaN: not given"
-            return [Member(decl, f"{prefix}{doc.rstrip('.') if ending else doc}{ending}".strip("; "), "", f"{how} = {value};",
-                           default)]
+            said = f"{prefix}{doc.rstrip('.') if ending else doc}{ending}".strip("; ")
+            return [Member(decl, said, "", f"{how} = {value};", default)]
         if found := re.fullmatch(r"optional<(\w+)>", type):
             inner = found.group(1)
             if inner in self.enums:

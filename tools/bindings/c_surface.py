@@ -1,5 +1,5 @@
-"""Which structs and enumerations of C++ are in C, where the names differ, and which functions are one
-call. All else follows from the headers: `c_language.py` says how."""
+"""Which structs and enumerations of C++ are in C, where the names differ, and which functions are
+one call. All else follows from the headers: `c_language.py` says how."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ ENUMS = {
     "repair_scope": ("treeform_repair_scope", ""),
     "pair_kind": ("treeform_pair_kind", ""),
     "location": ("treeform_location", ""),
-    "standing": ("treeform_standing", {"touching": "MEETING", "closer_than_clearance": "TOO_CLOSE"}),
+    "standing": ("treeform_standing", {"touching": "MEETING",
+                                       "closer_than_clearance": "TOO_CLOSE"}),
     "mesh_relation": ("treeform_standing", {}),
     "feature": ("uint8_t", ""),
     "feature_kind": ("treeform_feature_kind", ""),
@@ -203,7 +204,8 @@ BOUND = [
                    "static_cast<std::uint32_t>(from.nearest->fixed) : TREEFORM_NONE;"),
             Member("const treeform_relation* nearest",
                    "how it lies to the moving one, `a`; or null",
-                   "if (from.nearest) to.nearest = &filled<treeform_relation>(kept, from.nearest->how);")],
+                   "if (from.nearest) "
+                   "to.nearest = &filled<treeform_relation>(kept, from.nearest->how);")],
         "+": [MESSAGE,
               Member("double angle", "of `treeform_turn` and `treeform_mate_features`, in degrees; "
                      "else 0"),
@@ -227,9 +229,10 @@ BOUND = [
     Bound("packing", counts={"parts": "part_count"}, custom={"+": [MESSAGE]}),
     Bound("align_options"),
     Bound("align_freedom", "freedom", "same"),
-    Bound("align_result", leave="converged", counts={"points": "point_count"}, custom={"+": [MESSAGE, Member(
-        "size_t undetermined", "how many of `freedoms` nothing holds",
-        "to.undetermined = from.undetermined();")]}),
+    Bound("align_result", leave="converged", counts={"points": "point_count"},
+          custom={"+": [MESSAGE, Member(
+              "size_t undetermined", "how many of `freedoms` nothing holds",
+              "to.undetermined = from.undetermined();")]}),
     # assembly.h
     Bound("clash_options"),
     Bound("contact_region", kind="part",
@@ -237,7 +240,8 @@ BOUND = [
     Bound("part_clash", kind="part", custom={"nearest": [
         Member("double on_a[3]", "nearest points of those that are too close; else NaN",
                "copy(from.nearest ? (*from.nearest)[0] : nowhere, to.on_a);"),
-        Member("double on_b[3]", "", "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
+        Member("double on_b[3]", "",
+               "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
     Bound("clash_result", "clashes", counts={"pairs": "count"}),
     Bound("pose_options", "poses_options"),
     Bound("pose_clash", kind="same"),
@@ -274,7 +278,8 @@ BOUND = [
     Bound("write_result", "written"),
     Bound("part_options"),
     Bound("usable_mesh", "part", leave="distinct stored_face", custom={
-        "+": [Member("const uint32_t* face_in_file", "[F] the number in the file, counting polygons",
+        "+": [Member("const uint32_t* face_in_file",
+                     "[F] the number in the file, counting polygons",
                      "to.face_in_file = faces_in_file(kept, from).data();")],
         "triangle_of_face": [Member(
             "const uint32_t* triangle_of_face",
@@ -337,10 +342,13 @@ CALLS = {
     "treeform_count_topology":
         "tf::count_topology(glue::view(mesh).points.size(), glue::view(mesh).faces)",
     "treeform_find_defects": "tf::find_defects($mesh)",
-    "treeform_closing_tolerance": "tf::closing_tolerance(glue::view(mesh), $tolerances).value_or(count)",
+    "treeform_closing_tolerance":
+        "tf::closing_tolerance(glue::view(mesh), $tolerances).value_or(count)",
     "treeform_same_triangles":
-        "tf::same_triangles(glue::view(a), glue::view(b), any_order != 0 ? tf::face_order::any : tf::face_order::kept)",
-    "treeform_feature_at_face": "glue::as_list(tf::feature_at(glue::view(mesh), $kind, face, $options))",
+        "tf::same_triangles(glue::view(a), glue::view(b), "
+        "any_order != 0 ? tf::face_order::any : tf::face_order::kept)",
+    "treeform_feature_at_face":
+        "glue::as_list(tf::feature_at(glue::view(mesh), $kind, face, $options))",
     "treeform_fit_feature": "glue::as_list(tf::fit_feature(glue::view(mesh), $kind, $faces))",
     "treeform_orient2d": 'tf::orient2d(glue::finite2(a, "a"), glue::finite2(b, "b"), '
                          'glue::finite2(c, "c"))',
@@ -357,8 +365,9 @@ CALLS = {
         "tf::intersection_curves(glue::view(mesh), glue::pairs_of(mesh, pairs, count))",
     "treeform_intersection_paths":
         "tf::intersection_paths(glue::view(mesh), glue::pairs_of(mesh, pairs, count))",
-    "treeform_write_curves": "tf::write_curves($path, glue::view(mesh), glue::pairs_of(mesh, pairs, count), {}, "
-                             "glue::text(format))",
+    "treeform_write_curves":
+        "tf::write_curves($path, glue::view(mesh), glue::pairs_of(mesh, pairs, count), {}, "
+        "glue::text(format))",
     "treeform_self_intersections_of_file": "tf::self_intersections_of_file($path, $options)",
     "treeform_is_searched_in_tiles": "tf::is_searched_in_tiles($path, glue::text(format))",
     # solids.h
@@ -373,7 +382,8 @@ CALLS = {
     "treeform_symmetric_difference": "tf::symmetric_difference($a, $b, $options)",
     "treeform_unite_all":
         "tf::boolean($operands, tf::boolean_expression::union_of(count), $options)",
-    "treeform_clip": "tf::clip($operands, sheet, tf::boolean_expression($expression, count), $options)",
+    "treeform_clip":
+        "tf::clip($operands, sheet, tf::boolean_expression($expression, count), $options)",
     "treeform_split": "tf::split($operands, $options)",
     "treeform_resolve_self_intersections":
         "tf::resolve_self_intersections($mesh, $mode, $options)",
@@ -400,6 +410,19 @@ CALLS = {
     # weld.h
     "treeform_count_nearly_equal": "tf::count_nearly_equal(glue::view(mesh).points, distance)",
     # placement.h
+    **{f"treeform_{verb}": f"tf::{verb}($moving, $fixed, glue::read_as<tf::{verb}_options>(options))"
+       for verb in ("mate", "separate", "measure_among")},
+    "treeform_slide":
+        "tf::slide($moving, $fixed, $direction, glue::read_as<tf::slide_options>(options))",
+    "treeform_drop":
+        "fixed_count == 0 ? tf::drop($moving, glue::drop_options_of(options, direction)) "
+        ": tf::drop($moving, $fixed, glue::drop_options_of(options, direction))",
+    "treeform_turn": "tf::turn($moving, $fixed, {$origin, $direction}, "
+                     "glue::read_as<tf::turn_options>(options))",
+    "treeform_mate_features":
+        'tf::mate_features($moving, $fixed, glue::feature_of(of_moving, "of_moving"), '
+        'glue::feature_of(of_fixed, "of_fixed"), '
+        "glue::read_as<tf::feature_mate_options>(options))",
     "treeform_time_of_impact": "tf::time_of_impact($a, $b, $motion, $options)",
     # assembly.h
     "treeform_clash": "tf::clash($parts, $options)",

@@ -1,4 +1,4 @@
-"""Writes what `c_language.py` knows: the blocks of the C headers, and the sources of tools/c/made."""
+"""Writes what `c_language.py` knows: blocks of the C headers, and the sources of tools/c/made."""
 
 from __future__ import annotations
 

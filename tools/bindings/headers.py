@@ -1,6 +1,6 @@
 """The structs and enumerations of the public C++ headers: fields with their types, defaults and
-sentences. It reads how this house writes them (clang-format'ed, nothing but plain declarations), and
-ends with a message where it does not understand a line."""
+sentences. It reads what clang-format leaves, plain declarations alone, and ends with a message
+where it does not understand one."""
 
 from __future__ import annotations
 
@@ -36,6 +36,7 @@ class Struct:
     header: str  #: "mesh/cut.hpp"
     doc: str
     fields: list[Field] = field(default_factory=list)
+    unclear: list[str] = field(default_factory=list)  #: statements that are not understood
 
     def __getitem__(self, name: str) -> Field:
         for one in self.fields:
@@ -57,6 +58,10 @@ _START = re.compile(r"^(?:struct|class)(?: TREEFORM_API| \[\[nodiscard\]\])* (\w
 _ENUM = re.compile(r"^enum class (\w+) : [\w:]+ \{(.*)$")
 
 
+_NO_FIELD = re.compile(r"(static|friend|using|public|private|protected|template|explicit|constexpr|enum"
+                       r"|struct|class|union)\b|\[\[|~|$")
+
+
 def plain(type: str) -> str:
     """A type without blanks, `std::` and `treeform::`."""
     type = re.sub(r"\bstd::|\btreeform::", "", type.strip())
@@ -72,9 +77,6 @@ def _words(comments: list[str]) -> str:
 
 def _declared(text: str) -> tuple[str, str, str] | None:
     """Type, name and default of a field; None for what is none."""
-    if re.match(r"(static|friend|using|public|private|protected|template|explicit|constexpr|enum"
-                r"|struct|class|union)\b|\[\[|~", text):
-        return None
     found = re.match(r"(?P<type>(?:const )?[\w:]+(?:<.*>)?[ *&]*?)\s+(?P<name>\w+)"
                      r"(?:\s*=\s*(?P<value>.+)|\{(?P<braces>.*)\})?$", text, re.S)
     if not found:
@@ -113,11 +115,19 @@ class _Body:
         if self.text.count("{") != self.text.count("}") or self.text.count("(") != self.text.count(
                 ")") or not self.text.endswith((";", "}")):
             return
-        declared = _declared(self.text.rstrip(";").strip()) if self.text.endswith(";") else None
-        if declared:
-            type, name, default = declared
-            self.struct.fields.append(
-                Field(name, type, default, " ".join([*self.before, after.strip()]).strip()))
+        text = self.text.rstrip(";").strip()
+        several = re.fullmatch(r"(.+?) (\w+(?:\{\})?(?:, \w+(?:\{\})?)+)", text)  # of one type
+        for one in ([f"{several[1]} {name}" for name in several[2].replace("{}", "").split(", ")]
+                    if several else [text]):
+            if not self.text.endswith(";") or _NO_FIELD.match(one):
+                continue
+            declared = _declared(one)
+            if declared:
+                type, name, default = declared
+                self.struct.fields.append(
+                    Field(name, type, default, " ".join([*self.before, after.strip()]).strip()))
+            elif "(" not in one:
+                self.struct.unclear.append(one)
         self.text, self.before = "", []
 
 

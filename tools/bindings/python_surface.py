@@ -7,7 +7,8 @@ from python_language import Attribute, Function, Result
 
 #: Words of C++ in sentences, and those of Python.
 WORDS = {"`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
-         "`boolean_statistics`": "`BooleanResult.statistics`", "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
+         "`boolean_statistics`": "`BooleanResult.statistics`",
+         "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
 
 MESSAGE = Attribute("message", "str", "Half a sentence for people.", "py::cast(from.message())")
 MESH_OF_PLACE = Attribute(
@@ -313,7 +314,7 @@ OPTIONS = {
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
     "feature_options": "", "self_intersection_options": "component_of_face between within",
     "mesh_intersection_options": "", "stream_search_options": "box team",
-    "weld_options": "label may_merge search", "weld_stream_options": "team shared las_scale",
+    "weld_options": "label may_merge search", "weld_stream_options": "team shared las_scale las_offset",
     "slide_options": "close_in limit vertices", "drop_options": "limit vertices",
     "mate_options": "limit vertices", "separate_options": "normals face_pairs limit vertices",
     "turn_options": "max_steps limit vertices", "feature_mate_options": "limit vertices",

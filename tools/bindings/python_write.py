@@ -91,7 +91,8 @@ class Writer:
             f"{'' if one.kind == 'by_elements' else ', job_kind::' + one.kind});\n"
             for one in self.functions)
         functions += "}\n\n}  // namespace binding\n"
-        made = {"words.hpp": words, "made.hpp": head, "options.cpp": options, "results.cpp": results, "places.cpp": of_places,
+        made = {"words.hpp": words, "made.hpp": head, "options.cpp": options,
+                "results.cpp": results, "places.cpp": of_places,
                 "functions.cpp": functions}
         return {MADE / name: formatted(text, f"tools/python/src/made/{name}")
                 for name, text in made.items()}

@@ -12,6 +12,8 @@
 #include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -482,6 +484,12 @@ void fill(keeper& kept, const tf::mesh& from, treeform_made_mesh& to);
 /// A file within a result.
 [[nodiscard]] const treeform_file* keep(keeper& owner, tf::mesh_file&& file);
 treeform_code give(tf::mesh_file&& file, treeform_file** out);
+treeform_code give(tf::placement&& at, treeform_placement** out);
+treeform_code give(tf::turn_result&& turned, treeform_placement** out);
+treeform_code give(tf::feature_mating&& mated, treeform_placement** out);
+[[nodiscard]] tf::drop_options drop_options_of(const treeform_place_options* options,
+                                               const double* direction);
+[[nodiscard]] tf::mesh_feature feature_of(const treeform_feature* from, const char* name);
 /// Nothing where `out` is null.
 void give_written(tf::write_result from, treeform_written** out);
 

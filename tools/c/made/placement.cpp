@@ -120,6 +120,99 @@ void treeform_impact_options_init(treeform_impact_options* options, size_t size)
     glue::init(options, size, to);
 }
 
+treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                             size_t fixed_count, const double direction[3],
+                             const treeform_place_options* options,
+                             treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::slide(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                      glue::point(direction, "direction"),
+                      glue::read_as<tf::slide_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                            size_t fixed_count, const double* direction,
+                            const treeform_place_options* options, treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            fixed_count == 0
+                ? tf::drop(glue::ref(moving, "moving"), glue::drop_options_of(options, direction))
+                : tf::drop(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                           glue::drop_options_of(options, direction)),
+            placement);
+    });
+}
+
+treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                            size_t fixed_count, const treeform_place_options* options,
+                            treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::mate(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                     glue::read_as<tf::mate_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                                size_t fixed_count, const treeform_place_options* options,
+                                treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::separate(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                         glue::read_as<tf::separate_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                            size_t fixed_count, const double origin[3], const double direction[3],
+                            const treeform_place_options* options, treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::turn(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                     {glue::point(origin, "origin"), glue::point(direction, "direction")},
+                     glue::read_as<tf::turn_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                                     size_t fixed_count, const treeform_feature* of_moving,
+                                     const treeform_feature* of_fixed,
+                                     const treeform_place_options* options,
+                                     treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::mate_features(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                              glue::feature_of(of_moving, "of_moving"),
+                              glue::feature_of(of_fixed, "of_fixed"),
+                              glue::read_as<tf::feature_mate_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                                     size_t fixed_count, const treeform_place_options* options,
+                                     treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::measure_among(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                              glue::read_as<tf::measure_among_options>(options)),
+            placement);
+    });
+}
+
 treeform_code treeform_time_of_impact(const treeform_mesh* a, const treeform_mesh* b,
                                       const double motion[3],
                                       const treeform_impact_options* options,
