@@ -129,13 +129,13 @@ std::optional<bool> moved_part::holds(const point3& p) const {
 /// Whether a component of `other`, of which no face meets this, is inside this.
 std::optional<bool> moved_part::holds_part_of(const moved_part& other) const {
     if (!part_->solid()) return false;
-    bool told = true;
+    bool decided = true;
     for (const point3& corner : other.part_->corners()) {
         const auto inside = holds(other.move_(corner));
         if (inside && *inside) return true;
-        told = told && inside.has_value();
+        decided = decided && inside.has_value();
     }
-    if (!told) return std::nullopt;
+    if (!decided) return std::nullopt;
     return false;
 }
 

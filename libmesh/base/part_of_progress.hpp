@@ -6,7 +6,7 @@
 
 namespace treeform::detail::base {
 
-/// `callback` as it is told of a step that does the share from `begin` to `end` of the work. It
+/// `callback` as it is called for a step that does the share from `begin` to `end` of the work. It
 /// outlives the step.
 [[nodiscard]] inline progress_callback part_of(const progress_callback& callback, double begin,
                                                double end) {

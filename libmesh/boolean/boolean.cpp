@@ -178,7 +178,7 @@ near_result surface_of(const bundles& operands, cut_faces& cut,
                                        solid, is_left);
 }
 
-/// What meets is cut, what is on both sides of its pieces told, and what bounds the result put
+/// What meets is cut, both sides of its pieces labeled, and what bounds the result put
 /// together with the faces that nothing meets.
 near_result boolean_of(bundled_operands& operands, const boolean_expression& expression,
                        const boolean_options& options, left_faces is_left) {

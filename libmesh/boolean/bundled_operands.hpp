@@ -66,7 +66,7 @@ struct cut_faces {
 
 enum class cut_what : std::uint8_t {
     near,             ///< and the others stay as they are
-    near_beside_far,  ///< these are told about in sets
+    near_beside_far,  ///< these are labeled in sets
     all
 };
 

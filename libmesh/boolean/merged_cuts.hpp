@@ -54,7 +54,7 @@ struct face_origins {
 ///
 /// \param input     whose faces were cut; points are those of `surface`
 /// \param group_of  [faces of `input`] or empty: only faces of one group are merged
-/// \param origins   is told what became one, where it is given, and anything is merged at all
+/// \param origins   receives what became one, where it is given, and anything is merged at all
 /// \param source_of [F] the face of `input` that each face of the surface lies in, ascending; so it
 ///                  is afterwards, the lowest of those that were merged
 /// \return for each constructed point, the lowest face of `input` among the sources at it; empty

@@ -245,9 +245,8 @@ void take_in(const bundles& operands, interaction_zone& near, buffer<disposition
             }
             p = local;
         }
-        surface.push_back(dispositions[f] == disposition::kept
-                              ? corners
-                              : face{corners[0], corners[2], corners[1]});
+        const bool kept = dispositions[f] == disposition::kept;
+        surface.push_back(kept ? corners : face{corners[0], corners[2], corners[1]});
         certified.push_back(1);
         surface_source.push_back(static_cast<std::uint32_t>(faces.size()));
         faces.push_back(corners);

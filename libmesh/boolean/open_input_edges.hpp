@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where surfaces of operands end, told before anything is cut.
+/// Where surfaces of operands end, found before anything is cut.
 
 #include <libmesh/boolean/operand_edges.hpp>
 #include <treeform/mesh/certificate.hpp>

@@ -16,7 +16,7 @@ namespace treeform::detail::boolean {
 
 /// The result's surface is in undecided space, and all that meets there has been cut. So a face of
 /// the arrangement that has a point elsewhere is not of the result. Others have the same winding
-/// numbers on all of a side, and edges between them tell how these change.
+/// numbers on all of a side, and edges between them say how these change.
 class undecided_places {
   public:
     /// \param space none where all is undecided

@@ -61,9 +61,9 @@ std::vector<cut_piece> pieces_of(mesh_view mesh, const oriented_plane& plane,
                                  std::span<const double> heights, const cut_options& options,
                                  work_progress& progress, double from, double to) {
     const detail::weld::joined_faces joined = detail::weld::join_faces(mesh);
-    const mesh_view joint = joined.of(mesh);
+    const mesh_view merged = joined.of(mesh);
     const cut_room::plane_levels levels = cut_room::levels_of("cut", mesh.points, plane, heights);
-    std::vector<cut_room::slab> slabs = cut_room::slabs_of(joint, levels, options.caps);
+    std::vector<cut_room::slab> slabs = cut_room::slabs_of(merged, levels, options.caps);
     std::vector<cut_piece> pieces(slabs.size());
     std::atomic<std::size_t> done{0};
     for_chunks(slabs.size(), 1, [&](std::size_t s, std::size_t, std::size_t) {

@@ -135,9 +135,9 @@ section_result sections_of(mesh_view mesh, const detail::weld::joined_faces& joi
         return result;
     };
     if (!progress.reach(0.0)) return cancelled();
-    const mesh_view joint = joined.of(mesh);
+    const mesh_view merged = joined.of(mesh);
     const cut::plane_levels levels = cut::levels_of("section", mesh.points, plane, heights);
-    const met_faces met = faces_met(joint, levels);
+    const met_faces met = faces_met(merged, levels);
     std::vector<drawn_layer> layers(levels.planes.size());
     std::atomic<std::size_t> done{0};
     for_chunks(layers.size(), 1, [&](std::size_t begin, std::size_t, std::size_t) {
@@ -145,7 +145,7 @@ section_result sections_of(mesh_view mesh, const detail::weld::joined_faces& joi
         const auto k = static_cast<std::uint32_t>(begin);
         const std::size_t first = met.begin[k], count = met.begin[k + 1] - first;
         layers[k] =
-            draw(joint, levels, result.frame, k, std::span(met.faces).subspan(first, count));
+            draw(merged, levels, result.frame, k, std::span(met.faces).subspan(first, count));
         progress.reach(0.1 +
                        0.8 * static_cast<double>(++done) / static_cast<double>(layers.size()));
     });

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The sign of a polynomial: by the filter, and where that cannot tell, by integers.
+/// The sign of a polynomial: by the filter, and where that leaves it undecided, by integers.
 
 #include <libmesh/exact/exact_sign.hpp>
 #include <libmesh/exact/filter.hpp>

@@ -87,7 +87,7 @@ std::optional<height_field_test::view> height_field_test::find_view(
         if (std::abs(normal[k]) > std::abs(normal[most])) most = k;
     view seen{most, normal[most] < 0 ? -1 : 1};
     const std::size_t next = (most + 1) % 3, last = (most + 2) % 3;
-    const auto samples_turn = [&] {  // mostly they tell
+    const auto samples_turn = [&] {  // mostly they suffice
         return std::ranges::all_of(std::span(samples).first(count), [&](const point3& n) {
             return seen.turn * (n[most] + seen.tilt_1 * n[next] + seen.tilt_2 * n[last]) > 0.0;
         });

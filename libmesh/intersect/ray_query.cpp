@@ -55,7 +55,7 @@ std::array<std::uint32_t, 2> place_of(mesh_view mesh, const face_contact& c) {
     return {std::min(f[i], j), std::max(f[i], j)};
 }
 
-/// `compare`, with neighbors that meet the ray in what they share told by its number.
+/// `compare`, with neighbors that meet the ray in what they share identified by its number.
 int order(mesh_view mesh, const ray3& ray, const face_contact& a, const face_contact& b) {
     if (place_of(mesh, a) == place_of(mesh, b)) return 0;
     return compare(ray, a.contact, b.contact);

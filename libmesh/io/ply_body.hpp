@@ -57,7 +57,7 @@ inline constexpr bool has_bytes = requires(Values v) {
 };
 
 /// Bytes of the next row of `e`, and of all if they are like it: no list but that of corners, the
-/// number of which is told. Zero where they cannot be.
+/// number of which is given. Zero where they cannot be.
 template <class Values>
 std::size_t alike_row_size(Values values, const element& e, std::optional<std::size_t>& corners) {
     const std::size_t before = values.bytes_left();

@@ -53,7 +53,7 @@ class ply_faces {
         return triangles.size() > before;
     }
 
-    /// The points of the part, and what is to be told of them.
+    /// The points of the part, and what is to be reported of them.
     void put_points(face_rows& faces, const file_part& part) {
         const std::uint64_t count = *rows_.count;
         const std::uint64_t first = part.first(count);

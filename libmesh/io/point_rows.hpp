@@ -42,28 +42,29 @@ struct point_rows {
     std::function<std::size_t(std::vector<point3>& points, element& vertices, std::size_t most,
                               std::vector<io_warning>& warnings)>
         append{};
-    /// Replaces the content of `block` by the next rows behind the points; what of these has not been
-    /// read is passed over. False at the end. None where there is nothing to read but points.
+    /// Replaces the content of `block` by the next rows behind the points; what of these has not
+    /// been read is passed over. False at the end. None where there is nothing to read but points.
     std::function<bool(row_block& block, std::size_t most, std::vector<io_warning>& warnings)>
         behind{};
     /// The next row behind the points; points that have not been read are passed over. This and the
     /// next two are there where `behind` is. \throws io_error
     std::function<row_place()> next_row{};
-    /// Goes on at a row that a reader of the same file has told of.
+    /// Goes on at a row that a reader of the same file has reported.
     std::function<void(const row_place&)> go_to{};
     /// Where `count` parts of the rows begin, of about as many bytes each, and where the last one
-    /// ends: `count + 1` places, found without reading more than a row. Empty where the rows have to be
-    /// read: in text and with lists of points where nothing is known of them, with lists of other
-    /// values, and where not all faces can have as many corners as the first one. That they have is
-    /// taken for granted, and refused from then on where it is not so. \pre no row was read.
+    /// ends: `count + 1` places, found without reading more than a row. Empty where the rows have
+    /// to be read: in text and with lists of points where nothing is known of them, with lists of
+    /// other values, and where not all faces can have as many corners as the first one. That they
+    /// have is taken for granted, and refused from then on where it is not so. \pre no row was
+    /// read.
     /// \throws io_error
     std::function<std::vector<row_place>(std::size_t count)> row_parts{};
 };
 
 /// What there is to read by runs. `in` must outlive what comes back. The `first` points, which are
-/// there, are passed over where that takes no reading; of text, and of points with lists, those ahead of
-/// the last mark of what is `known` of them, which must outlive what comes back. XYZ is read once if
-/// nothing is.
+/// there, are passed over where that takes no reading; of text, and of points with lists, those
+/// ahead of the last mark of what is `known` of them, which must outlive what comes back. XYZ is
+/// read once if nothing is.
 ///
 /// \throws io_error; whole_file_error also for a PLY that has rows which `use` has not, as
 ///         `point_reader`
@@ -85,21 +86,23 @@ struct point_rows {
                                          const record_index* known = nullptr,
                                          std::span<const named_column> columns = {});
 
-/// Whether the points of a PLY are rows of bytes with lists, so that only who has read those ahead knows
-/// where one begins. \throws io_error
+/// Whether the points of a PLY are rows of bytes with lists, so that only who has read those ahead
+/// knows where one begins. \throws io_error
 [[nodiscard]] bool has_listed_points(const source& ply);
 struct listed_points {
     record_index found{};
     row_place next{};  ///< the first point behind them; its row is that of the element
 };
-/// Looks at such points from `first` on, a byte of zero being where they begin, up to the first that
-/// begins at byte `end` or behind it; some more are looked at. Marks are at most `most`, and one.
+/// Looks at such points from `first` on, a byte of zero being where they begin, up to the first
+/// that begins at byte `end` or behind it; some more are looked at. Marks are at most `most`, and
+/// one.
 /// \throws io_error
 [[nodiscard]] listed_points scan_listed_points(const source& ply, const row_place& first,
                                                std::uint64_t end, std::size_t most);
 
-/// Looks at the lines that begin in a part of a text of points; none where it is no text. Marks are at
-/// most `most`. Unless XYZ is `even` ahead of the part, its lines are looked at up to the coordinates.
+/// Looks at the lines that begin in a part of a text of points; none where it is no text. Marks are
+/// at most `most`. Unless XYZ is `even` ahead of the part, its lines are looked at up to the
+/// coordinates.
 /// \throws io_error, of XYZ for any line
 [[nodiscard]] std::optional<record_index> scan_ply(const source& in, const file_part& part,
                                                    std::size_t most);

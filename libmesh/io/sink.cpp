@@ -91,7 +91,7 @@ output_file::~output_file() {
 }
 
 void output_file::commit() {
-    // Closing tells of errors that a network file system has put off.
+    // Closing reports errors that a network file system has put off.
     if (fd_ > STDERR_FILENO && ::close(fd_) != 0) {
         fd_ = -1;
         fail(errno);

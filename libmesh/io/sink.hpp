@@ -16,15 +16,15 @@
 
 namespace treeform::detail::io {
 
-/// Thrown where a sink is told to stop.
+/// Thrown where a sink is asked to stop.
 class writing_stopped {};
 
 /// A buffer in front of a file descriptor, or of a string that grows.
 class sink {
   public:
     explicit sink(std::string& memory) : memory_(&memory) {}
-    /// `name` stands for the file in errors. Where `goes_on` returns false, nothing more is written:
-    /// `writing_stopped` is thrown.
+    /// `name` stands for the file in errors. Where `goes_on` returns false, nothing more is
+    /// written: `writing_stopped` is thrown.
     sink(int fd, std::string name, std::function<bool()> goes_on = {})
         : fd_(fd), name_(std::move(name)), goes_on_(std::move(goes_on)) {}
     sink(const sink&) = delete;

@@ -109,7 +109,7 @@ class las_writer {
         return told;
     }
 
-    /// What follows the points is told where it will be when all of them are there.
+    /// What follows the points gets its offset when all of them are there.
     std::uint64_t finish_part(const std::vector<std::string>& told) {
         put_pending();
         const std::uint64_t end_of_points = job_.out.size();

@@ -47,10 +47,10 @@ std::vector<point3> corner_of_each_part(mesh_view mesh) {
 
 /// Looks for a short translation of `a` out of `b`. Places on the way are judged by their faces,
 /// and by a corner of each part; the last one is judged exactly.
-class way_out_search {
+class escape_search {
   public:
-    way_out_search(const shape& a, const shape& b, detail::base::effort& effort,
-                   detail::base::work_progress& work)
+    escape_search(const shape& a, const shape& b, detail::base::effort& effort,
+                  detail::base::work_progress& work)
         : a_(a),
           b_(b),
           effort_(effort),
@@ -220,7 +220,7 @@ std::optional<penetration_depth_result> penetration_depth(const mesh_ref& given_
     const auto found = detail::place::search_separations(
         of_a, {&of_b, 1}, {.effort = &effort, .progress = work.part(0.1, 0.4)});
     if (work.cancelled()) return stopped;
-    way_out_search search(of_a, of_b, effort, work);
+    escape_search search(of_a, of_b, effort, work);
     effort.hold(0.375);
     // The first that is out exactly: rounding may have put one back in.
     std::optional<point3> verified;

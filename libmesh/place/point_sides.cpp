@@ -92,16 +92,16 @@ class side_finder {
         between.include(q);
         std::int32_t winding = known_->winding;
         std::size_t faces = 0;
-        bool told = true;
+        bool decided = true;
         search(tree_, between, [&](std::uint32_t f) {
             const auto change = ++faces > most_faces_between
                                     ? std::nullopt
                                     : change_at(base::triangle_of(mesh_, f), p, q);
-            told = change.has_value();
-            if (told) winding += *change;
-            return !told;
+            decided = change.has_value();
+            if (decided) winding += *change;
+            return !decided;
         });
-        if (!told) return std::nullopt;
+        if (!decided) return std::nullopt;
         return winding;
     }
 

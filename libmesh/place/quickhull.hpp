@@ -40,7 +40,7 @@ class quickhull {
     quickhull(points_view points, const scaled_points& scaled,
               const std::array<std::uint32_t, 4>& first);
 
-    /// False when it was told to stop, with nothing done.
+    /// False when it was asked to stop, with nothing done.
     bool run(base::work_progress& work);
 
     /// The facets, those in one plane together.

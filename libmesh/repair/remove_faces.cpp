@@ -221,7 +221,7 @@ class remover {
         find_holes();
         return result_.certificate.meeting_count > 0 || has_hole_;
     }
-    /// Of faces given: contact, and what meets a degenerate one, which is told of by itself.
+    /// Of faces given: contact, and what meets a degenerate one, which is reported by itself.
     [[nodiscard]] bool is_let_be(const face_pair& pair) const {
         if (pair.a >= kept_ || pair.b >= kept_) return false;
         return pair.kind == pair_kind::degenerate ||

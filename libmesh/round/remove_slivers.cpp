@@ -77,7 +77,7 @@ class sliver_removal {
     }
 
     slivers_removed run() {
-        while (!next_.empty() && looks_ < limits_.looks) {
+        while (!next_.empty() && visits_ < limits_.visits) {
             const auto [size, f] = next_.top();
             next_.pop();
             if (!tree_.contains(f) || !is_bad(f)) continue;
@@ -93,7 +93,7 @@ class sliver_removal {
         slivers_removed result;
         result.changes = changes_;
         result.moved = moved_;
-        result.looks = looks_;
+        result.visits = visits_;
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
             if (!tree_.contains(f)) continue;
             result.faces.push_back(faces_[f]);
@@ -163,7 +163,7 @@ class sliver_removal {
         add_turns(f, changes);
         const auto met = meets_.find(f);
         if (met != meets_.end()) {
-            looks_ += met->second.size();
+            visits_ += met->second.size();
             for (const std::uint32_t g : met->second) {
                 add_changes(f, g, changes);
                 add_changes(g, f, changes);
@@ -328,7 +328,7 @@ class sliver_removal {
     }
 
     [[nodiscard]] bool meet(const face& f, const face& g) {
-        ++looks_;
+        ++visits_;
         return intersect::classify_pair(points_, f, g, counters_).has_value();
     }
 
@@ -448,7 +448,7 @@ class sliver_removal {
     std::priority_queue<place_in_line, std::vector<place_in_line>, std::greater<>> next_{};
     predicate_counters counters_{};
     int sideways_ = most_sideways;  ///< left
-    std::uint64_t looks_ = 0;
+    std::uint64_t visits_ = 0;
     std::uint64_t changes_ = 0;
     double moved_ = 0.0;
 };

@@ -19,7 +19,7 @@ struct sliver_limits {
     bool solid = true;  ///< the faces bound a solid: what covers each other back to back goes
     std::span<const std::uint8_t> fixed{};  ///< [F] 1 for faces that are to stay; or empty
     /// About as many pairs of faces are held against each other.
-    std::uint64_t looks = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t visits = std::numeric_limits<std::uint64_t>::max();
 };
 
 struct slivers_removed {
@@ -29,7 +29,7 @@ struct slivers_removed {
     std::vector<std::uint8_t> is_new;  ///< [F] 0 for faces that are as they were
     std::uint64_t changes = 0;
     double moved = 0.0;  ///< furthest apart of what was joined
-    std::uint64_t looks = 0;
+    std::uint64_t visits = 0;
 };
 
 /// Where rounding makes faces meet, one of them is nearly always thinner than points were moved: a

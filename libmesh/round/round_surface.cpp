@@ -42,7 +42,7 @@ constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
 /// Pairs of faces that are held against each other for that, of all rounds, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
-constexpr std::uint64_t looks_a_face = 1024, fewest_looks = std::uint64_t{1} << 20;
+constexpr std::uint64_t visits_a_face = 1024, fewest_visits = std::uint64_t{1} << 20;
 /// Nothing longer than this share of the largest coordinate goes.
 constexpr double longest_reach = 0x1p-10;
 
@@ -107,13 +107,13 @@ class rounding {
         std::frexp(largest, &exponent);
         const double step = std::ldexp(1.0, exponent - (to_float32() ? 24 : 53));
         const double limit = std::min(options_.max_displacement, longest_reach * largest);
-        looks_ = fewest_looks + looks_a_face * faces_given_;
+        visits_ = fewest_visits + visits_a_face * faces_given_;
         double reach = first_reach * step;
         if (!(reach <= limit)) return;
         remember_places();
         if (options_.rest) {
             fix_rim();
-            looks_ /= 8;  // else all is begun once more, with the rest
+            visits_ /= 8;  // else all is begun once more, with the rest
             take_out_slivers(reach, sliver_height * step);
             return;
         }
@@ -151,8 +151,8 @@ class rounding {
                                            .thin = height,
                                            .solid = options_.solid,
                                            .fixed = fixed_,
-                                           .looks = looks_});
-        looks_ -= std::min(looks_, left.looks);
+                                           .visits = visits_});
+        visits_ -= std::min(visits_, left.visits);
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
         joined_ += left.moved;
@@ -425,11 +425,11 @@ class rounding {
     std::size_t faces_given_;
     mesh before_{};  ///< as `exact_` was given, in doubles, once something is mended
     double first_move_ = 0.0;
-    std::uint64_t looks_ = 0;  ///< of `take_out_slivers`, left
-    double joined_ = 0.0;      ///< how far apart at most, of all rounds together
-    double moved_most_ = 0.0;  ///< in the last rounding
-    double moved_ = 0.0;       ///< the same; infinite where points were joined
-    bool vanished_ = false;    ///< some faces, so that points may be left that none has
+    std::uint64_t visits_ = 0;  ///< of `take_out_slivers`, left
+    double joined_ = 0.0;       ///< how far apart at most, of all rounds together
+    double moved_most_ = 0.0;   ///< in the last rounding
+    double moved_ = 0.0;        ///< the same; infinite where points were joined
+    bool vanished_ = false;     ///< some faces, so that points may be left that none has
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
 };

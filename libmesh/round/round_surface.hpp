@@ -80,7 +80,7 @@ struct rounded_surface {
 /// What is joined is at most 8 steps of the precision at the largest coordinate apart in the first
 /// two rounds, four times as far in each two that follow, and never further than `max_displacement`
 /// and than 2^-10 of the largest coordinate: so there are at most 12 rounds for float32 and 42 for
-/// float64. Success is not proved, but checked; the certificate tells. A round that would have to
+/// float64. Success is not proved, but checked: the certificate says so. A round that would have to
 /// cut more than three times as many pairs of faces as there were faces cuts nothing, and a surface
 /// that has grown to three times its faces is given up.
 ///

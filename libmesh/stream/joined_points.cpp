@@ -47,7 +47,7 @@ void clear_rows(mesh_file& file) {
 }  // namespace
 
 joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const communicator& all)
-    : inputs_(inputs), as_las_(as_las), known_(look_at_records(inputs.paths, how(), all)) {
+    : inputs_(inputs), as_las_(as_las), known_(survey_records(inputs.paths, how(), all)) {
     std::vector<mesh_file> firsts;
     for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
         open(i);

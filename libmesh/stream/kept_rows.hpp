@@ -35,20 +35,20 @@ class packed_points {
 };
 
 /// The rows that stand for the groups of several points, by ascending number of their first. Of
-/// several ranks, each has those of the first points that it is told of.
+/// several ranks, each has those of the first points that are assigned to it.
 class kept_rows {
   public:
-    /// Reads the points that the process is told of. Replaces the longest move of `w` by that to
-    /// what is kept. Collective: every rank must call this.
+    /// Reads the points that are assigned to the process. Replaces the longest move of `w` by that
+    /// to what is kept. Collective: every rank must call this.
     kept_rows(cancellable_progress& pace, const work_folder& folder, const communicator& all,
               const tile_task& task, tile_steps& steps, tiles_welded& w);
 
-    /// Rank 0 gets the rows of all. \pre it has been told of all points
+    /// Rank 0 gets the rows of all. \pre all points are assigned to it
     void gather_first(const tiles_welded& w);
 
     /// Whether the point gives its properties to what is kept.
     [[nodiscard]] bool gives(std::uint64_t point) const { return givers_.keeps(point); }
-    /// Points that do not, of those that the process is told of.
+    /// Points that do not, of those that are assigned to the process.
     [[nodiscard]] std::uint64_t dropped() const { return givers_.dropped(); }
     /// Whether float32 holds the coordinates of all rows.
     [[nodiscard]] bool single() const { return single_; }

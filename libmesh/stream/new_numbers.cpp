@@ -17,8 +17,8 @@ new_numbers::new_numbers(cancellable_progress& pace, const work_folder& folder,
     if (!all.is_alone()) ask_others(pace, folder, all, steps);
 }
 
-/// Whoever is told of a point knows its number: it is asked for those of the points that belong to
-/// it.
+/// The rank that a point is assigned to knows its number: it is asked for those of the points that
+/// belong to it.
 void new_numbers::ask_others(cancellable_progress& pace, const work_folder& folder,
                              const communicator& all, const tile_steps& steps) {
     const share& mine = welded_.points;

@@ -11,7 +11,7 @@
 namespace treeform::detail::stream {
 
 /// Of kept points those in the files that are written, of others those of the points that they
-/// belong to; asked for one by one, from the first point that the process is told of on.
+/// belong to; asked for one by one, from the first point that is assigned to the process on.
 class new_numbers {
   public:
     /// Collective: every rank must call this, with its points.

@@ -22,7 +22,7 @@ void placed_points::put(points_view points) {
 }
 
 point3 placed_points::at(std::uint32_t point) {
-    if (looks_.are_many()) file_->give_back();
+    if (budget_.is_spent()) file_->give_back();
     point3 p;
     std::memcpy(&p, file_->data() + point * sizeof p, sizeof p);
     return p;
@@ -30,7 +30,7 @@ point3 placed_points::at(std::uint32_t point) {
 
 shared_points::shared_points(const work_folder& folder, const communicator& all, std::size_t count,
                              std::uint64_t memory)
-    : folder_(folder), rank_(all.rank()), looks_(memory) {
+    : folder_(folder), rank_(all.rank()), budget_(memory) {
     for (std::size_t r = 0; r <= all.size(); ++r)
         firsts_.push_back(io::file_part{r, all.size()}.first(count));
     std::filesystem::remove(path(folder_, rank_));
@@ -49,7 +49,7 @@ point3 shared_points::at(std::uint32_t point) {
     if (parts_.empty())
         for (std::size_t part = 0; part + 1 < firsts_.size(); ++part)
             parts_.push_back(io::source::open(path(folder_, part)));
-    if (looks_.are_many())
+    if (budget_.is_spent())
         for (const io::source& part : parts_) {
             part.rewind();
             part.release_before(part.end());

@@ -16,21 +16,22 @@
 
 namespace treeform::detail::stream {
 
-/// Counts what is looked at in mapped files, for their memory.
-class looks {
+/// Bounds the pages of mapped files that are in memory at once.
+class page_budget {
   public:
     /// At most about `memory` bytes are to be held.
-    explicit looks(std::uint64_t memory) : at_once_(std::max<std::uint64_t>(1024, memory / page)) {}
+    explicit page_budget(std::uint64_t memory)
+        : at_once_(std::max<std::uint64_t>(1024, memory / page)) {}
 
     /// Whether memory must be given back first.
-    [[nodiscard]] bool are_many() {
+    [[nodiscard]] bool is_spent() {
         if (++since_ <= at_once_) return false;
         since_ = 0;
         return true;
     }
 
   private:
-    static constexpr std::uint64_t page = 4096;  ///< what one look may bring into memory, at least
+    static constexpr std::uint64_t page = 4096;  ///< bytes that reading one record brings in
 
     std::uint64_t at_once_;
     std::uint64_t since_ = 0;
@@ -40,14 +41,14 @@ class looks {
 class placed_points : public io::point_store {
   public:
     placed_points(std::unique_ptr<io::scratch> file, std::uint64_t memory)
-        : file_(std::move(file)), looks_(memory) {}
+        : file_(std::move(file)), budget_(memory) {}
 
     void put(points_view points) override;
     [[nodiscard]] point3 at(std::uint32_t point) override;
 
   private:
     std::unique_ptr<io::scratch> file_;
-    looks looks_;
+    page_budget budget_;
     std::size_t size_ = 0;
     std::size_t held_ = 0;  ///< bytes since memory was given back
 };
@@ -72,7 +73,7 @@ class shared_points : public io::point_store {
     const work_folder& folder_;
     std::size_t rank_;
     std::vector<std::uint64_t> firsts_{};  ///< of each part, and the count
-    looks looks_;
+    page_budget budget_;
     std::vector<io::source> parts_{};
     std::size_t last_ = 0;  ///< the part that was looked at
 };

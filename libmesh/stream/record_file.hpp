@@ -29,7 +29,7 @@ class TREEFORM_API digest {
     std::uint64_t value_ = 0x9e3779b97f4a7c15;
 };
 
-/// What tells that a file of records is whole.
+/// What shows that a file of records is whole.
 struct record_count {
     std::uint64_t records = 0;
     std::uint64_t digest = 0;

@@ -24,7 +24,7 @@ class turns {
         const std::function<void(const row_block&)>& take_block,
         const std::function<void(const io::point_blocks&)>& done) {
         row_range last;
-        all_.sequential([&](state_writer& mine) { tell(mine, last.last, take_block, done); },
+        all_.sequential([&](state_writer& mine) { send(mine, last.last, take_block, done); },
                         [&](state_reader received) {
                             last = hear(received);
                             places_.push_back(last.first);
@@ -34,7 +34,7 @@ class turns {
     }
 
   private:
-    void tell(state_writer& mine, const io::row_place& first,
+    void send(state_writer& mine, const io::row_place& first,
               const std::function<void(const row_block&)>& take_block,
               const std::function<void(const io::point_blocks&)>& done) const {
         row_range read;

@@ -1,7 +1,8 @@
 /// \file
 /// What lies along the borders of tiles with the rule first, in runs of slices of the ranks of
 /// points: a few megabytes of rows at a time. Each rank settles what it can of its own tiles; then
-/// each in turn takes some bundles of what is left, and tells those behind it what theirs ask for.
+/// each in turn takes some bundles of what is left, and sends the ranks behind it what their points
+/// ask for.
 
 #include <libmesh/stream/border_rows.hpp>
 #include <libmesh/stream/tile_steps.hpp>

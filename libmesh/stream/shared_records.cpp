@@ -79,8 +79,8 @@ std::optional<io::record_index> joined_text(const parts_of_file& parts) {
 }
 
 /// Points with lists: each rank in turn reads on where the one before has ended.
-std::optional<io::record_index> look_in_turn(const std::filesystem::path& path,
-                                             const communicator& all, std::size_t marks) {
+std::optional<io::record_index> survey_in_turn(const std::filesystem::path& path,
+                                               const communicator& all, std::size_t marks) {
     parts_of_file parts;
     io::row_place next;
     bool good = true;
@@ -108,7 +108,7 @@ std::optional<io::record_index> look_in_turn(const std::filesystem::path& path,
 
 }  // namespace
 
-std::vector<std::optional<io::record_index>> look_at_records(
+std::vector<std::optional<io::record_index>> survey_records(
     const std::vector<std::filesystem::path>& paths, const io::reading& how,
     const communicator& all) {
     const std::size_t marks =
@@ -132,7 +132,7 @@ std::vector<std::optional<io::record_index>> look_at_records(
     std::vector<std::optional<io::record_index>> joined;
     for (std::size_t i = 0; i < paths.size(); ++i)
         joined.push_back(!all.is_alone() && io::has_listed_points_at(paths[i], how)
-                             ? look_in_turn(paths[i], all, marks)
+                             ? survey_in_turn(paths[i], all, marks)
                              : joined_text(texts[i]));
     return joined;
 }

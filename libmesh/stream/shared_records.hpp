@@ -17,7 +17,7 @@ namespace treeform::detail::stream {
 /// What is known of each file when all have looked; none of what is no text of points or of a PLY,
 /// and of what cannot be read: what is wrong is said where it is read from the front. Collective:
 /// every rank must call this.
-[[nodiscard]] std::vector<std::optional<io::record_index>> look_at_records(
+[[nodiscard]] std::vector<std::optional<io::record_index>> survey_records(
     const std::vector<std::filesystem::path>& paths, const io::reading& how,
     const communicator& all);
 

@@ -168,7 +168,7 @@ share tile_steps::assigned_to(std::size_t rank) const {
     return rank == 0 ? share{0, count} : share{count, count};
 }
 
-/// Each is told of its points: of the dropped ones, and of those that others follow.
+/// Each receives its points: the dropped ones, and those that others follow.
 void tile_steps::distribute(tiles_welded& w, kept_points& followed) const {
     const std::size_t size = communicator_.size();
     const auto path = [&](const char* what, std::size_t from, std::size_t to) {

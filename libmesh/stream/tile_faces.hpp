@@ -37,7 +37,7 @@ inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
 /// Each rank has a share of the rows: a part of the file of about as many bytes as those of
 /// others. Where that is known without reading them (`point_blocks::row_parts`, and in text), each
 /// looks at its own; else, as where faces have any number of corners, each in turn looks at what
-/// begins in its share of the bytes, and tells where that ends.
+/// begins in its share of the bytes, and reports where that ends.
 class tile_faces {
   public:
     tile_faces(cancellable_progress& pace, const work_folder& folder, const tile_task& task,
@@ -54,7 +54,7 @@ class tile_faces {
     /// Reads all rows once. Counts faces in `survey`, which gets what is to be said of the end of
     /// the file. Collective: every rank must call this and `weld`.
     /// \throws io_error for what is not as it should be, the first of it in the file; cancelled
-    void look(cloud_survey& survey);
+    void take_survey(cloud_survey& survey);
     /// Reads the points and the rows once, each rank its share. `rows` as for `give_back`.
     /// \throws stream_error, cancelled
     void weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts);
@@ -77,13 +77,13 @@ class tile_faces {
     template <class Take>
     void each_block(bool whole, const Take& take);
     [[nodiscard]] bool is_last() const { return steps_.all().rank() + 1 == steps_.all().size(); }
-    void start_look(cloud_survey& survey);
-    [[nodiscard]] bool look_at_part(cloud_survey& survey);
-    void look_at_whole(cloud_survey& survey);
-    void look_in_turn(cloud_survey& survey);
-    void look_at_rows(const row_block& block, cloud_survey& survey);
-    void end_look(const io::point_blocks& reader, cloud_survey& survey) const;
-    [[nodiscard]] bool share_look(cloud_survey& survey, bool seen);
+    void start_survey(cloud_survey& survey);
+    [[nodiscard]] bool survey_part(cloud_survey& survey);
+    void survey_whole(cloud_survey& survey);
+    void survey_in_turn(cloud_survey& survey);
+    void survey_rows(const row_block& block, cloud_survey& survey);
+    void end_survey(const io::point_blocks& reader, cloud_survey& survey) const;
+    [[nodiscard]] bool share_survey(cloud_survey& survey, bool seen);
     void number_points(tiles_welded& welded, kept_rows* rows, bool has_moves);
     void open_numbers();
     void carry_all();

@@ -138,7 +138,8 @@ kept_points tile_steps::number_kept(const kept_points& by_rank) const {
     return kept;
 }
 
-/// Of the ranks that a process is told of, it tells whoever is told of the numbers.
+/// For the places in the order that are assigned to a process: informs the processes to which the
+/// numbers of these points are assigned.
 kept_points tile_steps::number_kept_by_all(const share& assigned,
                                            const kept_points& by_rank) const {
     if (communicator_.is_alone()) return number_kept(by_rank);

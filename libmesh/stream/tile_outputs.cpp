@@ -30,11 +30,11 @@ bool is_special(const fs::path& path) {
 }
 
 /// Rows on their way to a file, of which something has to be known before it is begun.
-class output_look {
+class output_survey {
   public:
-    explicit output_look(std::function<void(points_view)> take = {}) : take_(std::move(take)) {}
+    explicit output_survey(std::function<void(points_view)> take = {}) : take_(std::move(take)) {}
     /// `axes` are the coordinates whose types `head` has to be asked for.
-    output_look(const mesh_file& head, const std::array<bool, 3>& axes) : axes_(axes) {
+    output_survey(const mesh_file& head, const std::array<bool, 3>& axes) : axes_(axes) {
         if (const element* e = head.attributes.find("vertex")) vertices_ = *e;
     }
 
@@ -68,7 +68,7 @@ class output_look {
         if (extended_) io::extend(*head.las);
     }
     /// As `write` chooses types when it has all points: each axis its own. `point_writer` keeps to
-    /// that only where `stored_as` is float32, so that changes; what `write` would tell of is
+    /// that only where `stored_as` is float32, so that changes; what `write` would report is
     /// returned.
     [[nodiscard]] std::optional<precision> describe_types(mesh_file& head) const {
         if (axes_ == std::array<bool, 3>{}) return std::nullopt;
@@ -125,15 +125,15 @@ class giving_back {
         const bool asked = asked_.welded || asked_.removed || wants_map();
         if (!asked || (!is_divided_ && !all_.is_root())) return {};
         add_columns();
-        look_at_outputs();
-        if (asked_.removed && !removed_head_.las && is_las(*asked_.removed)) look_at_removed();
+        survey_outputs();
+        if (asked_.removed && !removed_head_.las && is_las(*asked_.removed)) survey_removed();
         open_files();
         give_all();
         return std::move(written_);
     }
 
   private:
-    /// Whether each rank writes what it is told of.
+    /// Whether each rank writes what is assigned to it.
     [[nodiscard]] bool may_divide() const {
         const element* const vertices = head_.attributes.find("vertex");
         const bool has_lists =
@@ -232,10 +232,10 @@ class giving_back {
     }
 
     /// What makes of LAS another format, and of coordinates other types, as far as it is not known.
-    void look_at_outputs() {
+    void survey_outputs() {
         const bool of_las = task_.options.as_las && las_is_asked();
-        output_look welded(head_, axes_asked(asked_.welded, head_, has_means()));
-        output_look removed(removed_head_, axes_asked(asked_.removed, removed_head_, false));
+        output_survey welded(head_, axes_asked(asked_.welded, head_, has_means()));
+        output_survey removed(removed_head_, axes_asked(asked_.removed, removed_head_, false));
         if (!of_las && !welded.asks() && !removed.asks()) return;
         each_block([&](point_block& block) {
             give(block, asked_.welded ? &welded : nullptr, asked_.removed ? &removed : nullptr);
@@ -292,13 +292,13 @@ class giving_back {
     }
 
     /// The steps of LAS that hold the dropped points, where no other file has any.
-    void look_at_removed() {
+    void survey_removed() {
         const communicator& all = is_divided_ ? all_ : lone_;
-        output_look seen;
+        output_survey seen;
         const auto each = [&](const std::function<void(points_view)>& take) {
-            seen = output_look(take);
+            seen = output_survey(take);
             each_block([&](point_block& block) {
-                give(block, static_cast<output_look*>(nullptr), &seen);
+                give(block, static_cast<output_survey*>(nullptr), &seen);
                 pace_.check();
                 return true;
             });
@@ -400,7 +400,7 @@ class giving_back {
     mesh_file head_;
     mesh_file removed_head_{};
     weld_stream_written written_{};
-    std::optional<precision> welded_as_{};  ///< to be told of the file, where types were chosen
+    std::optional<precision> welded_as_{};  ///< to be reported of the file, where types were chosen
     std::optional<precision> removed_as_{};
     std::optional<points_out> removed_{};
     std::optional<points_out> result_{};

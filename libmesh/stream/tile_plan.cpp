@@ -147,7 +147,7 @@ std::optional<tile_steps::planned> tile_steps::plan_by(bool by_places) const {
 }
 
 /// By chain, it depends on what lies along the borders; with tiles of a given size, on their halos.
-bool tile_steps::needs_look() const {
+bool tile_steps::needs_survey() const {
     const weld_stream_options& o = task_.options;
     return o.points_per_tile > 0 || rule() == weld_rule::chain;
 }
@@ -166,7 +166,7 @@ tile_steps::planned tile_steps::plan_for_least_memory() const {
     return std::move(*best);
 }
 
-void tile_steps::check_before_look() {
+void tile_steps::check_before_survey() {
     const auto points = source_.count();
     const std::uint64_t least =
         points ? weld_stream_options::memory_to_stream(source_.header(), *points) : 0;
@@ -179,7 +179,7 @@ void tile_steps::check_before_look() {
         return;
     }
     if (least <= task_.memory) return;
-    if (!needs_look()) fail_for_memory(least);
+    if (!needs_survey()) fail_for_memory(least);
     if (task_.memory >= base_memory && !has_plan()) return;
     const std::uint64_t enough = std::max(least, needs_of_one_tile(*points).tiles);
     fail_for_memory(

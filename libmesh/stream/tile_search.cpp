@@ -197,7 +197,7 @@ bool tile_search::give_tiles(bool in_turn) {
     };
     std::optional<io::record_index> text;
     if (!all_.is_alone())
-        text = look_at_records({input_}, {.format = options_.format}, all_).front();
+        text = survey_records({input_}, {.format = options_.format}, all_).front();
     const io::record_index* const known = text ? &*text : nullptr;
     io::face_rows rows =
         open_faces(in, input_, options_.format, make_store, {all_.rank(), all_.size()}, known);
@@ -276,8 +276,8 @@ void tile_search::share_head(io::face_rows& rows) const {
     }
 }
 
-/// Sums up what all have given to the tiles, and what is to be told of all faces. Returns why the
-/// first one that has failed did.
+/// Sums up what all have given to the tiles, and what is to be reported of all faces. Returns why
+/// the first one that has failed did.
 std::optional<std::string> tile_search::share_counts(const std::optional<std::string>& failure) {
     state_writer mine;
     mine.number(failure ? 1 : 0);
@@ -361,7 +361,7 @@ void tile_search::give_all(io::face_rows& rows) {
     for (record_writer<record>& tile : tiles) faces_.push_back({tile.finish()});
 }
 
-/// Counts what is to be told of all faces, and lists those of the block that are searched.
+/// Counts what is to be reported of all faces, and lists those of the block that are searched.
 void tile_search::look_at(const std::vector<io::placed_triangle>& block,
                           std::vector<std::uint32_t>& searched) {
     mesh m;

@@ -47,7 +47,7 @@ struct tile_found {
     self_intersection_result counted{};  ///< without pairs
 };
 
-/// For what is stored, and what a team tells.
+/// For what is stored, and what ranks exchange.
 void store_box(const std::optional<box3>& box, state_writer& state);
 [[nodiscard]] std::optional<box3> load_box(state_reader& state);
 void store_search(const stream_search_result& s, state_writer& state);

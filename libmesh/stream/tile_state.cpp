@@ -62,13 +62,13 @@ std::string name_of_done(std::size_t t) { return std::to_string(t) + ".done"; }
 
 }  // namespace
 
-void tile_steps::look() {
+void tile_steps::take_survey() {
     if (task_.options.shared && has_tiles()) {
-        look_at_tiles();
+        survey_tiles();
         say_plan();
         return;
     }
-    check_before_look();
+    check_before_survey();
     if (!task_.options.shared && take_over()) {
         unpack();
     } else {
@@ -165,7 +165,7 @@ bool tile_steps::know() {
     return scattered_;
 }
 
-void tile_steps::look_at_tiles() {
+void tile_steps::survey_tiles() {
     for (std::size_t t = 0; t < tiles_.size(); ++t)
         if (!find_tile(t, false)) folder_.fail_with_other_tiles();
     survey_.cloud.continued = true;

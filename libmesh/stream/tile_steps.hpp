@@ -84,7 +84,7 @@ class tile_steps {
 
     /// Reads the cloud once; or knows it from an earlier run, whose work will then be continued.
     /// Then says where it will be cut.
-    void look();
+    void take_survey();
     /// Unpacks compressed PCD inputs, once. Collective: every rank must call this.
     void unpack();
     [[nodiscard]] const cloud_survey& survey() const { return survey_.cloud; }
@@ -106,7 +106,7 @@ class tile_steps {
     /// \throws stream_error with what would be enough, where memory is not
     void check_before_borders() const;
     [[nodiscard]] tiles_welded weld_borders();
-    /// Whether each rank reads its points, and is told of them.
+    /// Whether each rank reads its points, and is assigned them.
     [[nodiscard]] bool is_divided() const { return source_.count().has_value(); }
     /// Tells rank 0 of all points, and the others of none.
     void gather_first(tiles_welded& w) const;
@@ -172,8 +172,8 @@ class tile_steps {
     [[nodiscard]] share tiles_of(std::size_t rank, bool unfinished = false) const;
 
     struct cut_sizes;
-    /// Whether a look at the points tells more of the memory that is needed than their number.
-    [[nodiscard]] bool needs_look() const;
+    /// Whether a survey of the points says more of the memory that is needed than their number.
+    [[nodiscard]] bool needs_survey() const;
     /// Decides where to cut.
     /// \throws stream_error with what would be enough, where memory is not
     void plan();
@@ -189,7 +189,7 @@ class tile_steps {
     [[nodiscard]] memory_needs needs_of_one_tile(std::uint64_t points) const;
     [[nodiscard]] std::uint64_t needs_of_rest() const;
     /// Each throws stream_error with what would be enough, where memory is not.
-    void check_before_look();
+    void check_before_survey();
     void check_before_tile() const;
     [[noreturn]] void fail_for_memory(std::uint64_t needed, const std::string& more = {}) const;
     [[nodiscard]] point_survey::part uncrowded_sample() const;
@@ -200,7 +200,7 @@ class tile_steps {
 
     void share_cuts();
     [[nodiscard]] bool know();
-    void look_at_tiles();
+    void survey_tiles();
     [[nodiscard]] bool load_plan();
     /// Whether the folder has tiles to go on from, as far as sizes of files tell.
     [[nodiscard]] bool finds_tiles();

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void tell(const io::lzf_place& at, bool good, state_writer& to) {
+void send(const io::lzf_place& at, bool good, state_writer& to) {
     to.number(good ? 1 : 0);
     to.number(at.packed);
     to.number(at.unpacked);
@@ -42,7 +42,7 @@ std::uint64_t unpack_in_turn(const fs::path& pcd, const fs::path& to, const comm
             const std::uint64_t end = all.end_of_turn(packed.bytes.size() + packed.size);
             const bool good = io::lzf_unpack_on(packed.bytes, at, static_cast<std::size_t>(end),
                                                 packed.size, put);
-            tell(at, good, mine);
+            send(at, good, mine);
         },
         [&](state_reader received) {
             if (received.number() == 0) packed.fail_damaged(in);

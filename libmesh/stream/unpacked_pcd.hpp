@@ -16,7 +16,7 @@ namespace treeform::detail::stream {
 
 /// Unpacks what is packed in `pcd` to an empty file that rank 0 has made. What a byte
 /// stands for is known when those ahead are, so each in turn unpacks its share, counted in bytes
-/// read and made, and tells the next one where it has come to. Collective: every rank must call
+/// read and made, and sends the next one how far it has come. Collective: every rank must call
 /// this. Returns how many bytes it became.
 ///
 /// \throws io_error, all of them the same where the packed bytes are damaged; stream_error, cancelled

@@ -252,8 +252,8 @@ status stream_weld::look() {
             if (!s.steps.has_tiles() && s.steps.has_plan())  // else another process was quicker
                 s.folder.fail_with_other_tiles();
         }
-        s.steps.look();
-        if (s.faces) s.faces->look(s.steps.survey());
+        s.steps.take_survey();
+        if (s.faces) s.faces->take_survey(s.steps.survey());
     });
 }
 

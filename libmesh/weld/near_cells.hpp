@@ -18,7 +18,7 @@ namespace treeform::detail::weld {
 /// Cubes whose edge is a multiple of an eighth of a power of two, and at least 2.0833 times as wide
 /// as a reach. An interval of the reach to both sides, rounded outward, meets at most two cubes a
 /// side, those of its ends:
-/// - For |x| below 2^44 edges, positions in edges are told by multiplication. The interval is
+/// - For |x| below 2^44 edges, positions in edges are found by multiplication. The interval is
 ///   2 / 2.0833 edges wide, and 2^-6 for the slack, 2^-7 for the rounding of its ends, 2^-7 for
 ///   that of the two positions: less than 1.
 /// - Beyond, a cube is so many neighboring doubles a side: 1024 at first, which are at least two
@@ -153,7 +153,8 @@ class near_cells {
         }
     }
 
-    /// Calls `meet(entry, number)` for those within reach of `p` and others; for some more than once.
+    /// Calls `meet(entry, number)` for those within reach of `p` and others; for some more than
+    /// once.
     template <class Meet>
     void visit(const point3& p, std::uint64_t salt, const Meet& meet) {
         std::size_t met = 0;
@@ -201,16 +202,16 @@ class near_cells {
     }
 
     void count(std::size_t met) {
-        constexpr std::size_t looks_a_turn = 4096;
+        constexpr std::size_t searches_a_turn = 4096;
         constexpr std::size_t crowd = 16;
         met_ += met;
-        if (++looks_ < looks_a_turn) return;
-        if (met_ > crowd * looks_ && cubes_.can_shrink()) {
+        if (++searches_ < searches_a_turn) return;
+        if (met_ > crowd * searches_ && cubes_.can_shrink()) {
             cubes_.shrink();
             std::fill(heads_.begin(), heads_.end(), nobody);
             hang_all();
         }
-        met_ = looks_ = 0;
+        met_ = searches_ = 0;
     }
 
     cube_map cubes_;
@@ -219,7 +220,7 @@ class near_cells {
     std::vector<std::uint32_t> heads_;
     bool salted_;
     std::vector<std::uint64_t> salts_{};
-    std::size_t looks_ = 0;
+    std::size_t searches_ = 0;
     std::size_t met_ = 0;
 };
 

@@ -17,8 +17,8 @@
 
 namespace treeform::detail::weld {
 
-/// What is looked for, and who is told; both are called from several threads at once. Points that
-/// are not finite are in no pair.
+/// What is looked for, and who receives it; both are called from several threads at once. Points
+/// that are not finite are in no pair.
 struct near_pairs_task {
     points_view points;
     double tolerance;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether a point may be near some others, told by little memory.
+/// Whether a point may be near some others, decided with little memory.
 
 #include <libmesh/weld/near_cells.hpp>
 #include <treeform/mesh/mesh.hpp>

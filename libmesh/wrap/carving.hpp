@@ -28,7 +28,7 @@ struct carved_space {
 
 /// Tetrahedra in a box around `mesh`, outside as far as they can be reached from the box through
 /// faces that a ball passes. None that is outside meets the mesh: exact. None where `stop` says so,
-/// which is told how many tetrahedra were looked at, and how many faces wait.
+/// which receives how many tetrahedra were looked at, and how many faces wait.
 ///
 /// \param around  further from the mesh than the size
 /// \cost  see `wrap`

@@ -171,7 +171,7 @@ class pair_traversal {
         return true;
     }
 
-    /// All candidates below two nodes, until the sink is told to stop.
+    /// All candidates below two nodes, until the sink is asked to stop.
     bool descend(const node_location<D>& a, const node_location<D>& b, candidate_sink& sink) {
         return open(
                    a, b,

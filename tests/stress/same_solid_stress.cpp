@@ -211,7 +211,7 @@ void check_same(const question& asked, test::random& source, counts& sums) {
         limits = {.effort = source.in(0.1, 8.0),
                   .faces_not_halved = 1 + source.below(8),
                   .few_components = source.below(3)};
-    const auto some = test::surface_of_active(asked.operands, expression, rule, limits, numbers);
+    const auto some = test::surface_of_undecided(asked.operands, expression, rule, limits, numbers);
     ++sums.expressions;
     sums.faces += all.parts.size();
     CHECK(test::is_same_surface(all, some.chain, numbers));

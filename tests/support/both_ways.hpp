@@ -57,11 +57,11 @@ struct surface_of_some {
 /// As `boolean` does where operands hide each other, but always, and in boxes as small as `limits`
 /// says.
 /// \pre each operand bounds a solid
-inline surface_of_some surface_of_active(std::span<const tf::mesh> operands,
-                                         const tf::boolean_expression& expression,
-                                         tf::fill_rule rule,
-                                         const tf::detail::boolean::division_limits& limits,
-                                         exact_numbers& numbers) {
+inline surface_of_some surface_of_undecided(std::span<const tf::mesh> operands,
+                                            const tf::boolean_expression& expression,
+                                            tf::fill_rule rule,
+                                            const tf::detail::boolean::division_limits& limits,
+                                            exact_numbers& numbers) {
     namespace detail = tf::detail::boolean;
     const std::vector<tf::mesh_view> views(operands.begin(), operands.end());
     detail::joined_operands joined = detail::join_operands(views);

@@ -22,8 +22,8 @@ namespace tools {
 }
 
 /// Calls `body(begin, end)` for pieces of `count` elements, one after the other, each as large as
-/// takes some hundredths of a second. Answers must not depend on that. `report` is told before each
-/// how much is done.
+/// takes some hundredths of a second. Answers must not depend on that. `report` is called before
+/// each how much is done.
 ///
 /// Returns false where `report` asked to stop.
 ///

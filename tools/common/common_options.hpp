@@ -59,7 +59,7 @@ struct common_options {
     bool progress = false;
     std::string color = "auto";
     bool in_team = false;                              ///< processes of mpirun share the work
-    std::function<void(const std::string&)> failed{};  ///< is told the error that is said
+    std::function<void(const std::string&)> failed{};  ///< receives the error that is said
     bool quiet = false;
     int verbose = 0;
     std::string log;

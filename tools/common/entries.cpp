@@ -22,10 +22,11 @@ json open_entry(const tf::certificate& known, const face_numbers& stored_face) {
     for (const tf::open_edge& edge : known.open)
         list.push_back(
             {{"face", stored_face(edge.face.index)}, {"from", edge.ends[0]}, {"to", edge.ends[1]}});
-    const bool told = known.boundary_edges + known.misoriented_edges > 0 || known.open.empty();
+    const bool known_edges =
+        known.boundary_edges + known.misoriented_edges > 0 || known.open.empty();
     return {{"count", known.open_count},
-            {"boundary_edges", or_null(told, known.boundary_edges)},
-            {"misoriented_edges", or_null(told, known.misoriented_edges)},
+            {"boundary_edges", or_null(known_edges, known.boundary_edges)},
+            {"misoriented_edges", or_null(known_edges, known.misoriented_edges)},
             {"list", list}};
 }
 

@@ -61,9 +61,9 @@ std::string wrapped(const std::string& text, std::size_t room, std::size_t taken
     return out;
 }
 
-/// What a text says to one mode. Its first clause is for all. Of the others, one that begins with the
-/// name of another mode or names an option that the mode has not is left out, and "of measure, ..."
-/// is what measure has instead of the first.
+/// What a text says to one mode. Its first clause is for all. Of the others, one that begins with
+/// the name of another mode or names an option that the mode has not is left out, and "of measure,
+/// ..." is what measure has instead of the first.
 std::string said_to(const mode_text& mode, const std::string& text,
                     const std::vector<mode_text>& modes) {
     std::vector<std::string> clauses;
@@ -103,8 +103,8 @@ std::string page(const command_text& command, const std::string& usage, const st
 }
 
 /// The text of an option in the help of a mode.
-std::string told(const mode_text& mode, const option_text& option,
-                 const std::vector<mode_text>& modes) {
+std::string text_of(const mode_text& mode, const option_text& option,
+                    const std::vector<mode_text>& modes) {
     std::string text = option.text;
     if (const auto only = modes_of(option, modes); !only.empty()) text.erase(0, only.size() + 2);
     const std::string own = said_to(mode, text, modes);
@@ -160,7 +160,7 @@ std::vector<option_group> groups_for(const mode_text& mode, const std::vector<op
     std::vector<option_group> kept;
     for (option_group group : groups) {
         std::erase_if(group.options, left_out);
-        for (option_text& option : group.options) option.text = told(mode, option, modes);
+        for (option_text& option : group.options) option.text = text_of(mode, option, modes);
         if (!group.options.empty()) kept.push_back(std::move(group));
     }
     return kept;

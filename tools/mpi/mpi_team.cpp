@@ -12,11 +12,11 @@
 namespace {
 
 /// Lengths first, then all bytes.
-std::vector<std::string> exchange(const std::string& told) {
+std::vector<std::string> exchange(const std::string& sent) {
     int size = 1;
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     const auto count = static_cast<std::size_t>(size);
-    const std::uint64_t length = told.size();
+    const std::uint64_t length = sent.size();
     std::vector<std::uint64_t> lengths(count);
     MPI_Allgather(&length, 1, MPI_UINT64_T, lengths.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
     std::vector<std::string> all(count);
@@ -24,7 +24,7 @@ std::vector<std::string> exchange(const std::string& told) {
     constexpr std::uint64_t most = std::uint64_t{1} << 30;
     for (std::size_t rank = 0; rank < count; ++rank) {
         std::string& one = all[rank];
-        if (one = told; lengths[rank] != told.size()) one.assign(lengths[rank], '\0');
+        if (one = sent; lengths[rank] != sent.size()) one.assign(lengths[rank], '\0');
         for (std::uint64_t at = 0; at < lengths[rank]; at += most)
             MPI_Bcast(one.data() + at, static_cast<int>(std::min(most, lengths[rank] - at)),
                       MPI_BYTE, static_cast<int>(rank), MPI_COMM_WORLD);

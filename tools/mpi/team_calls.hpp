@@ -12,7 +12,7 @@ namespace tools {
 struct team_calls {
     std::size_t rank = 0;
     std::size_t size = 1;
-    std::vector<std::string> (*exchange)(const std::string& told) = nullptr;
+    std::vector<std::string> (*exchange)(const std::string& sent) = nullptr;
     void (*leave)() = nullptr;
     void (*abort)(int status) = nullptr;  ///< ends all ranks
 };

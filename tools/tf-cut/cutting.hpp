@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a user of tf-cut asks for, what is made of an input, and how it is told and written.
+/// What a user of tf-cut asks for, what is made of an input, and how it is reported and written.
 
 #include "tools/common/change_limits.hpp"
 #include "tools/common/parse_value.hpp"

@@ -49,15 +49,15 @@ void enter(job& work, const dirty_mesh& input, const tf::wrap_result& made, doub
                           {"components", topology.components_by_point}};
 }
 
-/// Of a surface with a hole that is wider than the size, the wrap is on both sides, and encloses less
-/// than the surface nearly does.
+/// Of a surface with a hole that is wider than the size, the wrap is on both sides, and encloses
+/// less than the surface nearly does.
 void warn_of_skin(job& work, const dirty_mesh& input, const tf::wrap_result& made, double volume) {
     constexpr double much = 0.9;
     if (volume > much * std::abs(input.volume)) return;
     const tf::mesh_view mesh = input.file.mesh;
     const tf::mesh joined = tf::join_meshes({&mesh, 1}).mesh;
     const auto edges = tf::count_topology(joined.points.size(), joined.faces);
-    // Where parts overlap or are within each other, volumes do not tell.
+    // Where parts overlap or are within each other, volumes say nothing.
     if (edges.boundary_edges <= edges.nonmanifold_edges) return;
     work.warn("skin",
               "the wrap is a skin on both sides of the faces: the way inside is wider than " +

@@ -45,23 +45,23 @@ class digests {
     }
 
     /// What another process needs to go on.
-    [[nodiscard]] std::string told() const {
+    [[nodiscard]] std::string sent() const {
         std::string text;
         for (const std::string& one : finished_) text += one.empty() ? unreadable : one;
         return text + open_.state() + (is_read_ ? '1' : '0');
     }
-    /// What another one has told, which has read so many bytes of all.
-    void take(std::string_view told, std::uint64_t read) {
+    /// What another rank has sent, which has read so many bytes of all.
+    void take(std::string_view received, std::uint64_t read) {
         const std::size_t state_size = open_.state().size();
         finished_.clear();
         at_ = read;
-        for (; told.size() > state_size + 1; told.remove_prefix(unreadable.size())) {
-            const std::string_view one = told.substr(0, unreadable.size());
+        for (; received.size() > state_size + 1; received.remove_prefix(unreadable.size())) {
+            const std::string_view one = received.substr(0, unreadable.size());
             at_ -= std::min(at_, sizes_[finished_.size()]);
             finished_.emplace_back(one == unreadable ? std::string_view() : one);
         }
-        open_ = sha256(told.substr(0, state_size));
-        is_read_ = told.back() == '1';
+        open_ = sha256(received.substr(0, state_size));
+        is_read_ = received.back() == '1';
     }
 
   private:
@@ -90,7 +90,7 @@ std::vector<std::string> digests_for_report(const std::vector<fs::path>& paths,
         const bool mine = rank == team.rank;
         if (mine) all.read(begin(rank + 1) - begin(rank));
         if (team.size == 1) break;
-        const std::vector<std::string> received = team.exchange(mine ? all.told() : std::string());
+        const std::vector<std::string> received = team.exchange(mine ? all.sent() : std::string());
         all.take(received[rank], begin(rank + 1));
     }
     return std::move(all).finished();

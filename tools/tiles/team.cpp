@@ -113,8 +113,8 @@ int run_in_team(const std::function<int(team_member&)>& tool) {
     const bool leads = calls->rank == 0;
     std::FILE* const heard = leads ? stderr : be_silent();
     bool all_end = false;
-    me.team = {calls->rank, calls->size, [&](const std::string& told) {
-                   std::vector<std::string> all = calls->exchange(told + '\0');
+    me.team = {calls->rank, calls->size, [&](const std::string& sent) {
+                   std::vector<std::string> all = calls->exchange(sent + '\0');
                    for (std::string& one : all) {
                        const auto status = static_cast<exit_status>(one.back());
                        one.pop_back();

@@ -39,7 +39,7 @@ std::string odd_lines(std::size_t count, test::random& random) {
 std::vector<std::optional<io::record_index>> look(const std::vector<fs::path>& paths,
                                                   const tf::process_team& team) {
     const stream::communicator all(team);
-    return stream::look_at_records(paths, {}, all);
+    return stream::survey_records(paths, {}, all);
 }
 
 /// All that a reader gives from a point on.

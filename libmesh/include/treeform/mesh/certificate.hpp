@@ -70,8 +70,8 @@ struct TREEFORM_API certificate {
     std::vector<open_edge> open{};
     /// The same edges as the operands have them, with equal coordinates joined: those of an odd
     /// number of faces, where the surface ends, and those of an even number, where faces run the
-    /// same way. Both are 0 where a corner at one lies within another one, for such edges may
-    /// fit together piece by piece.
+    /// same way. Both are 0 if a vertex lies inside such an edge: edges may then fit together
+    /// piece by piece.
     std::uint64_t boundary_edges = 0;
     std::uint64_t misoriented_edges = 0;
     /// Rounding moved no coordinate of a vertex further than this: from where it was, exactly, or,

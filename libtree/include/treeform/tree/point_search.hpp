@@ -92,8 +92,9 @@ class TREEFORM_API point_search {
     [[nodiscard]] neighbor_lists<near_point> all_within(std::span<const point> queries,
                                                         double radius) const;
 
-    /// All pairs of points within `radius` of each other, ascending, each once with the lower number
-    /// first. None when `progress` asked to stop; it is told 0, as it is not known how much is left.
+    /// All pairs of points within `radius` of each other, ascending, each once with the lower
+    /// number first. None when `progress` asked to stop; it gets 0, as it is not known how much is
+    /// left.
     ///
     /// \cost   O(N log N + P) for P pairs whose points are within about twice the radius; 90 bytes a
     ///         point

@@ -246,8 +246,8 @@ typedef struct treeform_certificate {
     size_t open_listed;
     /// The same edges as the operands have them, with equal coordinates joined: those of an odd
     /// number of faces, where the surface ends, and those of an even number, where faces run the
-    /// same way. Both are 0 where a corner at one lies within another one, for such edges may fit
-    /// together piece by piece.
+    /// same way. Both are 0 if a vertex lies inside such an edge: edges may then fit together
+    /// piece by piece.
     uint64_t boundary_edges;
     uint64_t misoriented_edges;
     /// Rounding moved no coordinate of a vertex further than this: from where it was, exactly, or,

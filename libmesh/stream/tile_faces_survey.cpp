@@ -43,14 +43,14 @@ io::point_blocks tile_faces::open() const {
     return {of.path, {.format = std::string(of.format)}, 0, of.use, of.known};
 }
 
-void tile_faces::look(cloud_survey& survey) {
-    start_look(survey);
+void tile_faces::take_survey(cloud_survey& survey) {
+    start_survey(survey);
     if (steps_.all().is_alone()) {
-        look_at_whole(survey);
-    } else if (!share_look(survey, look_at_part(survey))) {
-        start_look(survey);
-        look_in_turn(survey);
-        static_cast<void>(share_look(survey, true));
+        survey_whole(survey);
+    } else if (!share_survey(survey, survey_part(survey))) {
+        start_survey(survey);
+        survey_in_turn(survey);
+        static_cast<void>(share_survey(survey, true));
     }
     io::remark_on_short_faces(left_out_, survey.warnings);
     if (survey.triangles > std::numeric_limits<std::uint32_t>::max())
@@ -61,16 +61,16 @@ void tile_faces::look(cloud_survey& survey) {
                              (survey.tolerance > 0.0 ? 48 * survey.points : 0);
 }
 
-void tile_faces::start_look(cloud_survey& survey) {
+void tile_faces::start_survey(cloud_survey& survey) {
     survey.faces = survey.triangles = left_out_ = 0;
     most_corners_ = 0;
     is_blank_ = is_soup_;
     parts_.clear();
 }
 
-/// Returns false where that needs all that is ahead of the part, and where it is not as it should be:
-/// when all look in turn, what is wrong first is said.
-bool tile_faces::look_at_part(cloud_survey& survey) {
+/// Returns false where that needs all that is ahead of the part, and where it is not as it should
+/// be: when all look in turn, what is wrong first is said.
+bool tile_faces::survey_part(cloud_survey& survey) {
     try {
         io::point_blocks reader = open();
         parts_ = reader.row_parts(steps_.all().size());
@@ -81,34 +81,34 @@ bool tile_faces::look_at_part(cloud_survey& survey) {
         row_block block;
         while (left > 0 && reader.read(block, rows_of_next(left))) {
             left -= block.rows.rows + block.left_out;
-            look_at_rows(block, survey);
+            survey_rows(block, survey);
             pace_.check();
         }
-        end_look(reader, survey);
+        end_survey(reader, survey);
         return left == 0;
     } catch (const io_error&) {
         return false;
     }
 }
 
-void tile_faces::look_at_whole(cloud_survey& survey) {
+void tile_faces::survey_whole(cloud_survey& survey) {
     io::point_blocks reader = open();
     for (row_block block; reader.read(block, rows_a_block); pace_.check())
-        look_at_rows(block, survey);
-    end_look(reader, survey);
+        survey_rows(block, survey);
+    end_survey(reader, survey);
 }
 
-void tile_faces::look_in_turn(cloud_survey& survey) {
+void tile_faces::survey_in_turn(cloud_survey& survey) {
     parts_ = rows_in_turn(
         steps_.all(), file(),
         [&](const row_block& block) {
-            look_at_rows(block, survey);
+            survey_rows(block, survey);
             pace_.check();
         },
-        [&](const io::point_blocks& reader) { end_look(reader, survey); });
+        [&](const io::point_blocks& reader) { end_survey(reader, survey); });
 }
 
-void tile_faces::look_at_rows(const row_block& block, cloud_survey& survey) {
+void tile_faces::survey_rows(const row_block& block, cloud_survey& survey) {
     if (block.rows.name != "face") return;
     survey.faces += block.rows.rows;
     left_out_ += block.left_out;
@@ -117,15 +117,15 @@ void tile_faces::look_at_rows(const row_block& block, cloud_survey& survey) {
     most_corners_ = std::max(most_corners_, longest_face(block));
 }
 
-void tile_faces::end_look(const io::point_blocks& reader, cloud_survey& survey) const {
+void tile_faces::end_survey(const io::point_blocks& reader, cloud_survey& survey) const {
     for (const io_warning& w : reader.header().warnings)
         if (std::ranges::find(survey.warnings, w.text, &io_warning::text) == survey.warnings.end())
             survey.warnings.push_back(w);
 }
 
-/// Sums up what all have seen; the last one knows the end of the file, and where parts begin. Returns
-/// whether each has `seen` its part.
-bool tile_faces::share_look(cloud_survey& survey, bool seen) {
+/// Sums up what all have seen; the last one knows the end of the file, and where parts begin.
+/// Returns whether each has `seen` its part.
+bool tile_faces::share_survey(cloud_survey& survey, bool seen) {
     state_writer mine;
     for (const std::uint64_t n :
          {std::uint64_t{seen}, survey.faces, survey.triangles, left_out_,
