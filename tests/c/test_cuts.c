@@ -72,7 +72,7 @@ static void test_halves(void) {
     ENDS(TREEFORM_NOT_CERTIFIED, "", treeform_cut(open, &across, NULL, 0, NULL, &made));
     CHECK(made && made->count == 0);
     treeform_free(made);
-    options.open = 1;
+    options.caps = 0;
     OK(treeform_cut(open, &across, NULL, 0, &options, &made));
     CHECK(made && made->count == 2);
     treeform_free(made);

@@ -6,6 +6,7 @@ import inspect
 import os
 import pathlib
 import pydoc
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import sys
 import pytest
 
 import treeform as tf
+from treeform import _core
 
 USER = pathlib.Path(__file__).parent / "typed" / "user.py"
 #: Where the package is.
@@ -64,6 +66,25 @@ def test_all_names_are_said_in_the_text():
         text = path.read_text()
         assert "__all__ = [\"" in text or path.name == "_exit.py", path.name
     assert set(tf.__all__) == {name for name in dir(tf) if not name.startswith("_")} | {"__version__"}
+
+
+def options_of(function):
+    """The options of the extension that a function makes of its arguments, if it does."""
+    kinds = re.findall(r"options\(_core\.(\w+), (?:locals\(\)|arguments)", inspect.getsource(function))
+    return [getattr(_core, kind) for kind in kinds]
+
+
+@pytest.mark.parametrize("name", [name for name in tf.__all__ if inspect.isfunction(getattr(tf, name))
+                                  and options_of(getattr(tf, name))])
+def test_defaults_are_those_of_cpp(name):
+    """None stands for a default that only C++ knows."""
+    parameters = inspect.signature(getattr(tf, name)).parameters
+    for kind in options_of(getattr(tf, name)):
+        taken = [one for one in kind.names if one in parameters]
+        assert taken, kind
+        for one in taken:
+            if one in kind.defaults and parameters[one].default is not None:
+                assert parameters[one].default in (kind.defaults[one], inspect.Parameter.empty), one
 
 
 @pytest.mark.parametrize("result", RESULTS, ids=lambda one: one.__name__)

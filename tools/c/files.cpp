@@ -4,7 +4,7 @@
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/write.hpp>
 
-#include <tools/c/files.hpp>
+#include <tools/c/made/structs.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,49 +14,6 @@ namespace tf = treeform;
 namespace {
 
 const tf::mesh_file& content(const treeform_file* file) { return glue::need(file, "file").content; }
-
-template <class C>
-const treeform_rows* elements_of(glue::answer<C>& owner, const std::vector<tf::element>& from) {
-    std::vector<treeform_rows> elements;
-    for (const tf::element& e : from) {
-        std::vector<treeform_column> columns;
-        for (const tf::column& c : e.columns)
-            columns.push_back({c.name.c_str(), static_cast<treeform_scalar>(c.type),
-                               c.list_length.has_value(), c.role != tf::column_role::data,
-                               c.values.data(), c.size(),
-                               c.list_length ? c.list_begin.data() : nullptr});
-        elements.push_back(
-            {e.name.c_str(), e.rows, owner.keep(std::move(columns)).data(), e.columns.size()});
-    }
-    return owner.keep(std::move(elements)).data();
-}
-
-void describe(glue::answer<treeform_file_view>& owner, const tf::attributes& a) {
-    treeform_file_view& v = owner.value;
-    v.elements = elements_of(owner, a.elements);
-    v.element_count = a.elements.size();
-    std::vector<treeform_named_faces> parts;
-    for (const tf::part& p : a.parts)
-        parts.push_back({p.object.c_str(), p.group.c_str(), p.material.c_str(), p.first_face});
-    v.parts = owner.keep(std::move(parts)).data();
-    v.part_count = a.parts.size();
-    v.texture = a.corners.texture.empty() ? nullptr : a.corners.texture.data()->data();
-    v.texture_count = a.corners.texture.size();
-    v.normals = glue::flat(a.corners.normals);
-    v.normal_count = a.corners.normals.size();
-    if (!a.corners.texture_of_corner.empty())
-        v.texture_of_corner = a.corners.texture_of_corner.data()->data();
-    if (!a.corners.normal_of_corner.empty())
-        v.normal_of_corner = a.corners.normal_of_corner.data()->data();
-    v.material_files = glue::words(owner, a.material_files);
-    v.material_file_count = a.material_files.size();
-    v.texture_files = glue::words(owner, a.texture_files);
-    v.texture_file_count = a.texture_files.size();
-    v.comments = glue::words(owner, a.comments);
-    v.comment_count = a.comments.size();
-    v.obj_info = glue::words(owner, a.obj_info);
-    v.obj_info_count = a.obj_info.size();
-}
 
 template <class T>
 tf::column column_of(const char* name, const void* values, std::size_t rows) {
@@ -79,32 +36,11 @@ struct certified_mesh {
     [[nodiscard]] const tf::mesh& value() const { return mesh; }
 };
 
-void give_part(tf::usable_mesh from, treeform_part** out) {
-    auto made = glue::make<treeform_part>();
-    const tf::usable_mesh& kept = made->keep(std::move(from));
-    std::vector<std::uint32_t> in_file(kept.mesh.faces.size());
-    for (std::uint32_t f = 0; f < in_file.size(); ++f) in_file[f] = kept.face_in_file(f);
-    treeform_part& p = made->value;
-    p.mesh = glue::arrays(kept.mesh);
-    p.triangle_of_face = kept.triangle_of_face.empty() ? nullptr : kept.triangle_of_face.data();
-    p.face_in_file = made->keep(std::move(in_file)).data();
-    p.component = kept.component.empty() ? nullptr : kept.component.data();
-    p.dropped = kept.dropped;
-    p.degenerate = kept.degenerate;
-    p.joined = kept.joined;
-    glue::give(std::move(made), out);
-}
-
 std::vector<std::string> names_of(const char* const* names, std::size_t count) {
     if (names) return glue::texts(names, count, "names");
     std::vector<std::string> result;
     for (std::size_t i = 0; i < count; ++i) result.push_back("input " + std::to_string(i));
     return result;
-}
-
-std::optional<std::array<double, 3>> axes_of(const double* axes) {
-    if (!axes) return std::nullopt;
-    return std::array{axes[0], axes[1], axes[2]};
 }
 
 }  // namespace
@@ -118,38 +54,10 @@ std::vector<tf::named_column> glue::columns_of(const treeform_named_column* colu
     return all;
 }
 
-tf::write_options glue::write_options_of(const treeform_write_options* options) {
-    const auto o = chosen(options, treeform_write_options_init);
-    tf::write_options result;
-    result.format = text(o.format);
-    result.ascii = o.ascii != 0;
-    if (o.precision != -1) result.precision = precision(o.precision);
-    result.progress = progress(o);
-    if (o.drop_count > 0) result.drop = texts(o.drop, o.drop_count, "drop");
-    result.rename = glue::columns_of(o.rename, o.rename_count, "rename");
-    result.las_scale = axes_of(o.las_scale);
-    result.las_offset = axes_of(o.las_offset);
-    return result;
-}
-
 void glue::give_written(tf::write_result from, treeform_written** out) {
-    if (from.status == tf::status::cancelled) throw cancelled{};
+    check(from.status);
     if (!out) return;
-    auto made = make<treeform_written>();
-    const tf::write_result& kept = made->keep(std::move(from));
-    made->value.format = kept.format.c_str();
-    made->value.written_as = static_cast<treeform_precision>(kept.written_as);
-    made->value.max_displacement = kept.max_displacement;
-    made->value.warnings = keep(*made, kept.warnings);
-    made->value.warning_count = kept.warnings.size();
-    give(std::move(made), out);
-}
-
-treeform_code treeform_read(const char* path, const char* format, treeform_file** file) {
-    return glue::guard([&] {
-        glue::start(file);
-        glue::give(tf::read(&glue::need(path, "path"), glue::text(format)), file);
-    });
+    (void)give(std::move(from), out);
 }
 
 treeform_code treeform_read_memory(const void* bytes, size_t size, const char* name,
@@ -174,33 +82,11 @@ treeform_code treeform_file_create(const treeform_mesh* mesh, treeform_file** fi
     });
 }
 
-treeform_code treeform_file_copy(const treeform_file* file, treeform_file** copy) {
-    return glue::guard([&] {
-        glue::start(copy);
-        glue::give(tf::mesh_file(content(file)), copy);
-    });
-}
-
 treeform_code treeform_file_look(const treeform_file* file, treeform_file_view** view) {
     return glue::guard([&] {
         glue::start(view);
-        const tf::mesh_file& from = content(file);
         auto made = glue::make<treeform_file_view>();
-        treeform_file_view& v = made->value;
-        v.mesh = glue::arrays(from.mesh);
-        v.stored_face = from.stored_face.empty() ? nullptr : from.stored_face.data();
-        v.stored_faces = from.stored_faces;
-        v.indexed = from.indexed;
-        v.stored_as = static_cast<treeform_precision>(from.stored_as);
-        v.format = from.format.c_str();
-        v.warnings = glue::keep(*made, from.warnings);
-        v.warning_count = from.warnings.size();
-        describe(*made, from.attributes);
-        v.is_las = from.las.has_value();
-        if (from.las) {
-            std::copy(from.las->scale.begin(), from.las->scale.end(), v.las_scale);
-            std::copy(from.las->offset.begin(), from.las->offset.end(), v.las_offset);
-        }
+        glue::fill(*made, content(file), made->value);
         glue::give(std::move(made), view);
     });
 }
@@ -283,24 +169,6 @@ treeform_code treeform_file_add_text(treeform_file* file, treeform_text what, co
     });
 }
 
-treeform_code treeform_file_split_polygons(treeform_file* file) {
-    return glue::guard([&] { glue::need(file, "file").content.split_polygons(); });
-}
-
-treeform_code treeform_file_round_to_las(treeform_file* file, double* moved) {
-    return glue::guard([&] {
-        (void)glue::need(moved, "moved");
-        *moved = tf::round_to_las(glue::need(file, "file").content);
-    });
-}
-
-treeform_code treeform_file_round_to_float32(treeform_file* file, double* moved) {
-    return glue::guard([&] {
-        (void)glue::need(moved, "moved");
-        *moved = glue::need(file, "file").content.round_to_float32();
-    });
-}
-
 treeform_code treeform_file_transform(treeform_file* file, const double* matrix) {
     return glue::guard([&] {
         tf::mesh_file& to = glue::need(file, "file").content;
@@ -310,19 +178,13 @@ treeform_code treeform_file_transform(treeform_file* file, const double* matrix)
     });
 }
 
-void treeform_read_options_init(treeform_read_options* options, size_t size) {
-    glue::init(options, size, treeform_read_options{});
-}
-
 treeform_code treeform_read_as(const char* path, const treeform_read_options* options,
                                treeform_file** file) {
     return glue::guard([&] {
         glue::start(file);
         const auto o = glue::chosen(options, treeform_read_options_init);
-        glue::give(tf::read(&glue::need(path, "path"), glue::text(o.format),
-                            {.columns = glue::columns_of(o.columns, o.column_count, "columns"),
-                             .drop_nan = o.drop_nan != 0}),
-                   file);
+        return glue::give(tf::read(&glue::need(path, "path"), glue::text(o.format), glue::read(o)),
+                          file);
     });
 }
 
@@ -335,19 +197,12 @@ treeform_code treeform_file_turn_normals(treeform_file* file, const double* matr
     });
 }
 
-void treeform_write_options_init(treeform_write_options* options, size_t size) {
-    treeform_write_options defaults{};
-    defaults.precision = -1;
-    glue::init(options, size, defaults);
-}
-
 treeform_code treeform_write(const char* path, const treeform_file* file,
                              const treeform_write_options* options, treeform_written** written) {
     return glue::guard([&] {
         if (written) *written = nullptr;
-        glue::give_written(
-            tf::write(&glue::need(path, "path"), content(file), glue::write_options_of(options)),
-            written);
+        glue::give_written(tf::write(&glue::need(path, "path"), content(file), glue::read(options)),
+                           written);
     });
 }
 
@@ -357,7 +212,7 @@ treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
     return glue::guard([&] {
         if (written) *written = nullptr;
         const auto o = glue::chosen(options, treeform_write_options_init);
-        const tf::write_options how = glue::write_options_of(&o);
+        const tf::write_options how = glue::read(o);
         (void)glue::need(path, "path");
         const tf::mesh_view view = glue::view(mesh);
         certified_mesh copy;
@@ -376,29 +231,10 @@ treeform_code treeform_write_memory(const treeform_file* file,
         glue::start(bytes);
         auto made = glue::make<treeform_bytes>();
         const std::string& kept =
-            made->keep(tf::write_to_memory(content(file), glue::write_options_of(options)));
+            made->keep(tf::write_to_memory(content(file), glue::read(options)));
         made->value.bytes = reinterpret_cast<const unsigned char*>(kept.data());
         made->value.count = kept.size();
         glue::give(std::move(made), bytes);
-    });
-}
-
-void treeform_part_options_init(treeform_part_options* options, size_t size) {
-    glue::init(options, size, treeform_part_options{});
-}
-
-treeform_code treeform_usable_part(const treeform_file* file, const treeform_part_options* options,
-                                   treeform_part** part) {
-    return glue::guard([&] {
-        glue::start(part);
-        const auto o = glue::chosen(options, treeform_part_options_init);
-        const tf::mesh_file& from = content(file);
-        tf::part_options how;
-        how.vertices = glue::vertices(o.vertices);
-        how.tolerance = o.tolerance;
-        if (o.box) how.box = glue::box(*o.box);
-        how.details = o.details != 0;
-        give_part(tf::usable_part(from.mesh, from.stored_face, how), part);
     });
 }
 
@@ -411,7 +247,7 @@ treeform_code treeform_as_mesh(const treeform_file* file, treeform_part** part) 
         plain.stored_face = from.stored_face;
         plain.stored_faces = from.stored_faces;
         plain.indexed = from.indexed;
-        give_part(tf::as_mesh(std::move(plain)), part);
+        return glue::give(tf::as_mesh(std::move(plain)), part);
     });
 }
 
@@ -456,20 +292,6 @@ treeform_code treeform_split_parts(const treeform_file* file, treeform_scene_par
         made->value.count = all.size();
         made->value.parts = made->keep(std::move(all)).data();
         glue::give(std::move(made), parts);
-    });
-}
-
-treeform_code treeform_files_of(const char* const* paths, size_t count,
-                                treeform_file_content content, treeform_strings** files) {
-    return glue::guard([&] {
-        glue::start(files);
-        auto made = glue::make<treeform_strings>();
-        const auto& found =
-            made->keep(tf::files_of(glue::texts(paths, count, "paths"),
-                                    glue::choice<tf::file_content>(content, 2, "content")));
-        made->value.values = glue::words(*made, found);
-        made->value.count = found.size();
-        glue::give(std::move(made), files);
     });
 }
 

@@ -65,6 +65,53 @@ std::vector<std::string> texts(const char* const* what, std::size_t count, const
     return result;
 }
 
+tf::point3 finite(const double* data, const char* name) {
+    const tf::point3 p = point(data, name);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        throw std::invalid_argument(std::string(name) + " is not finite");
+    return p;
+}
+
+tf::point2 finite2(const double* data, const char* name) {
+    (void)need(data, name);
+    if (!std::isfinite(data[0]) || !std::isfinite(data[1]))
+        throw std::invalid_argument(std::string(name) + " is not finite");
+    return {data[0], data[1]};
+}
+
+tf::oriented_plane plane(const treeform_plane* plane) {
+    if (!plane) return {};
+    return {point(plane->at, "at"), point(plane->normal, "normal")};
+}
+
+std::vector<double> heights(const double* heights, std::size_t count) {
+    if (!heights) return {0.0};
+    const std::span<const double> all = array(heights, count, "heights");
+    return {all.begin(), all.end()};
+}
+
+std::vector<tf::face_pair> pairs_of(std::size_t face_count, const treeform_face_pair* pairs,
+                                    std::size_t count) {
+    std::vector<tf::face_pair> result;
+    for (const treeform_face_pair& one : array(pairs, count, "pairs")) {
+        if (one.a >= face_count || one.b >= face_count)
+            throw std::invalid_argument("pair " + std::to_string(result.size()) +
+                                        " names a face of " + std::to_string(face_count) +
+                                        " that is not there");
+        result.push_back({one.a, one.b, choice<tf::pair_kind>(one.kind, 7, "a kind")});
+    }
+    return result;
+}
+
+tf::pair_kinds kinds(std::uint32_t bits) {
+    if (bits > TREEFORM_ALL_KINDS)
+        throw std::invalid_argument("kinds is " + std::to_string(bits) + ", no sum of kinds");
+    tf::pair_kinds result;
+    for (std::uint32_t kind = 0; kind < tf::pair_kind_count; ++kind)
+        if ((bits >> kind & 1U) != 0) result = result + static_cast<tf::pair_kind>(kind);
+    return result;
+}
+
 tf::box3 box(const treeform_box& b) { return {point(b.min, "min"), point(b.max, "max")}; }
 
 tf::progress_callback progress(treeform_progress call, void* data) {
@@ -97,28 +144,6 @@ tf::progress_callback thread_progress() {
     return progress(progress_of_thread, progress_data_of_thread);
 }
 
-treeform_certificate certificate_of(const tf::certificate& kept, const char* message) {
-    treeform_certificate c{};
-    c.status = static_cast<treeform_status>(kept.status);
-    c.message = message;
-    c.meeting_count = kept.meeting_count;
-    c.meeting = kept.meeting.empty() ? nullptr : kept.meeting.data()->data();
-    c.meeting_at = flat(kept.meeting_at);
-    c.meeting_listed = kept.meeting.size();
-    c.open_count = kept.open_count;
-    c.open = same<treeform_open_edge>(kept.open);
-    c.open_listed = kept.open.size();
-    c.boundary_edges = kept.boundary_edges;
-    c.misoriented_edges = kept.misoriented_edges;
-    c.max_displacement = kept.max_displacement;
-    c.precision = static_cast<treeform_precision>(kept.precision);
-    c.vanished_faces = kept.vanished_faces;
-    c.size_before = kept.size_before;
-    c.size_after = kept.size_after;
-    c.size_is_volume = kept.size_is_volume;
-    return c;
-}
-
 treeform_code code_of(const tf::certificate& certificate) {
     if (certificate.status == tf::status::cancelled) throw cancelled{};
     if (certificate || certificate.status == tf::status::sheet) return TREEFORM_OK;
@@ -132,10 +157,15 @@ tf::prepared_mesh borrow(const treeform_mesh& mesh) {
                                      : tf::prepared_mesh::borrow(view);
 }
 
+tf::mesh_ref ref(const treeform_mesh* mesh, const char* name) {
+    const treeform_mesh& m = need(mesh, name);
+    if (m.one_use) return m.prepared->view();
+    return *m.prepared;
+}
+
 tf::mesh_refs refs(const treeform_mesh* const* meshes, std::size_t count, const char* name) {
     std::vector<tf::mesh_ref> all;
-    for (const treeform_mesh* one : array(meshes, count, name))
-        all.emplace_back(*need(one, name).prepared);
+    for (const treeform_mesh* one : array(meshes, count, name)) all.push_back(ref(one, name));
     return all;
 }
 
@@ -147,10 +177,41 @@ std::vector<tf::mesh_view> views(const treeform_mesh* const* meshes, std::size_t
     return result;
 }
 
-void give(tf::mesh_file&& file, treeform_file** out) {
+const char* const* words(keeper& owner, const std::vector<std::string>& strings) {
+    std::vector<const char*> pointers;
+    for (const std::string& one : strings) pointers.push_back(one.c_str());
+    return owner.keep(std::move(pointers)).data();
+}
+
+void fill(keeper&, const tf::mesh& from, treeform_made_mesh& to) { to.mesh = arrays(from); }
+
+void fill(keeper&, const made_mesh& from, treeform_made_mesh& to) {
+    to.mesh = arrays(from.mesh);
+    to.index = or_null(from.index);
+    to.index_count = from.index.size();
+}
+
+const double* positions_of(keeper& kept, const std::vector<tf::curve_point>& from) {
+    std::vector<tf::point3> all;
+    for (const tf::curve_point& one : from) all.push_back(one.position);
+    return flat(kept.keep(std::move(all)));
+}
+
+const std::vector<std::uint32_t>& faces_in_file(keeper& kept, const tf::usable_mesh& from) {
+    std::vector<std::uint32_t> in_file(from.mesh.faces.size());
+    for (std::uint32_t f = 0; f < in_file.size(); ++f) in_file[f] = from.face_in_file(f);
+    return kept.keep(std::move(in_file));
+}
+
+const treeform_file* keep(keeper& owner, tf::mesh_file&& file) {
+    return &owner.keep(treeform_file{nullptr, std::move(file)});
+}
+
+treeform_code give(tf::mesh_file&& file, treeform_file** out) {
     auto made = make<treeform_file>();
     made->value.content = std::move(file);
     give(std::move(made), out);
+    return TREEFORM_OK;
 }
 
 }  // namespace glue

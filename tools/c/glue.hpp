@@ -3,27 +3,39 @@
 /// What all functions of the C surface share: exceptions become codes, arguments are checked, and
 /// results are kept until they are freed.
 
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/process_team.hpp>
+#include <treeform/mesh/section.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+#include <treeform/mesh/weld_options.hpp>
+#include <treeform/mesh/write.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/transform.hpp>
 
 #include <tools/bindings/pieces.hpp>
 #include <treeform.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -40,12 +52,9 @@ struct owned {
     virtual ~owned() = default;
 };
 
-/// A struct that is handed out, and all that its arrays belong to.
-template <class C>
-struct answer final : owned {
-    answer() { value.owner = static_cast<owned*>(this); }
-
-    /// `what`, as long as the answer exists.
+/// Keeps what the arrays of structs belong to.
+struct keeper : owned {
+    /// `what`, as long as this exists.
     template <class T>
     T& keep(T what) {
         auto place = std::make_shared<T>(std::move(what));
@@ -53,7 +62,13 @@ struct answer final : owned {
         return *place;
     }
 
-    std::vector<std::shared_ptr<void>> kept;  // outlives value
+    std::vector<std::shared_ptr<void>> kept;
+};
+
+/// A struct that is handed out.
+template <class C>
+struct answer final : keeper {
+    answer() { value.owner = static_cast<owned*>(this); }
     C value{};
 };
 
@@ -149,7 +164,44 @@ template <class T>
 [[nodiscard]] inline std::string text(const char* what) { return what ? what : ""; }
 [[nodiscard]] std::vector<std::string> texts(const char* const* what, std::size_t count,
                                              const char* name);
+[[nodiscard]] inline std::vector<std::filesystem::path> paths(const char* const* what,
+                                                              std::size_t count, const char* name) {
+    const std::vector<std::string> all = texts(what, count, name);
+    return {all.begin(), all.end()};
+}
+/// A point that is known to be finite, as the predicates need it.
+[[nodiscard]] tf::point3 finite(const double* data, const char* name);
+[[nodiscard]] tf::point2 finite2(const double* data, const char* name);
+/// Null: through the origin, across z.
+[[nodiscard]] tf::oriented_plane plane(const treeform_plane* plane);
+/// Without any, the plane itself.
+[[nodiscard]] std::vector<double> heights(const double* heights, std::size_t count);
+/// Pairs of faces of a mesh, all of them there.
+[[nodiscard]] std::vector<tf::face_pair> pairs_of(std::size_t face_count,
+                                                  const treeform_face_pair* pairs,
+                                                  std::size_t count);
 [[nodiscard]] tf::box3 box(const treeform_box& b);
+/// None for null.
+[[nodiscard]] inline std::optional<tf::box3> box(const treeform_box* b) {
+    return b ? std::optional(box(*b)) : std::nullopt;
+}
+[[nodiscard]] inline std::optional<std::array<double, 3>> axes(const double* three) {
+    if (!three) return std::nullopt;
+    return std::array{three[0], three[1], three[2]};
+}
+/// Rows of equal numbers as structs of them.
+template <class Row, class T>
+[[nodiscard]] std::span<const Row> rows_of(const T* data, std::size_t count, const char* name) {
+    static_assert(sizeof(Row) % sizeof(T) == 0 && alignof(Row) == alignof(T));
+    (void)array(data, count, name);
+    return {reinterpret_cast<const Row*>(data), count};
+}
+[[nodiscard]] tf::pair_kinds kinds(std::uint32_t bits);
+/// Null, and null among them, is an error that says `what`.
+[[nodiscard]] std::vector<tf::named_column> columns_of(const treeform_named_column* columns,
+                                                       std::size_t count, const char* what);
+[[nodiscard]] std::vector<tf::weld_condition> conditions(const treeform_weld_condition* same,
+                                                         std::size_t count, const char* what);
 
 /// One of the `count` enumerators of E, which are numbered from 0.
 template <class E>
@@ -173,6 +225,15 @@ template <class E>
 template <class Options>
 [[nodiscard]] tf::progress_callback progress(const Options& options) {
     return progress(options.progress, options.progress_data);
+}
+
+/// Of work in steps, whose names C does not have.
+template <class Options>
+[[nodiscard]] std::function<bool(std::string_view, double)> step_progress(const Options& options) {
+    if (!options.progress) return {};
+    return [call = options.progress, data = options.progress_data](std::string_view, double done) {
+        return call(done, data) == 0;
+    };
 }
 
 /// One that is alone for null.
@@ -228,7 +289,7 @@ template <class C>
 
 // ---- results ----
 
-/// An array of structs that are the same in C and C++.
+/// A struct, or an array of structs, that are the same in C and C++.
 template <class C, class T>
 [[nodiscard]] const C* same(const std::vector<T>& values) {
     static_assert(sizeof(C) == sizeof(T) && alignof(C) == alignof(T));
@@ -236,13 +297,33 @@ template <class C, class T>
     static_assert(std::is_trivially_copyable_v<T>);
     return reinterpret_cast<const C*>(values.data());
 }
+template <class C, class T>
+[[nodiscard]] C same(const T& value) {
+    static_assert(sizeof(C) == sizeof(T) && std::is_trivially_copyable_v<T>);
+    C made;
+    std::memcpy(&made, &value, sizeof made);
+    return made;
+}
+/// The numbers of rows, one after the other.
 [[nodiscard]] inline const double* flat(std::span<const tf::point3> values) {
     return reinterpret_cast<const double*>(values.data());
+}
+[[nodiscard]] inline const double* flat(std::span<const tf::point2> values) {
+    return reinterpret_cast<const double*>(values.data());
+}
+template <class T, std::size_t N>
+[[nodiscard]] const T* flat(const std::vector<std::array<T, N>>& values) {
+    return values.empty() ? nullptr : values.data()->data();
+}
+template <class T>
+[[nodiscard]] const T* or_null(const std::vector<T>& values) {
+    return values.empty() ? nullptr : values.data();
 }
 [[nodiscard]] inline treeform_arrays arrays(tf::mesh_view mesh) {
     return {flat(mesh.points), mesh.points.size(),
             reinterpret_cast<const std::uint32_t*>(mesh.faces.data()), mesh.faces.size()};
 }
+inline constexpr tf::point3 nowhere{not_known, not_known, not_known};
 inline void copy(const tf::point3& from, double* to) {
     to[0] = from.x;
     to[1] = from.y;
@@ -251,8 +332,11 @@ inline void copy(const tf::point3& from, double* to) {
 inline void copy(const tf::transform<3>& from, double* to) {
     std::memcpy(to, from.rows.data(), sizeof from.rows);
 }
-[[nodiscard]] inline treeform_search_effort copied(const tf::search_effort& e) {
-    return {e.pairs, e.bound, e.cut};
+inline void copy(const std::array<double, 3>& from, double* to) {
+    std::memcpy(to, from.data(), sizeof from);
+}
+inline void copy(const std::array<std::array<double, 3>, 3>& from, double* to) {
+    std::memcpy(to, from.data(), sizeof from);
 }
 [[nodiscard]] inline treeform_box copied(const tf::box3& b) {
     treeform_box result;
@@ -262,35 +346,55 @@ inline void copy(const tf::transform<3>& from, double* to) {
 }
 
 /// [strings] for a struct; `owner` keeps the pointers, the strings stay where they are.
-template <class C>
-[[nodiscard]] const char* const* words(answer<C>& owner, const std::vector<std::string>& strings) {
-    std::vector<const char*> pointers;
-    for (const std::string& one : strings) pointers.push_back(one.c_str());
-    return owner.keep(std::move(pointers)).data();
+[[nodiscard]] const char* const* words(keeper& owner, const std::vector<std::string>& strings);
+
+/// A struct of C of one of C++ that stays.
+template <class C, class T>
+[[nodiscard]] C& filled(keeper& owner, const T& from) {
+    C made{};
+    fill(owner, from, made);
+    return owner.keep(made);
+}
+/// The same of many.
+template <class C, class T>
+[[nodiscard]] const C* list(keeper& owner, const std::vector<T>& from) {
+    std::vector<C> made(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) fill(owner, from[i], made[i]);
+    return owner.keep(std::move(made)).data();
 }
 
-[[nodiscard]] treeform_certificate certificate_of(const tf::certificate& kept, const char* message);
-
-template <class C>
-[[nodiscard]] const treeform_certificate* keep(answer<C>& owner, const tf::certificate& from) {
-    const tf::certificate& kept = owner.keep(from);
-    const std::string& message = owner.keep(from.message());
-    return &owner.keep(certificate_of(kept, message.c_str()));
+/// One, or none, as a list.
+template <class T>
+[[nodiscard]] std::vector<T> as_list(std::optional<T>&& one) {
+    std::vector<T> made;
+    if (one) made.push_back(std::move(*one));
+    return made;
 }
-
-template <class C>
-[[nodiscard]] const treeform_warning* keep(answer<C>& owner,
-                                           const std::vector<tf::io_warning>& from) {
-    const std::vector<tf::io_warning>& kept = owner.keep(from);
-    std::vector<treeform_warning> warnings;
-    for (const tf::io_warning& one : kept) warnings.push_back({one.code.c_str(), one.text.c_str()});
-    return owner.keep(std::move(warnings)).data();
-}
-
 /// The code of a result with this certificate.
 ///
 /// \throws cancelled where that is how it ended
 [[nodiscard]] treeform_code code_of(const tf::certificate& certificate);
+
+/// Hands out what a function of C++ returned; nothing for an optional that is empty.
+///
+/// \throws cancelled where that is how it ended
+template <class C, class T>
+[[nodiscard]] treeform_code give(T&& found, C** out) {
+    auto made = make<C>();
+    const auto& kept = made->keep(std::forward<T>(found));
+    treeform_code code = TREEFORM_OK;
+    if constexpr (requires { kept.certificate; }) code = code_of(kept.certificate);
+    if constexpr (requires { kept.status; }) check(kept.status);
+    if constexpr (requires { kept.relation.status; }) check(kept.relation.status);
+    if constexpr (requires { kept.found.status; }) check(kept.found.status);
+    fill(*made, kept, made->value);
+    give(std::move(made), out);
+    return code;
+}
+template <class C, class T>
+[[nodiscard]] treeform_code give(std::optional<T>&& found, C** out) {
+    return found ? give(std::move(*found), out) : TREEFORM_OK;
+}
 
 }  // namespace glue
 
@@ -356,11 +460,37 @@ void asked_in_pieces(const treeform_mesh* first, const treeform_mesh* second, st
 [[nodiscard]] std::vector<tf::mesh_view> views(const treeform_mesh* const* meshes,
                                                std::size_t count, const char* name);
 
-/// A file within a result.
-template <class C>
-[[nodiscard]] const treeform_file* keep(answer<C>& owner, tf::mesh_file&& file) {
-    return &owner.keep(treeform_file{nullptr, std::move(file)});
+[[nodiscard]] inline std::vector<tf::face_pair> pairs_of(const treeform_mesh* mesh,
+                                                         const treeform_face_pair* pairs,
+                                                         std::size_t count) {
+    return pairs_of(view(mesh).faces.size(), pairs, count);
 }
-void give(tf::mesh_file&& file, treeform_file** out);
+
+/// A mesh as functions take it: what keeps its indexes, or a view that does not.
+[[nodiscard]] tf::mesh_ref ref(const treeform_mesh* mesh, const char* name);
+
+/// A mesh that was made, and perhaps what its elements come from.
+struct made_mesh {
+    tf::mesh mesh;
+    std::vector<std::uint32_t> index;
+};
+void fill(keeper& kept, const made_mesh& from, treeform_made_mesh& to);
+void fill(keeper& kept, const tf::mesh& from, treeform_made_mesh& to);
+[[nodiscard]] const double* positions_of(keeper& kept, const std::vector<tf::curve_point>& from);
+/// [F] numbers in the file, counting polygons.
+[[nodiscard]] const std::vector<std::uint32_t>& faces_in_file(keeper& kept,
+                                                              const tf::usable_mesh& from);
+
+/// A file within a result.
+[[nodiscard]] const treeform_file* keep(keeper& owner, tf::mesh_file&& file);
+treeform_code give(tf::mesh_file&& file, treeform_file** out);
+treeform_code give(tf::placement&& at, treeform_placement** out);
+treeform_code give(tf::turn_result&& turned, treeform_placement** out);
+treeform_code give(tf::feature_mating&& mated, treeform_placement** out);
+[[nodiscard]] tf::drop_options drop_options_of(const treeform_place_options* options,
+                                               const double* direction);
+[[nodiscard]] tf::mesh_feature feature_of(const treeform_feature* from, const char* name);
+/// Nothing where `out` is null.
+void give_written(tf::write_result from, treeform_written** out);
 
 }  // namespace glue

@@ -1,10 +1,9 @@
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/weld.hpp>
 
-#include <tools/c/glue.hpp>
+#include <tools/c/made/structs.hpp>
 
 #include <limits>
 
@@ -60,15 +59,6 @@ void give_mesh(tf::mesh own, tf::points_view points, std::span<const tf::face> f
     glue::give(std::move(made), out);
 }
 
-void give_made(tf::mesh made, std::vector<std::uint32_t> index, treeform_made_mesh** out) {
-    auto result = glue::make<treeform_made_mesh>();
-    result->value.mesh = glue::arrays(result->keep(std::move(made)));
-    const std::vector<std::uint32_t>& kept = result->keep(std::move(index));
-    result->value.index = kept.data();
-    result->value.index_count = kept.size();
-    glue::give(std::move(result), out);
-}
-
 }  // namespace
 
 treeform_code treeform_mesh_create(const double* points, size_t point_count, const uint32_t* faces,
@@ -120,17 +110,6 @@ treeform_code treeform_mesh_arrays(const treeform_mesh* mesh, treeform_arrays* a
     });
 }
 
-treeform_code treeform_mesh_is_cloud(const treeform_mesh* mesh, int32_t* is_cloud) {
-    return glue::guard(
-        [&] { glue::need(is_cloud, "is_cloud") = glue::need(mesh, "mesh").prepared->is_cloud(); });
-}
-
-treeform_code treeform_mesh_indexes_built(const treeform_mesh* mesh, uint64_t* indexes) {
-    return glue::guard([&] {
-        glue::need(indexes, "indexes") = glue::need(mesh, "mesh").prepared->indexes_built();
-    });
-}
-
 treeform_code treeform_mesh_set_create(const treeform_mesh* const* meshes, size_t count,
                                        treeform_mesh_set** set) {
     return glue::guard([&] {
@@ -159,7 +138,7 @@ treeform_code treeform_join_equal_points(const treeform_mesh* mesh, treeform_mad
         const tf::mesh_view view = glue::view(mesh);
         tf::equal_points found = tf::find_equal_points(view.points);
         const tf::point_groups groups{std::move(found.new_of_old), std::move(found.first_of_new)};
-        give_made(groups.joined(view), groups.group_of_point, made);
+        return glue::give(glue::made_mesh{groups.joined(view), groups.group_of_point}, made);
     });
 }
 
@@ -173,15 +152,8 @@ treeform_code treeform_join_meshes(const treeform_mesh* const* meshes, size_t co
                 throw std::invalid_argument("face " + std::to_string(bad[0]) +
                                             " has a corner that is not finite");
         tf::joined_meshes joined = tf::join_meshes(views);
-        give_made(std::move(joined.mesh), std::move(joined.mesh_of_face), made);
-    });
-}
-
-treeform_code treeform_select_faces(const treeform_mesh* mesh, const uint32_t* faces, size_t count,
-                                    treeform_made_mesh** made) {
-    return glue::guard([&] {
-        glue::start(made);
-        give_made(tf::submesh(glue::view(mesh), glue::array(faces, count, "faces")).mesh, {}, made);
+        return glue::give(glue::made_mesh{std::move(joined.mesh), std::move(joined.mesh_of_face)},
+                          made);
     });
 }
 
@@ -190,24 +162,10 @@ treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision preci
     return glue::guard([&] {
         glue::start(made);
         const tf::mesh_view view = glue::view(mesh);
-        give_made({tf::rounded(view.points, glue::precision(precision)),
-                   {view.faces.begin(), view.faces.end()}},
-                  {}, made);
+        return glue::give(tf::mesh{tf::rounded(view.points, glue::precision(precision)),
+                                   {view.faces.begin(), view.faces.end()}},
+                          made);
     });
-}
-
-treeform_code treeform_coordinate_step(const treeform_mesh* mesh, treeform_precision precision,
-                                       double* step) {
-    return glue::guard([&] {
-        glue::need(step, "step") =
-            tf::coordinate_step(glue::view(mesh).points, glue::precision(precision));
-    });
-}
-
-void treeform_rounding_options_init(treeform_rounding_options* options, size_t size) {
-    treeform_rounding_options defaults{};
-    defaults.before = defaults.after = TREEFORM_FLOAT64;
-    glue::init(options, size, defaults);
 }
 
 treeform_code treeform_rounding_effects(const treeform_mesh* mesh, const double* matrix,
@@ -219,28 +177,18 @@ treeform_code treeform_rounding_effects(const treeform_mesh* mesh, const double*
         const auto o = glue::chosen(options, treeform_rounding_options_init);
         const tf::mesh_view view = glue::view(mesh);
         const tf::points_view after = glue::points(placed, view.points.size(), "placed");
-        const tf::rounding_options how{glue::precision(o.before), glue::precision(o.after),
-                                       glue::progress(o)};
-        const tf::rounding_effects found = glue::asked(mesh, [&](const auto& m) {
+        const tf::rounding_options how = glue::read(o);
+        tf::rounding_effects found = glue::asked(mesh, [&](const auto& m) {
             return tf::effects_of_rounding(m, glue::matrix(matrix), after, how);
         });
-        if (found.status == tf::status::cancelled) throw glue::cancelled{};
-        auto made = glue::make<treeform_rounding>();
-        treeform_rounding& r = made->value;
-        r.max_displacement = found.max_displacement;
-        r.step = found.step;
-        r.noticeable = found.noticeable;
-        r.compared = found.compared;
-        r.collapsed = found.collapsed;
-        r.meeting = found.meeting;
-        if (o.always_compare != 0 && !found.compared) {
+        if (found.status == tf::status::ok && o.always_compare != 0 && !found.compared) {
             const tf::rounding_defects defects =
-                tf::find_rounding_defects(view, after, glue::progress(o));
-            if (defects.status == tf::status::cancelled) throw glue::cancelled{};
-            r.compared = 1;
-            r.collapsed = defects.collapsed;
-            r.meeting = defects.meeting;
+                tf::find_rounding_defects(view, after, how.progress);
+            glue::check(defects.status);
+            found.compared = true;
+            found.collapsed = defects.collapsed;
+            found.meeting = defects.meeting;
         }
-        glue::give(std::move(made), effects);
+        return glue::give(std::move(found), effects);
     });
 }

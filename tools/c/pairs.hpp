@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pairs of faces, and positions of two meshes, in C.
+/// Positions of two meshes in C.
 
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -10,17 +10,6 @@
 #include <algorithm>
 
 namespace glue {
-
-[[nodiscard]] tf::pair_kinds kinds(std::uint32_t bits);
-
-/// Of a result that stays.
-template <class Result>
-void fill(treeform_pairs& to, const Result& from) {
-    to.pairs = same<treeform_face_pair>(from.pairs);
-    to.count = from.pairs.size();
-    std::copy(from.counts.begin(), from.counts.end(), to.counts);
-    to.box_pairs = from.box_pairs;
-}
 
 /// [count] of matrices one after the other; null: the mesh stays where it is.
 [[nodiscard]] inline std::vector<tf::mesh_positions> positions(const double* moves_a,

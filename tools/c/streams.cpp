@@ -1,8 +1,7 @@
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
-#include <tools/c/files.hpp>
-#include <tools/c/weld.hpp>
+#include <tools/c/made/structs.hpp>
 
 namespace tf = treeform;
 
@@ -39,7 +38,7 @@ tf::cloud_inputs inputs_of(const char* const* inputs, std::size_t count,
 
 tf::weld_stream_outputs outputs_of(const treeform_weld_stream_options& o, const char* output) {
     tf::weld_stream_outputs to;
-    const tf::write_options how = glue::write_options_of(o.write);
+    const tf::write_options how = glue::read(o.write);
     to.welded = {&glue::need(output, "output"), how};
     if (o.removed) to.removed = {o.removed, how};
     to.label = glue::text(o.label);
@@ -56,7 +55,7 @@ tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
     how.tolerance = o.tolerance;
     how.relative = o.relative != 0;
     how.rule = glue::choice<tf::weld_rule>(o.rule, 2, "rule");
-    how.same = glue::conditions(o.same, o.same_count);
+    how.same = glue::conditions(o.same, o.same_count, "same");
     how.keep = glue::choice<tf::weld_keep>(o.keep, 5, "keep");
     how.keep_by = glue::text(o.keep_by);
     how.order = glue::choice<tf::weld_order>(o.order, 3, "order");
@@ -69,10 +68,7 @@ tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
     how.folder = glue::text(o.folder);
     how.points_per_tile = o.points_per_tile;
     how.team = glue::team(o.team);
-    if (o.progress)
-        how.progress = [call = o.progress, data = o.progress_data](std::string_view, double done) {
-            return call(done, data) == 0;
-        };
+    how.progress = glue::step_progress(o);
     return how;
 }
 
@@ -80,32 +76,6 @@ tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
 void look(treeform_shared_weld& weld) {
     if (!weld.looked) glue::check(weld.steps->look());
     weld.looked = true;
-}
-
-void give_streamed(tf::weld_stream_result from, treeform_weld_stream_result** out) {
-    if (from.status == tf::status::cancelled) throw glue::cancelled{};
-    auto made = glue::make<treeform_weld_stream_result>();
-    const tf::weld_stream_result& kept = made->keep(std::move(from));
-    treeform_weld_stream_result& r = made->value;
-    r.points = kept.survey.points;
-    r.non_finite = kept.survey.non_finite;
-    r.tolerance = kept.survey.tolerance;
-    r.kept = kept.counts.kept;
-    r.groups = kept.counts.groups;
-    r.max_displacement = kept.counts.max_displacement + kept.survey.las_moved;
-    r.tiles = kept.survey.tiles;
-    r.finished_tiles = kept.survey.finished_tiles;
-    r.format = kept.written.welded ? kept.written.welded->format.c_str() : "";
-    r.faces = kept.counts.faces;
-    r.triangles = kept.counts.triangles;
-    r.collapsed = kept.counts.collapsed;
-    r.degenerate = kept.counts.degenerate;
-    r.nonmanifold_before = kept.counts.nonmanifold_before;
-    r.nonmanifold_after = kept.counts.nonmanifold_after;
-    r.flipped = kept.counts.flipped;
-    r.still_within = kept.written.still_within.value_or(0);
-    r.still_within_known = kept.written.still_within.has_value();
-    glue::give(std::move(made), out);
 }
 
 }  // namespace
@@ -121,7 +91,7 @@ treeform_code treeform_weld_stream(const char* const* inputs, size_t count, cons
         glue::start(result);
         const auto o = glue::chosen(options, treeform_weld_stream_options_init);
         const tf::cloud_inputs from = inputs_of(inputs, count, o);
-        give_streamed(tf::weld_stream(from, outputs_of(o, output), options_of(o)), result);
+        return glue::give(tf::weld_stream(from, outputs_of(o, output), options_of(o)), result);
     });
 }
 
@@ -164,7 +134,8 @@ treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld, const char
         look(*weld);
         glue::check(steps.weld());
         glue::check(steps.write(to));
-        give_streamed({steps.survey(), steps.counts(), steps.written()}, result);
+        return glue::give(tf::weld_stream_result{steps.survey(), steps.counts(), steps.written()},
+                          result);
     });
 }
 
@@ -242,7 +213,7 @@ treeform_code treeform_point_writer_create(const char* path, const treeform_file
         glue::start(writer);
         auto made = glue::make<treeform_point_writer>();
         made->value.writer.emplace(&glue::need(path, "path"), glue::need(header, "header").content,
-                                   count, glue::write_options_of(options));
+                                   count, glue::read(options));
         glue::give(std::move(made), writer);
     });
 }

@@ -9,6 +9,7 @@
 #include <treeform/c/cuts.h>
 #include <treeform/c/files.h>
 #include <treeform/c/intersections.h>
+#include <treeform/c/layouts.h>
 #include <treeform/c/mesh.h>
 #include <treeform/c/nearness.h>
 #include <treeform/c/placement.h>

@@ -1,7 +1,7 @@
 #include "bindings.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
-#include "words.hpp"
+#include "made/made.hpp"
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -16,67 +16,19 @@
 namespace binding {
 namespace {
 
-py::object of(const std::optional<double>& number) {
-    return number ? py::object(py::float_(*number)) : py::none();
-}
-
-py::array_t<double> box_of(const tf::box3& box) {
-    py::array_t<double> made({2, 3});
-    double* to = made.mutable_data();
-    for (const tf::point3& corner : {box.min, box.max})
-        for (std::size_t k = 0; k < 3; ++k) *to++ = corner[k];
-    return made;
-}
-
-py::dict as_dict(tf::part_clash&& one) {
-    py::dict made;
-    made["a"] = one.a;
-    made["b"] = one.b;
-    made["how"] = word_of(standing_words, one.how);
-    made["a_inside_b"] = one.a_inside_b;
-    made["b_inside_a"] = one.b_inside_a;
-    made["distance"] = one.distance;
-    made["nearest"] = py::none();
-    if (one.nearest) made["nearest"] = box_of({(*one.nearest)[0], (*one.nearest)[1]});
-    made["face_pairs"] = one.face_pairs;
-    made["volume"] = of(one.volume);
-    made["depth"] = of(one.depth);
-    made["move"] = as_array(one.move);
-    made["depth_effort"] =
-        py::make_tuple(one.depth_effort.pairs, one.depth_effort.bound, one.depth_effort.cut);
-    py::list regions;
-    for (tf::contact_region& region : one.regions)
-        regions.append(py::make_tuple(box_of(region.box), region.face_pairs,
-                                      as_array(std::move(region.faces_a)),
-                                      as_array(std::move(region.faces_b))));
-    made["regions"] = regions;
-    return made;
-}
-
-py::dict clash(const held_meshes& parts, double clearance, bool volumes, bool depths,
-               std::size_t limit, const ids_array& ignored, const std::string& vertices) {
-    tf::clash_options options{.clearance = clearance,
-                              .volumes = volumes,
-                              .depths = depths,
-                              .limit = limit,
-                              .ignored = rows_of<tf::part_pair>(ignored),
-                              .vertices = identity_of(vertices)};
+tf::clash_result clash_of(const held_meshes& parts, tf::clash_options options,
+                          const ids_array& ignored) {
+    options.ignored = rows_of<tf::part_pair>(ignored);
     const std::vector<tf::prepared_mesh> all = borrowed(parts);
-    tf::clash_result found = run([&](const tf::progress_callback& report) {
+    return run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::clash(all, options);
     });
-    py::dict made;
-    py::list pairs;
-    for (tf::part_clash& one : found.pairs) pairs.append(as_dict(std::move(one)));
-    made["pairs"] = pairs;
-    py::dict counts;
-    for (std::size_t i = 0; i < standing_words.size(); ++i)
-        counts[standing_words[i]] = found.counts[i];
-    made["counts"] = counts;
-    made["clashes"] = found.clashes;
-    made["boxes_apart"] = found.boxes_apart;
-    return made;
+}
+
+py::object clash(const held_meshes& parts, const tf::clash_options& options,
+                 const ids_array& ignored) {
+    return as_python(clash_of(parts, options, ignored));
 }
 
 // ---- poses ----
@@ -102,35 +54,16 @@ std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
     return all;
 }
 
-py::dict check_poses(const held_meshes& parts, const array_of<double>& matrices, double clearance,
-                     bool first_only, const ids_array& ignored, const std::string& vertices) {
-    tf::pose_options options{.clearance = clearance,
-                             .first_only = first_only,
-                             .ignored = rows_of<tf::part_pair>(ignored),
-                             .vertices = identity_of(vertices)};
+py::object check_poses(const held_meshes& parts, const array_of<double>& matrices,
+                       tf::pose_options options, const ids_array& ignored) {
+    options.ignored = rows_of<tf::part_pair>(ignored);
     const std::vector<tf::prepared_mesh> all = borrowed(parts);
     const std::vector<tf::transform<3>> poses = transforms_of(matrices);
-    const tf::pose_result found = run([&](const tf::progress_callback& report) {
+    tf::pose_result found = run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::check_poses(all, poses, options);
     });
-    std::vector<std::uint32_t> pose;
-    std::vector<tf::pose_clash> clashes;
-    for (std::size_t p = 0; p < found.poses.size(); ++p)
-        for (const tf::pose_clash& one : found.poses[p]) {
-            pose.push_back(static_cast<std::uint32_t>(p));
-            clashes.push_back(one);
-        }
-    py::dict made;
-    made["pose"] = as_array(std::move(pose));
-    made["parts"] = column(clashes, [](const tf::pose_clash& c) {
-        return std::array<std::uint32_t, 2>{c.a, c.b};
-    });
-    made["how"] =
-        column(clashes, [](const tf::pose_clash& c) { return static_cast<std::uint8_t>(c.how); });
-    made["distance"] = column(clashes, [](const tf::pose_clash& c) { return c.distance; });
-    made["clashing"] = found.clashing;
-    return made;
+    return as_python(std::move(found));
 }
 
 /// `of(positions)` for pieces of the positions, its answers one after the other.
@@ -165,27 +98,14 @@ py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double
     }));
 }
 
-py::object closest_points(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
-                          const array_of<double>& move_b, double radius) {
-    const tf::distance_options options{transform_of(move_a), transform_of(move_b), radius};
-    const auto found = run([&](const tf::progress_callback&) {
-        return with_both(
-            a, b, [&](const auto& m, const auto& n) { return tf::closest_points(m, n, options); });
-    });
-    if (!found) return py::none();
-    return py::make_tuple(as_array(found->on_a), as_array(found->on_b), found->distance,
-                          found->face_a, found->face_b);
-}
-
 }  // namespace
 
 void add_assembly(py::module_& module) {
-    module.attr("STANDINGS") = py::cast(standing_words);
+    module.attr("STANDINGS") = py::cast(words_of<tf::standing>::all);
     module.def("clash", &clash);
     module.def("check_poses", &check_poses);
     module.def("intersects", &intersects);
     module.def("distance", &distance);
-    module.def("closest_points", &closest_points);
 }
 
 }  // namespace binding

@@ -3,7 +3,7 @@
 #include "file_data.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
-#include "words.hpp"
+#include "made/made.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>
 
@@ -18,13 +18,6 @@
 namespace binding {
 namespace {
 
-std::vector<tf::mesh_ref> operands_of(const held_meshes& meshes) {
-    std::vector<tf::mesh_ref> all;
-    for (const held_mesh* one : meshes)
-        one->keep() ? all.emplace_back(one->prepared()) : all.emplace_back(one->view());
-    return all;
-}
-
 /// What is made of so many operands: by name, or by a formula in letters or names.
 tf::boolean_expression expression_of(const std::string& operation, const std::string& formula,
                                      const std::vector<std::string>& names, std::size_t count) {
@@ -34,57 +27,6 @@ tf::boolean_expression expression_of(const std::string& operation, const std::st
     if (operation == "xor") return tf::boolean_expression::xor_of(count);
     return names.empty() ? tf::boolean_expression(formula, count)
                          : tf::boolean_expression(formula, names);
-}
-
-py::array_t<std::uint32_t> sources(const std::vector<tf::operand_element>& elements) {
-    return column(elements, [](const tf::operand_element& element) {
-        return std::array<std::uint32_t, 2>{element.operand, element.index};
-    });
-}
-
-py::dict statistics_of(const tf::boolean_result& result) {
-    const tf::boolean_statistics& s = result.statistics;
-    py::dict made;
-    made["pairs"] = s.pairs;
-    made["cut_faces"] = s.cut_faces;
-    made["degenerate"] = s.degenerate;
-    made["skipped_faces"] = s.skipped_faces;
-    made["covered"] = s.covered;
-    made["exact_faces"] = s.exact_faces;
-    made["split_vertices"] = s.split_vertices;
-    made["slivers"] = s.slivers;
-    made["rounding_rounds"] = s.rounding_rounds;
-    made["small_parts"] = s.small_parts;
-    made["small_volume"] = s.small_volume;
-    made["filled_faces"] = s.filled_faces;
-    made["vanished_components"] = result.vanished_components;
-    made["vanished_reach"] = result.vanished_reach;
-    return made;
-}
-
-py::dict as_dict(tf::boolean_result&& result, const carrying& attributes) {
-    py::dict made;
-    made["data"] = attributes.to(
-        result.mesh, {result.face_source, result.vertex_source, result.face_of_cut_vertex});
-    made["face_source"] = sources(result.face_source);
-    made["vertex_source"] = sources(result.vertex_source);
-    made["volumes"] = py::none();
-    if (const auto& v = result.volumes)
-        made["volumes"] = py::make_tuple(v->first, v->second, v->either, v->both);
-    made["statistics"] = statistics_of(result);
-    made["points"] = as_array(std::move(result.mesh.points));
-    made["faces"] = as_array(std::move(result.mesh.faces));
-    made["certificate"] = std::move(result.certificate);
-    return made;
-}
-
-tf::boolean_options options_of(const std::string& inside, const std::string& precision,
-                               bool keep_cuts, bool simplify, double max_displacement) {
-    return {.inside = choice<tf::fill_rule>("inside", fill_rule_words, inside),
-            .precision = precision_of(precision),
-            .max_displacement = max_displacement,
-            .keep_cuts = keep_cuts,
-            .simplify = simplify};
 }
 
 /// A cloud is no solid, not even the empty one.
@@ -120,60 +62,41 @@ py::list objects_of(const held_mesh& mesh) {
     return objects;
 }
 
-py::dict boolean(const held_meshes& meshes, const std::string& operation,
-                 const std::string& formula, const std::vector<std::string>& names,
-                 const std::string& inside, const std::string& precision, bool keep_cuts,
-                 bool simplify, bool volumes, double max_displacement, double min_volume,
-                 double gap) {
+/// What options say of the attributes of operands.
+struct merging {
+    merging(tf::boolean_options& options, const held_meshes& meshes)
+        : attributes(meshes), groups(attributes.face_groups()) {
+        attributes.keep_apart(options);
+        options.face_groups = groups;
+    }
+    carrying attributes;
+    std::vector<std::uint32_t> groups;
+};
+
+py::object boolean(const held_meshes& meshes, const std::string& operation,
+                   const std::string& formula, const std::vector<std::string>& names,
+                   tf::boolean_options options) {
     const tf::boolean_expression expression =
         expression_of(operation, formula, names, meshes.size());
-    tf::boolean_options options =
-        options_of(inside, precision, keep_cuts, simplify, max_displacement);
-    options.volumes = volumes;
-    options.min_volume = min_volume;
-    options.gap = gap;
     require_faces(meshes, names);
-    const carrying attributes(meshes);
-    attributes.keep_apart(options);
-    const std::vector<std::uint32_t> groups = attributes.face_groups();
-    options.face_groups = groups;
-    const std::vector<tf::mesh_ref> operands = operands_of(meshes);
-    return as_dict(run([&](const tf::progress_callback& report) {
-                       options.progress = report;
-                       return tf::boolean(operands, expression, options);
-                   }),
-                   attributes);
+    const merging with(options, meshes);
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::boolean(refs_of(meshes), expression, options);
+                     }),
+                     with.attributes);
 }
 
-py::dict clip(const held_meshes& meshes, std::uint32_t sheet, const std::string& operation,
-              const std::string& formula, const std::vector<std::string>& names,
-              const std::string& inside, const std::string& precision, bool keep_cuts,
-              double max_displacement) {
-    const tf::boolean_expression expression =
-        expression_of(operation, formula, names, meshes.size());
-    tf::boolean_options options = options_of(inside, precision, keep_cuts, false, max_displacement);
-    require_faces(meshes, names);
-    const std::vector<tf::mesh_view> operands = views_of(meshes);
-    const carrying attributes(meshes);
-    attributes.keep_apart(options);
-    const std::vector<std::uint32_t> groups = attributes.face_groups();
-    options.face_groups = groups;
-    return as_dict(run([&](const tf::progress_callback& report) {
-                       options.progress = report;
-                       return tf::clip(operands, sheet, expression, options);
-                   }),
-                   attributes);
-}
-
-py::dict split(const held_meshes& meshes, const std::string& precision, double max_displacement) {
-    tf::boolean_options options = options_of("nonzero", precision, true, false, max_displacement);
-    const std::vector<tf::mesh_view> operands = views_of(meshes);
-    const carrying attributes(meshes);
-    return as_dict(run([&](const tf::progress_callback& report) {
-                       options.progress = report;
-                       return tf::split(operands, options);
-                   }),
-                   attributes);
+py::object clip(const held_meshes& meshes, const std::string& operation,
+                tf::boolean_options options) {
+    const tf::boolean_expression expression = expression_of(operation, {}, {}, meshes.size());
+    require_faces(meshes, {});
+    const merging with(options, meshes);
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::clip(refs_of(meshes), 0, expression, options);
+                     }),
+                     with.attributes);
 }
 
 tf::certificate check_solid(const held_mesh& mesh) {
@@ -188,7 +111,6 @@ void add_booleans(py::module_& module) {
     module.def("objects_of", &objects_of);
     module.def("boolean", &boolean);
     module.def("clip", &clip);
-    module.def("split", &split);
     module.def("check_solid", &check_solid);
 }
 

@@ -33,10 +33,13 @@ const file_data* data_of(const held_mesh& mesh, bool single) {
     return has_values(data.file().attributes, single) ? &data : nullptr;
 }
 
-/// The faces of a body that `matrix` moves, turned over where it mirrors, and a copy of what the body
-/// has, with normals turned likewise; None where it has nothing.
 py::tuple turned(const held_mesh& body, const array_of<double>& matrix) {
-    const tf::transform<3> by = transform_of(matrix);
+    return turned_over(body, transform_of(matrix));
+}
+
+}  // namespace
+
+py::tuple turned_over(const held_mesh& body, const tf::transform<3>& by) {
     const bool bare = body.data().is_none();
     if (bare && !by.mirrors()) return py::make_tuple(body.faces(), py::none());
     file_data copy = bare ? file_data() : body.data().cast<const file_data&>();
@@ -48,8 +51,6 @@ py::tuple turned(const held_mesh& body, const array_of<double>& matrix) {
     file.mesh = {};
     return py::make_tuple(std::move(there), bare ? py::none() : py::cast(std::move(copy)));
 }
-
-}  // namespace
 
 void require_rows(const tf::mesh_file& file, std::size_t operand) {
     const std::size_t triangles = file.mesh.faces.size();

@@ -5,6 +5,7 @@
 #include "held_mesh.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>
+#include <treeform/tree/transform.hpp>
 
 #include <pybind11/pybind11.h>
 
@@ -43,5 +44,9 @@ class carrying {
     tf::carry_sources sources_{
         std::vector<tf::carry_source>{}};  ///< empty: there is nothing to carry
 };
+
+/// The faces of a body that `by` moves, turned over where it mirrors, and a copy of what the body has,
+/// with normals turned likewise; None where it has nothing.
+py::tuple turned_over(const held_mesh& body, const tf::transform<3>& by);
 
 }  // namespace binding

@@ -1,7 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "made/words.hpp"
 #include "state.hpp"
-#include "words.hpp"
 #include <treeform/mesh/certificate.hpp>
 
 #include <pybind11/stl.h>
@@ -14,7 +14,7 @@ namespace {
 using tf::certificate;
 
 std::string text_of(const certificate& c) {
-    const std::string status = word_of(status_words, c.status);
+    const std::string status = word_of(c.status);
     return c ? "Certificate(ok)" : "Certificate(" + status + ": " + c.message() + ")";
 }
 
@@ -58,7 +58,7 @@ True where everything that the operation promises was checked, exactly, and hold
         .def("__repr__", &text_of)
         .def("__str__", &certificate::message)
         .def_property_readonly(
-            "status", [](const certificate& c) { return word_of(status_words, c.status); },
+            "status", [](const certificate& c) { return word_of(c.status); },
             "'ok', or how the operation ended.")
         .def_property_readonly("message", &certificate::message, "Half a sentence for people.")
         .def_readonly("meeting_count", &certificate::meeting_count,
@@ -82,7 +82,7 @@ True where everything that the operation promises was checked, exactly, and hold
         .def_readonly("max_displacement", &certificate::max_displacement,
                       "Rounding moved no coordinate further than this.")
         .def_property_readonly(
-            "precision", [](const certificate& c) { return word_of(precision_words, c.precision); },
+            "precision", [](const certificate& c) { return word_of(c.precision); },
             "Of the coordinates: 'float32' or 'float64'.")
         .def_readonly("vanished_faces", &certificate::vanished_faces,
                       "Of 'vanished': faces of the exact result.")

@@ -2,8 +2,8 @@
 #include "file_data.hpp"
 #include "held_mesh.hpp"
 #include "job.hpp"
+#include "made/made.hpp"
 #include "state.hpp"
-#include "words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
@@ -159,12 +159,12 @@ tf::write_result write_to(const std::filesystem::path& path, const held_mesh& me
     return tf::detail::io::write_certified(path, file, as);
 }
 
-py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
-               bool certified, const std::string& format, bool ascii,
-               const std::optional<std::string>& precision, bool round,
-               const std::vector<std::string>& drop, const name_pairs& rename,
-               const std::optional<std::array<double, 3>>& las_scale,
-               const std::optional<std::array<double, 3>>& las_offset) {
+py::object write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
+                 bool certified, const std::string& format, bool ascii,
+                 const std::optional<std::string>& precision, bool round,
+                 const std::vector<std::string>& drop, const name_pairs& rename,
+                 const std::optional<std::array<double, 3>>& las_scale,
+                 const std::optional<std::array<double, 3>>& las_offset) {
     tf::write_options options{.format = format,
                               .ascii = ascii,
                               .drop = drop,
@@ -172,22 +172,17 @@ py::dict write(const std::filesystem::path& path, const held_mesh& mesh, const f
                               .las_scale = las_scale,
                               .las_offset = las_offset,
                               .round = round};
-    if (precision) options.precision = precision_of(*precision);
+    if (precision)
+        options.precision =
+            choice<tf::precision>("precision", words_of<tf::precision>::all, *precision);
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };
     const std::optional<file_data> kept = data == nullptr ? std::nullopt : std::optional(*data);
-    const tf::write_result written = run([&](const tf::progress_callback&) {
+    tf::write_result written = run([&](const tf::progress_callback&) {
         return write_to(path, mesh, kept ? &*kept : nullptr, certified, options);
     });
-    py::dict made;
-    made["format"] = written.format;
-    made["precision"] = word_of(precision_words, written.written_as);
-    made["max_displacement"] = written.max_displacement;
-    py::list warnings;
-    for (const tf::io_warning& one : written.warnings) warnings.append(one.text);
-    made["warnings"] = warnings;
-    return made;
+    return as_python(std::move(written));
 }
 
 // ---- columns ----
@@ -272,9 +267,8 @@ void add_files(py::module_& module) {
         .def(py::init<const file_data&>())
         .def(pickled<file_data>())
         .def_property_readonly("format", [](const file_data& d) { return d.file().format; })
-        .def_property_readonly(
-            "precision",
-            [](const file_data& d) { return word_of(precision_words, d.file().stored_as); })
+        .def_property_readonly("precision",
+                               [](const file_data& d) { return word_of(d.file().stored_as); })
         .def_property_readonly("warnings", &warnings)
         .def_property_readonly("parts", &parts)
         .def_property_readonly("corners", &corners)

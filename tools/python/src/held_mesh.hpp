@@ -42,6 +42,11 @@ class held_mesh {
     [[nodiscard]] bool keep() const { return keep_; }
     [[nodiscard]] std::size_t size() const { return view_.points.size() + view_.faces.size(); }
 
+    /// As verbs take it: the prepared mesh, or the view where no further query will come.
+    [[nodiscard]] tf::mesh_ref ref() const {
+        if (keep_ || prepared_.is_cloud()) return prepared_;
+        return view_;
+    }
     /// `f` of the prepared mesh, or of the view where no further query will come.
     template <class F>
     auto with(F&& f) const {
@@ -69,6 +74,12 @@ using held_meshes = std::vector<const held_mesh*>;
     std::size_t size = 0;
     for (const held_mesh* one : meshes) size += one->size();
     return size;
+}
+
+[[nodiscard]] inline tf::mesh_refs refs_of(const held_meshes& meshes) {
+    std::vector<tf::mesh_ref> refs;
+    for (const held_mesh* one : meshes) refs.push_back(one->ref());
+    return refs;
 }
 
 [[nodiscard]] inline std::vector<tf::mesh_view> views_of(const held_meshes& meshes) {

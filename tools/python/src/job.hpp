@@ -33,6 +33,14 @@ enum class job_kind : std::uint8_t { by_elements, long_work, writes };
 /// once, even where the job takes some time to notice.
 void make_job(const py::object& scope, const char* name, job_kind kind = job_kind::by_elements);
 
+/// Adds a function that is a job.
+template <class Function>
+void add_job(py::module_& module, const char* name, Function* function,
+             job_kind kind = job_kind::by_elements) {
+    module.def(name, function);
+    make_job(module, name, kind);
+}
+
 /// The job that runs on this thread: `progress_callback` for it; empty where there is none.
 treeform::progress_callback report_of_job();
 

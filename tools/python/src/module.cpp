@@ -95,64 +95,30 @@ void add_meshes(py::module_& module) {
     leave_jobs_at_the_end();
 }
 
-constexpr const char* jobs[] = {"self_intersections",
-                                "group_pairs",
+constexpr const char* jobs[] = {"group_pairs",
                                 "intersection_paths",
-                                "mesh_intersections",
-                                "faces_in_box",
                                 "boolean",
                                 "clip",
-                                "split",
                                 "check_solid",
-                                "bounds",
-                                "signed_volume",
-                                "surface_area",
-                                "find_defects",
-                                "count_topology",
-                                "face_components",
-                                "count_inside_out",
-                                "find_features",
-                                "find_solid_defects",
                                 "section",
-                                "layer_heights",
                                 "cut",
                                 "cut_to_fit",
-                                "components",
-                                "submesh",
                                 "concatenate",
-                                "moved_points",
-                                "mass_properties",
-                                "resolve",
-                                "repair",
-                                "convex_hull",
                                 "find_rounding_defects",
                                 "join_equal_points",
-                                "rounded",
                                 "weld_mesh",
                                 "weld_cloud",
-                                "count_nearly_equal",
-                                "slide",
-                                "drop",
-                                "mate",
-                                "separate",
                                 "turn",
                                 "mate_features",
-                                "measure",
-                                "penetration_depth",
-                                "time_of_impact",
-                                "lay_flat",
-                                "align",
                                 "closest_point",
                                 "locate",
                                 "raycast",
                                 "raycast_all",
                                 "raycast_any",
-                                "deviation",
                                 "clash",
                                 "check_poses",
                                 "intersects",
                                 "distance",
-                                "closest_points",
                                 "scene",
                                 "build"};
 
@@ -160,7 +126,7 @@ constexpr const char* jobs[] = {"self_intersections",
 void make_jobs(py::module_& module) {
     module.def("build", &build);
     for (const char* name : {"read", "read_bytes", "read_urdf", "self_intersections_of_file",
-                             "search_of", "weld_of", "wrap", "pack", "page", "picture"})
+                             "search_of", "weld_of", "pack", "page", "picture"})
         make_job(module, name, job_kind::long_work);
     for (const char* name : {"write", "write_section", "weld_stream"})
         make_job(module, name, job_kind::writes);
@@ -186,21 +152,21 @@ PYBIND11_MODULE(_core, module) {
     add_meshes(module);
     add_carrying(module);
     add_certificates(module);
+    add_options(module);
     add_cuts(module);
     add_files(module);
     add_intersections(module);
     add_booleans(module);
-    add_properties(module);
     add_repair(module);
     add_robots(module);
     add_weld(module);
     add_streams(module);
     add_placement(module);
-    add_layouts(module);
     add_nearness(module);
     add_pictures(module);
     add_assembly(module);
     add_clouds(module);
     add_boxes(module);
     make_jobs(module);
+    add_functions(module);
 }

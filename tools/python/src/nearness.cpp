@@ -129,45 +129,6 @@ py::array raycast_any(const held_mesh& mesh, const points_array& origins,
     return as_array<std::uint8_t>(std::move(any));
 }
 
-// ---- deviation ----
-
-py::tuple of(const tf::directed_distance& d) { return py::make_tuple(d.sampled, d.at_most); }
-
-py::object deviation(const held_mesh& a, const held_mesh& b,
-                     std::optional<std::array<double, 2>> band, std::size_t bins, bool both_ways) {
-    tf::deviation_options options{.band = band, .bins = bins, .both_ways = both_ways};
-    std::optional<tf::deviation_result> found = run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::deviation(a.prepared(), b.prepared(), options);
-    });
-    if (!found) return py::none();
-    py::dict made;
-    made["distances"] = as_array<double>(std::move(found->distances));
-    made["faces"] = as_array(std::move(found->faces));
-    made["is_signed"] = found->is_signed;
-    made["side_counts"] = py::none();
-    if (const auto& sides = found->sides)
-        made["side_counts"] = py::make_tuple(sides->inside, sides->on, sides->outside);
-    made["mean"] = found->mean;
-    made["mean_absolute"] = found->mean_absolute;
-    made["rms"] = found->rms;
-    made["p50"] = found->p50;
-    made["p95"] = found->p95;
-    made["p99"] = found->p99;
-    made["max"] = found->max;
-    made["worst"] = found->worst;
-    made["lowest"] = found->lowest;
-    made["highest"] = found->highest;
-    made["there"] = of(found->there);
-    made["back"] = found->back ? py::object(of(*found->back)) : py::none();
-    made["histogram_range"] = py::make_tuple(found->histogram.low, found->histogram.high);
-    made["histogram"] = as_array<std::uint64_t>(std::move(found->histogram.counts));
-    made["band_counts"] = py::none();
-    if (const auto& counts = found->band)
-        made["band_counts"] = py::make_tuple(counts->below, counts->within, counts->above);
-    return made;
-}
-
 }  // namespace
 
 void add_nearness(py::module_& module) {
@@ -176,7 +137,6 @@ void add_nearness(py::module_& module) {
     module.def("raycast", &raycast);
     module.def("raycast_all", &raycast_all);
     module.def("raycast_any", &raycast_any);
-    module.def("deviation", &deviation);
 }
 
 }  // namespace binding

@@ -1,7 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "job.hpp"
-#include "words.hpp"
+#include "made/words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/read.hpp>
 
@@ -18,8 +18,6 @@
 namespace binding {
 namespace {
 
-constexpr words<4> joint_words{"fixed", "revolute", "continuous", "prismatic"};
-
 struct robot {
     tf::urdf_robot content{};
     tf::robot_parts parts{};
@@ -31,7 +29,7 @@ py::list joints_of(const tf::urdf_robot& of) {
         const auto limits = one.limits
                                 ? py::object(py::make_tuple((*one.limits)[0], (*one.limits)[1]))
                                 : py::object(py::none());
-        all.append(py::make_tuple(one.name, word_of(joint_words, one.kind), of.links[one.parent],
+        all.append(py::make_tuple(one.name, word_of(one.kind), of.links[one.parent],
                                   of.links[one.child], limits));
     }
     return all;

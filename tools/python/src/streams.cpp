@@ -2,8 +2,8 @@
 #include "bindings.hpp"
 #include "file_data.hpp"
 #include "job.hpp"
+#include "made/made.hpp"
 #include "steps.hpp"
-#include "words.hpp"
 #include <treeform/mesh/weld_stream.hpp>
 
 #include <pybind11/stl.h>
@@ -22,8 +22,6 @@
 namespace binding {
 namespace {
 
-using conditions = std::vector<std::pair<std::string, double>>;
-
 /// The share of all steps that is done.
 double whole_share(std::string_view step, double share) {
     constexpr std::array<std::string_view, 5> steps{"look", "scatter", "weld", "borders", "write"};
@@ -32,66 +30,19 @@ double whole_share(std::string_view step, double share) {
     return 0.0;
 }
 
-py::dict as_dict(const tf::weld_stream_result& result) {
-    py::dict made;
-    made["points"] = result.survey.points;
-    made["kept"] = result.counts.kept;
-    made["groups"] = result.counts.groups;
-    made["max_displacement"] = result.counts.max_displacement + result.survey.las_moved;
-    made["tolerance"] = result.survey.tolerance;
-    made["non_finite"] = result.survey.non_finite;
-    made["tiles"] = result.survey.tiles;
-    made["continued"] = result.survey.continued;
-    made["faces"] = result.counts.faces;
-    py::dict counted;
-    counted["triangles"] = result.counts.triangles;
-    counted["collapsed"] = result.counts.collapsed;
-    counted["degenerate"] = result.counts.degenerate;
-    counted["nonmanifold_before"] = result.counts.nonmanifold_before;
-    counted["nonmanifold_after"] = result.counts.nonmanifold_after;
-    counted["flipped"] = result.counts.flipped;
-    made["statistics"] = counted;
-    py::list warnings;
-    for (const tf::io_warning& one : result.survey.warnings) warnings.append(one.text);
-    for (const auto* const written : {&result.written.welded, &result.written.removed})
-        if (*written)
-            for (const tf::io_warning& one : (*written)->warnings) warnings.append(one.text);
-    made["warnings"] = warnings;
-    return made;
-}
-
 /// How to weld a cloud of files, from Python.
 struct stream_settings {
     tf::cloud_inputs inputs{};
     tf::weld_stream_options options{};
 };
 
-stream_settings settings_of(std::vector<std::filesystem::path> inputs, double tolerance,
-                            bool relative, const std::string& rule, const conditions& same,
-                            const std::string& keep, const std::string& keep_by,
-                            const std::string& order, const std::string& order_by, bool keep_seams,
-                            const std::vector<std::string>& across, bool keep_degenerate,
-                            bool as_las, std::uint64_t memory, const std::string& folder,
-                            std::uint64_t points_per_tile, const name_pairs& columns, bool mixed) {
-    stream_settings made;
+stream_settings settings_of(std::vector<std::filesystem::path> inputs,
+                            const tf::weld_stream_options& options, const name_pairs& columns,
+                            bool mixed) {
+    stream_settings made{{}, options};
     made.inputs.paths = std::move(inputs);
     made.inputs.columns = columns_of(columns);
     made.inputs.mixed = mixed;
-    made.options = {.tolerance = tolerance,
-                    .relative = relative,
-                    .rule = choice<tf::weld_rule>("rule", weld_rule_words, rule),
-                    .keep = choice<tf::weld_keep>("keep", weld_keep_words, keep),
-                    .keep_by = keep_by,
-                    .order = choice<tf::weld_order>("order", weld_order_words, order),
-                    .order_by = order_by,
-                    .keep_seams = keep_seams,
-                    .across = across,
-                    .keep_degenerate = keep_degenerate,
-                    .as_las = as_las,
-                    .memory = memory,
-                    .folder = folder,
-                    .points_per_tile = points_per_tile};
-    for (const auto& [name, within] : same) made.options.same.push_back({name, within});
     return made;
 }
 
@@ -105,13 +56,13 @@ tf::weld_stream_outputs outputs_of(const std::filesystem::path& output, const st
     return outputs;
 }
 
-py::dict weld_stream(const stream_settings& settings, const std::filesystem::path& output,
-                     const std::string& removed, const std::string& label, bool withhold,
-                     const py::object& team) {
+py::object weld_stream(const stream_settings& settings, const std::filesystem::path& output,
+                       const std::string& removed, const std::string& label, bool withhold,
+                       const py::object& team) {
     tf::weld_stream_options options = settings.options;
     options.team = team_of(team);
     const at_work here(team);
-    return as_dict(run([&](const tf::progress_callback& report) {
+    return as_python(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(whole_share(step, share));
         };
@@ -183,7 +134,7 @@ void add_weld_in_steps(py::module_& module) {
         .def("finish",
              [](weld_in_steps& all, const std::filesystem::path& output, const std::string& removed,
                 const std::string& label, bool withhold) {
-                 return as_dict(all.step([&](shared_weld& one) {
+                 return as_python(all.step([&](shared_weld& one) {
                      return one.finish(outputs_of(output, removed, label, withhold));
                  }));
              })

@@ -17,18 +17,13 @@ namespace binding {
 template <std::size_t N>
 using words = std::array<const char*, N>;
 
-inline constexpr words<2> precision_words{"float32", "float64"};
-inline constexpr words<10> status_words{
-    "ok",       "open_input",   "sheet",    "excessive_loss", "not_manifold", "not_certified",
-    "vanished", "out_of_range", "no_place", "cancelled"};
-inline constexpr words<3> fill_rule_words{"nonzero", "odd", "positive"};
-inline constexpr words<2> identity_words{"by_coordinates", "by_index"};
-inline constexpr words<5> standing_words{"separate", "touching", "penetrating",
-                                         "closer_than_clearance", "clear"};
-inline constexpr words<2> weld_rule_words{"first", "chain"};
-inline constexpr words<5> weld_keep_words{"first", "last", "mean", "lowest", "highest"};
-inline constexpr words<3> weld_order_words{"given", "lowest", "highest"};
-inline constexpr words<2> feature_words{"plane", "axis"};
+/// The words of an enumeration: its enumerators, in `made/words.hpp`.
+template <class Enum>
+struct words_of;
+template <class Enum>
+concept has_words = requires {
+    words_of<Enum>::all;
+};
 
 /// The enumerator of `word`.
 ///
@@ -44,16 +39,9 @@ Enum choice(const char* argument, const words<N>& all, std::string_view word) {
                                 "\" is none of " + there);
 }
 
-template <class Enum, std::size_t N>
-const char* word_of(const words<N>& all, Enum value) {
-    return all[static_cast<std::size_t>(value)];
-}
-
-inline tf::precision precision_of(std::string_view word) {
-    return choice<tf::precision>("precision", precision_words, word);
-}
-inline tf::vertex_identity identity_of(std::string_view word) {
-    return choice<tf::vertex_identity>("vertices", identity_words, word);
+template <has_words Enum>
+const char* word_of(Enum value) {
+    return words_of<Enum>::all[static_cast<std::size_t>(value)];
 }
 
 /// A point of the three numbers of an array.

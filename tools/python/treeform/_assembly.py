@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
+from ._errors import options
 from ._mesh import MeshLike, held, held_body
 from ._placement import SearchEffort
 from ._progress import Progress
@@ -84,13 +85,15 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     return float(found[0]) if _one(move_a, move_b) else found
 
 
+# made of results:
+#   closest_points_result
 class NearestPoints(NamedTuple):
     """The nearest points of two meshes.
 
-    on_a: (3,) the point on the surface of `a`, rounded.
-    on_b: (3,) that on the surface of `b`.
+    on_a: (3,) the point on the surface of `a`, rounded, as is `on_b`.
+    on_b: (3,) the point on the surface of `b`.
     distance: Exactly 0 if and only if the meshes meet.
-    face_a: The face of `a` that it is on.
+    face_a: The face of `a` that `on_a` is on.
     face_b: That of `b`.
     """
 
@@ -99,6 +102,7 @@ class NearestPoints(NamedTuple):
     distance: float
     face_a: int
     face_b: int
+# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
@@ -114,27 +118,30 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     >>> treeform.closest_points(cube, (cube.vertices + [0, 0, 3], cube.faces)).distance
     2.0
     """
-    found = _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
-                                 _arrays.matrix(move_b, "move_b"), radius, progress=progress)
-    return None if found is None else NearestPoints(*found)
+    return _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
+                                _arrays.matrix(move_b, "move_b"), radius, progress=progress)
 
 
+# made of results:
+#   part_clash
 @dataclass(frozen=True, repr=False)
 class PartClash(Result):
     """Two parts that are not clear of each other.
 
-    a: Number of the first part, the lower one.
+    a: The lower number.
     b: Number of the second part.
     how: 'penetrating', 'touching' or 'closer_than_clearance'.
-    a_inside_b: A part of `a` is inside `b`, and does not touch it.
+    a_inside_b: As in `mesh_relation_result`.
     b_inside_a: The same with `a` and `b` swapped.
     distance: Of the surfaces; 0 where they meet.
-    nearest: (2, 3) the nearest points of those that are too close; else None.
-    face_pairs: Pairs of faces that meet.
-    volume: Of what two closed parts have in common; else None.
-    depth: Of penetrating parts: the length of `move`; else None.
+    nearest: (2, 3) of those that are too close: on a, on b.
+    face_pairs: That meet.
+    volume: Of penetrating parts that are closed: the volume of what is inside both, by the exact
+        arrangement, as `operand_volumes::both`.
+    depth: Of penetrating parts: `penetration_depth`, the length of `move`, which takes `a` out of
+        `b`.
     move: (3,) a short translation that takes `a` out of `b`.
-    depth_effort: What the search for `move` took.
+    depth_effort: Of `depth`, as in `penetration_depth_result`.
     regions: Where they meet: (box (2, 3), pairs of faces, faces of a, faces of b).
     """
 
@@ -151,22 +158,27 @@ class PartClash(Result):
     move: Floats
     depth_effort: SearchEffort
     regions: list[tuple[Floats, int, Ids, Ids]]
+# end
 
 
+# made of results:
+#   clash_result
 @dataclass(frozen=True, repr=False)
 class ClashResult(Result):
     """How all parts lie to each other.
 
-    pairs: Those that are not clear, ascending.
+    pairs: That are not clear, ascending.
     counts: Pairs that were looked at, by how they lie.
-    clashes: Pairs that penetrate or are too close; with a clearance those that touch, too.
-    boxes_apart: Pairs that their boxes keep apart.
+    clashes: Pairs that penetrate or are closer than the clearance; with a clearance, those that
+        touch, too.
+    boxes_apart: Pairs that their boxes keep apart: not looked at.
     """
 
     pairs: list[PartClash]
     counts: dict[str, int]
     clashes: int
     boxes_apart: int
+# end
 
 
 def _pairs(pairs: Iterable[Sequence[int]]) -> Ids:
@@ -220,14 +232,12 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
         if np.ndim(poses) != 3 or len(maps) != len(bodies):
             raise ValueError(f"poses: the shape is {np.shape(poses)}, not ({len(bodies)}, 4, 4)")
         bodies = [_at(body, pose) for body, pose in zip(bodies, maps)]
-    made = _core.clash(bodies, clearance, volumes, depths, limit, _pairs(ignored), vertices,
-                       progress=progress)
-    for one in made["pairs"]:
-        one["depth_effort"] = SearchEffort(*one["depth_effort"])
-    made["pairs"] = [PartClash(**one) for one in made["pairs"]]
-    return ClashResult(**made)
+    how = options(_core.ClashOptions, locals())
+    return _core.clash(bodies, how, _pairs(ignored), progress=progress)
 
 
+# made of results:
+#   pose_result
 @dataclass(frozen=True, repr=False)
 class PoseClashes(Result):
     """What is not clear in each of many poses: n pairs of parts, pose after pose.
@@ -244,6 +254,7 @@ class PoseClashes(Result):
     how: NDArray[np.uint8]
     distance: Floats
     clashing: int
+# end
 
     def in_collision(self, poses: int) -> NDArray[np.bool_]:
         """(poses,) bool: whether something penetrates or is too close in each pose."""
@@ -282,6 +293,6 @@ def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
         array = moves
     if array.ndim != 4 or array.shape[1:] != (len(bodies), 4, 4):
         raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
-    return PoseClashes(**_core.check_poses(bodies, _poses(array.reshape(-1, 4, 4), "poses"),
-                                           clearance, first_only, _pairs(ignored), vertices,
-                                           progress=progress))
+    how = options(_core.PoseOptions, locals())
+    return _core.check_poses(bodies, _poses(array.reshape(-1, 4, 4), "poses"), how,
+                             _pairs(ignored), progress=progress)

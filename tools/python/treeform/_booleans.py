@@ -8,9 +8,9 @@ from typing import Any, Iterable, Union
 import numpy as np
 
 from . import _arrays, _core
-from ._arrays import Floats, Ids
+from ._arrays import Ids
 from ._core import Certificate
-from ._errors import require
+from ._errors import options, require
 from ._mesh import Mesh, MeshLike, MeshResult, held, listed
 from ._progress import Progress
 
@@ -18,6 +18,8 @@ __all__ = ["BooleanResult", "MeshesLike", "boolean", "check_solid", "clip", "dif
            "intersection", "split", "symmetric_difference", "union"]
 
 
+# made of results:
+#   boolean_result
 @dataclass(frozen=True, repr=False)
 class BooleanResult(MeshResult):
     """The surface of a solid, and what was checked about it. Every function that takes a mesh takes
@@ -25,9 +27,9 @@ class BooleanResult(MeshResult):
 
     mesh: Faces are counter-clockwise from outside.
     certificate: What was checked about its coordinates.
-    face_source: (F, 2): the lowest operand, and its face, that each face lies in.
-    vertex_source: (V, 2): the lowest operand, and its vertex, that each vertex is; 4294967295 for
-        new ones.
+    face_source: (F, 2) the lowest operand, and its face, that each face lies in.
+    vertex_source: (V, 2) the lowest operand, and its vertex, that each vertex is; `NONE` for new
+        ones.
     volumes: With `volumes`: of the first, the second, either and both.
     statistics: Counts of what was done.
     """
@@ -38,14 +40,13 @@ class BooleanResult(MeshResult):
     vertex_source: Ids
     volumes: tuple[float, float, float, float] | None
     statistics: dict[str, Any]
+# end
 
 
-def _result(made: dict[str, Any], check: bool, *also: str) -> BooleanResult:
-    certificate = made["certificate"]
+def _checked(made: BooleanResult, check: bool) -> BooleanResult:
     if check:
-        require(certificate, *also)
-    mesh = Mesh._of(made.pop("points"), made.pop("faces"), certificate, made.pop("data"))
-    return BooleanResult(mesh=mesh, **made)
+        require(made.certificate)
+    return made
 
 
 #: What set operations take: a mesh, or several in whatever can be gone through.
@@ -61,15 +62,13 @@ def _operands(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
     return all
 
 
-def _combine(operation: str, meshes: tuple[Any, ...], inside: str, precision: str, keep_cuts: bool,
-             simplify: bool, volumes: bool, max_displacement: float, min_volume: float, gap: float,
-             check: bool, progress: Progress) -> BooleanResult:
+def _combine(operation: str, meshes: tuple[Any, ...], arguments: dict[str, Any]) -> BooleanResult:
+    how = options(_core.BooleanOptions, arguments)
     operands = _operands(meshes)
     if len(operands) == 1 and operation != "union":
         operands = _core.objects_of(operands[0]) or operands
-    return _result(_core.boolean(operands, operation, "", [], inside, precision, keep_cuts,
-                                 simplify, volumes, max_displacement, min_volume, gap,
-                                 progress=progress), check)
+    return _checked(_core.boolean(operands, operation, "", [], how,
+                                  progress=arguments["progress"]), arguments["check"])
 
 
 def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
@@ -89,8 +88,7 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     >>> both.mesh.volume, both.certificate
     (1.875, Certificate(ok))
     """
-    return _combine("union", meshes, inside, precision, keep_cuts, simplify, volumes,
-                    max_displacement, min_volume, gap, check, progress)
+    return _combine("union", meshes, locals())
 
 
 def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
@@ -105,8 +103,7 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
     >>> treeform.intersection(a, (a.vertices + 0.5, a.faces)).mesh.volume
     0.125
     """
-    return _combine("intersection", meshes, inside, precision, keep_cuts, simplify, volumes,
-                    max_displacement, min_volume, 0.0, check, progress)
+    return _combine("intersection", meshes, locals())
 
 
 def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
@@ -126,8 +123,7 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     >>> treeform.difference(a, cutters).mesh.volume
     0.75
     """
-    return _combine("difference", meshes, inside, precision, keep_cuts, simplify, volumes,
-                    max_displacement, min_volume, 0.0, check, progress)
+    return _combine("difference", meshes, locals())
 
 
 def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
@@ -142,8 +138,7 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
     >>> treeform.symmetric_difference(a, (a.vertices + 0.5, a.faces)).mesh.volume
     1.75
     """
-    return _combine("xor", meshes, inside, precision, keep_cuts, simplify, volumes,
-                    max_displacement, min_volume, 0.0, check, progress)
+    return _combine("xor", meshes, locals())
 
 
 def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float64",
@@ -182,11 +177,9 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     >>> treeform.boolean("(a - b) * c", a=a, b=b, c=c).mesh.volume
     0.375
     """
-    names = list(meshes)
-    held_meshes = [held(mesh) for mesh in meshes.values()]
-    return _result(_core.boolean(held_meshes, "", expression, names,
-                                 inside, precision, keep_cuts, simplify, volumes,
-                                 max_displacement, min_volume, 0.0, progress=progress), check)
+    how = options(_core.BooleanOptions, locals())
+    return _checked(_core.boolean([held(mesh) for mesh in meshes.values()], "", expression,
+                                  list(meshes), how, progress=progress), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: str = "nonzero",
@@ -209,8 +202,9 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
     if keep not in ("outside", "inside"):
         raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
     operation = "difference" if keep == "outside" else "intersection"
-    return _result(_core.clip([held(sheet), *_operands(solids)], 0, operation, "", [], inside,
-                              precision, keep_cuts, max_displacement, progress=progress), check)
+    how = options(_core.BooleanOptions, locals())
+    return _checked(_core.clip([held(sheet), *_operands(solids)], operation, how,
+                               progress=progress), check)
 
 
 def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: float = np.inf,
@@ -223,8 +217,8 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
     >>> treeform.split(a, (a.vertices + 0.5, a.faces)).certificate
     Certificate(ok)
     """
-    return _result(_core.split(_operands(meshes), precision, max_displacement, progress=progress),
-                   check)
+    how = options(_core.BooleanOptions, locals(), keep_cuts=True)
+    return _checked(_core.split(_operands(meshes), how, progress=progress), check)
 
 
 def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import NONE, Floats, Ids
 from ._core import Certificate
-from ._errors import require
+from ._errors import options, require
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held, listed
 from ._progress import Progress
 from ._repair import MadeMesh
@@ -140,12 +140,8 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
     >>> layers.areas.tolist(), layers.lengths.tolist()
     ([1.0, 1.0, 1.0, 1.0], [4.0, 4.0, 4.0, 4.0])
     """
-    data, made = _core.section(held(mesh), _arrays.vector(at, "at"),
-                               _arrays.vector(normal, "normal"), _heights(heights),
-                               progress=progress)
-    kept = {name: made.pop(name) for name in ("first_loop", "first_point", "closed", "oriented",
-                                              "parent", "depth", "loop_areas", "loop_lengths")}
-    return Section(**made, _data=data, _loops=kept)
+    return _core.section(held(mesh), _arrays.vector(at, "at"), _arrays.vector(normal, "normal"),
+                         _heights(heights), progress=progress)
 
 
 def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1),
@@ -161,28 +157,28 @@ def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1
                                _arrays.vector(normal, "normal"), thickness, progress=progress)
 
 
+# made of results:
+#   cut_piece
 @dataclass(frozen=True, repr=False)
 class CutPiece(MadeMesh):
-    """What is between two planes; closed, unless it was cut without caps.
+    """What is between two planes.
 
-    face_source: (F,) the input's face that each face lies in; 4294967295 in a cap.
-    vertex_source: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
-    cap: (F,) of a cap, the number of its plane; 4294967295 of other faces.
+    face_source: (F,) face of the input that each lies in; `NONE`: a cap.
+    vertex_source: (V,) vertex of the input that each is; `NONE`: new.
+    cap: (F,) of a cap, the number of its plane, from the lowest; else `NONE`.
     """
 
     face_source: Ids
     vertex_source: Ids
     cap: Ids
+# end
 
 
-def _pieces(made: tuple[list[dict[str, Any]], Certificate], check: bool) -> list[CutPiece]:
+def _checked(made: tuple[list[CutPiece], Certificate], check: bool) -> list[CutPiece]:
     pieces, certificate = made
     if check:
         require(certificate, of_one=True)
-    for one in pieces:
-        one["mesh"] = Mesh._of(one.pop("points"), one.pop("faces"), one["certificate"],
-                               one.pop("data"))
-    return [CutPiece(**one) for one in pieces]
+    return pieces
 
 
 def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
@@ -206,9 +202,10 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
     >>> below.mesh.is_solid, round(below.mesh.volume, 12), round(above.mesh.volume, 12)
     (True, 0.5, 0.5)
     """
-    return _pieces(_core.cut(held(mesh), _arrays.vector(at, "at"), _arrays.vector(normal, "normal"),
-                             _heights(heights), caps, precision, max_displacement,
-                             progress=progress), check)
+    how = options(_core.CutOptions, locals())
+    return _checked(_core.cut(held(mesh), _arrays.vector(at, "at"),
+                              _arrays.vector(normal, "normal"), _heights(heights), how,
+                              progress=progress), check)
 
 
 def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, caps: bool = True, precision: str = "float64",
@@ -222,17 +219,20 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, caps: bool = True, precision:
     >>> len(treeform.cut_to_fit(treeform.read("data/cube.stl"), (0.5, 0.4, 2)))
     6
     """
-    return _pieces(_core.cut_to_fit(held(mesh), _arrays.vector(size, "size"), caps, precision,
-                                    max_displacement, progress=progress), check)
+    how = options(_core.CutOptions, locals())
+    return _checked(_core.cut_to_fit(held(mesh), _arrays.vector(size, "size"), how,
+                                     progress=progress), check)
 
 
+# made of results:
+#   mesh_part
 @dataclass(frozen=True, repr=False)
 class MeshPart(MeshResult):
     """Faces of a mesh by themselves, with the vertices that they use, and their attributes.
 
     mesh: The part.
     face_source: (F,) the number of each face in the whole.
-    vertex_source: (V,) that of each vertex, ascending.
+    vertex_source: (V,) that of each point; ascending.
     volume: As `Mesh.volume`.
     area: As `Mesh.area`.
     """
@@ -242,11 +242,7 @@ class MeshPart(MeshResult):
     vertex_source: Ids
     volume: float
     area: float
-
-
-def _part(made: dict[str, Any]) -> MeshPart:
-    made["mesh"] = Mesh._of(made.pop("points"), made.pop("faces"), None, made.pop("data"))
-    return MeshPart(**made)
+# end
 
 
 def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None = None,
@@ -262,8 +258,8 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None =
     >>> [part.mesh for part in spheres]
     [Mesh(162 vertices, 320 faces), Mesh(162 vertices, 320 faces)]
     """
-    return [_part(one) for one in
-            _core.components(held(mesh), min_volume, largest, progress=progress)]
+    how = options(_core.ComponentsOptions, locals())
+    return _core.components(held(mesh), how, progress=progress)
 
 
 def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> MeshPart:
@@ -280,7 +276,7 @@ def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> M
         if chosen.shape != (count,):
             raise ValueError(f"faces: the shape of the mask is {chosen.shape}, not ({count},)")
         chosen = np.flatnonzero(chosen)
-    return _part(_core.submesh(held(mesh), _arrays.ids(chosen, "faces"), progress=progress))
+    return _core.submesh(held(mesh), _arrays.ids(chosen, "faces"), progress=progress)
 
 
 def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mesh:
@@ -314,18 +310,22 @@ def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None)
     return Mesh._of(_core.moved_points(own, move, progress=progress), faces, None, data)
 
 
+# made of results:
+#   mass_properties
 @dataclass(frozen=True, repr=False)
 class MassProperties(Result):
     """Of a solid of density 1.
 
-    volume: What the mesh encloses; negative where it is inside out, and `inertia` too.
+    volume: What the mesh encloses; negative where it is inside out.
     center: (3,) of mass.
-    inertia: (3, 3) about the center, by the axes x, y and z.
+    inertia: (3, 3) About the center, by axes x, y and z: the energy of turning by w is w . (inertia
+        w) / 2.
     """
 
     volume: float
     center: Floats
     inertia: Floats
+# end
 
 
 def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
@@ -337,5 +337,4 @@ def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassPropert
     >>> cube.center.tolist(), round(cube.inertia[0, 0], 12)
     ([0.5, 0.5, 0.5], 0.166666666667)
     """
-    found = _core.mass_properties(held(mesh), progress=progress)
-    return None if found is None else MassProperties(**found)
+    return _core.mass_properties(held(mesh), progress=progress)

@@ -8,7 +8,7 @@ import re
 import sys
 from numbers import Real
 from types import FrameType
-from typing import Any, Callable, TypeVar
+from typing import Any, Callable, Mapping, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ._core import Certificate
 
 __all__ = ["Cancelled", "CertificateError", "Error", "FileError", "file_error", "NotCertifiedError",
-           "NotSolidError", "name_argument", "need", "require", "settings"]
+           "NotSolidError", "name_argument", "need", "options", "require", "settings"]
 
 _Made = TypeVar("_Made")
 
@@ -144,6 +144,18 @@ def name_argument(error: TypeError) -> None:
                 continue
             raise ValueError(f"{argument}: {wanted} is needed, not {value!r}") from None
         frame = frame.f_back
+
+
+def options(type: Callable[..., _Made], arguments: Mapping[str, Any], **others: Any) -> _Made:
+    """Options of the extension: those of a function's arguments, its `locals()`, that have their
+    names; `others` in place of them."""
+    names = cast(Any, type).names
+    named = {name: value for name, value in {**arguments, **others}.items() if name in names}
+    try:
+        return type(**named)
+    except TypeError as error:
+        name_argument(error)
+        raise
 
 
 def settings(type: Callable[..., _Made], *arguments: Any) -> _Made:

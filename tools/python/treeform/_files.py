@@ -87,13 +87,15 @@ def _name_of(file: Any) -> str:
     return name if isinstance(name, str) and name else "bytes"
 
 
+# made of results:
+#   write_result
 @dataclass(frozen=True, repr=False)
 class Written(Result):
     """What `write` wrote.
 
     format: 'stl-binary', 'ply-ascii', 'obj', ...
     precision: Of the coordinates written: 'float32' or 'float64'.
-    max_displacement: Largest change of a coordinate by rounding.
+    max_displacement: Largest change of a coordinate by rounding to `precision`.
     warnings: What a person should know.
     """
 
@@ -101,6 +103,7 @@ class Written(Result):
     precision: str
     max_displacement: float
     warnings: list[str]
+# end
 
 
 #: What `write` takes: a mesh, or several as parts, with names or without.
@@ -167,8 +170,7 @@ def _write(mesh: PartsLike, format: str, options: tuple[Any, ...], progress: Pro
             str(number): part for number, part in enumerate(parts, 1)})
     data = None if made._attributes is None else made._attributes._data
     put: Any = _core.write
-    written = Written(**put(path, made._held, data, certified, format, *options,
-                            progress=progress))
+    written: Written = put(path, made._held, data, certified, format, *options, progress=progress)
     if parts is not None and not written.format.startswith(("3mf", "obj")):
         written.warnings.append(f"parts are one mesh now: {written.format} does not hold them")
     return written

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._errors import need, settings
+from ._errors import need, options
 from ._files import Path, path_of
 from ._mesh import Mesh, MeshLike, held
 from ._progress import Progress
@@ -24,7 +24,6 @@ __all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "StreamSearch", "faces_i
 #: How two faces meet; a number in `kinds` is a place in this list.
 KINDS = tuple(_core.KINDS)
 _ALL = list(KINDS)
-_NO_LIMIT = 2**64 - 1
 
 
 def _kinds(kinds: Iterable[str] | None) -> list[str]:
@@ -33,6 +32,8 @@ def _kinds(kinds: Iterable[str] | None) -> list[str]:
     return [_arrays.word(kind, "kinds") for kind in _arrays.several(kinds, "kinds")]
 
 
+# made of results:
+#   self_intersection_result
 @dataclass(frozen=True, repr=False)
 class FacePairs(Result):
     """Pairs of faces that meet.
@@ -45,6 +46,7 @@ class FacePairs(Result):
     pairs: Ids
     kinds: NDArray[np.uint8]
     counts: dict[str, int]
+# end
 
     def __len__(self) -> int:
         return len(self.pairs)
@@ -81,9 +83,8 @@ def self_intersections(mesh: MeshLike, *, kinds: Iterable[str] | None = None,
     >>> treeform.self_intersections(m)
     FacePairs(pairs=uint32[78, 2], kinds=uint8[78], counts={'crossing': 78})
     """
-    return FacePairs(**_core.self_intersections(
-        held(mesh), _kinds(kinds), vertices, first_only,
-        _NO_LIMIT if limit is None else limit, progress=progress))
+    how = options(_core.SelfIntersectionOptions, locals(), kinds=_kinds(kinds))
+    return _core.self_intersections(held(mesh), how, progress=progress)
 
 
 def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None = None,
@@ -102,12 +103,13 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
     >>> treeform.mesh_intersections(a, b).counts["crossing"]
     6
     """
-    return FacePairs(**_core.mesh_intersections(
-        held(a), held(b), _kinds(kinds), first_only,
-        _NO_LIMIT if limit is None else limit, _arrays.matrix(move_a, "move_a"),
-        _arrays.matrix(move_b, "move_b"), progress=progress))
+    how = options(_core.MeshIntersectionOptions, locals(), kinds=_kinds(kinds),
+                  move_a=_arrays.matrix(move_a, "move_a"), move_b=_arrays.matrix(move_b, "move_b"))
+    return _core.mesh_intersections(held(a), held(b), how, progress=progress)
 
 
+# made of results:
+#   stream_search_result
 @dataclass(frozen=True, repr=False)
 class FilePairs(FacePairs):
     """Pairs of faces of a file that meet; they are numbers of faces of `mesh`.
@@ -124,6 +126,7 @@ class FilePairs(FacePairs):
     stored_faces: int
     dropped: int
     tiles: int
+# end
 
     @property
     def pairs_in_file(self) -> Ids:
@@ -131,17 +134,12 @@ class FilePairs(FacePairs):
         return self.face_in_file[self.pairs]
 
 
-def _search_settings(kinds: Iterable[str] | None, vertices: str | None, format: str, memory: int,
-                     folder: Path, faces_per_tile: int) -> _core.SearchSettings:
-    return settings(
-        _core.SearchSettings, _kinds(kinds), vertices, _arrays.word(format, "format"),
-        _arrays.number(memory, "memory", 0), path_of(folder),
-        _arrays.number(faces_per_tile, "faces_per_tile", 0))
-
-
-def _file_pairs(made: dict[str, Any]) -> FilePairs:
-    mesh = Mesh._of(made.pop("points"), made.pop("faces"))
-    return FilePairs(mesh=mesh, **made)
+def _search_options(arguments: dict[str, Any]) -> _core.StreamSearchOptions:
+    return options(
+        _core.StreamSearchOptions, arguments, kinds=_kinds(arguments["kinds"]),
+        format=_arrays.word(arguments["format"], "format"),
+        memory=_arrays.number(arguments["memory"], "memory", 0), folder=path_of(arguments["folder"]),
+        faces_per_tile=_arrays.number(arguments["faces_per_tile"], "faces_per_tile", 0))
 
 
 def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None,
@@ -165,9 +163,9 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     >>> found.counts["crossing"], found.pairs_in_file.shape
     (78, (78, 2))
     """
-    how = _search_settings(kinds, vertices, format, memory, folder, faces_per_tile)
-    return in_team(team, lambda all: _file_pairs(_core.self_intersections_of_file(
-        path_of(path), how, all, progress=progress)))
+    how = _search_options(locals())
+    return in_team(team, lambda all: _core.self_intersections_of_file(
+        path_of(path), how, all, progress=progress))
 
 
 class StreamSearch(InSteps[_core.SearchInSteps]):
@@ -202,9 +200,9 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
                  vertices: str | None = None, format: str = "", memory: int = 0, folder: Path = "",
                  faces_per_tile: int = 0, progress: Progress = None) -> None:
         kinds = None if kinds is None else _kinds(kinds)
+        how = _search_options(locals())
         super().__init__(
-            _core.search_of(path_of(path), _search_settings(kinds, vertices, format, memory, folder,
-                                                            faces_per_tile), progress=progress),
+            _core.search_of(path_of(path), how, progress=progress),
             path, kinds=kinds, vertices=vertices, format=format, memory=memory, folder=folder,
             faces_per_tile=faces_per_tile)
 
@@ -228,25 +226,28 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
 
     def finish(self, *, progress: Progress = None) -> FilePairs:
         """Puts together what was found, when all tiles are searched."""
-        return _file_pairs(self._work.finish(progress=progress))
+        return self._work.finish(progress=progress)
 
     def remove_folder(self) -> None:
         """Removes the folder of the tiles."""
         self._work.remove_folder()
 
 
+# made of results:
+#   intersection_region
 @dataclass(frozen=True, repr=False)
 class Region(Result):
-    """Faces that meet, in one place of a mesh.
+    """Faces that meet, in one place of the mesh.
 
     faces: (n,) ascending.
-    bounds: (2, 3): the box around them.
-    pairs: Pairs here.
+    bounds: (2, 3) the box around them.
+    pairs: Pairs in this region.
     """
 
     faces: Ids
     bounds: Floats
     pairs: int
+# end
 
 
 def intersection_regions(mesh: MeshLike, found: FacePairs, *,
@@ -263,8 +264,7 @@ def intersection_regions(mesh: MeshLike, found: FacePairs, *,
     need(found, "found", FacePairs)
     regions, of_pair = _core.group_pairs(held(mesh), found.pairs, found.kinds,
                                          progress=progress)
-    return [Region(faces, np.stack([low, high]), pairs)
-            for faces, low, high, pairs in regions], of_pair
+    return regions, of_pair
 
 
 def intersection_curves(mesh: MeshLike, found: FacePairs, *,

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Union
+from typing import NamedTuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._errors import NotSolidError, require
+from ._errors import NotSolidError, options, require
 from ._mesh import MeshLike, as_mesh, held, held_body
 from ._progress import Progress
 from ._results import Result, tuple_repr
@@ -127,12 +127,13 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     cloud = _arrays.points(points, "points")
     if len(cloud) == 0:
         return np.empty(0)
-    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), None, 0, False, progress=progress)
+    how = _core.DeviationOptions(bins=0, both_ways=False)
+    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), how, progress=progress)
     if made is None:
         return np.full(len(cloud), -np.inf)
-    if not made["is_signed"]:
+    if not made.is_signed:
         raise NotSolidError(as_mesh(mesh).solid_certificate, True)
-    return np.asarray(-made["distances"] + 0.0)
+    return np.asarray(-made.distances + 0.0)
 
 
 class RayHits(NamedTuple):
@@ -223,19 +224,21 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
                              progress=progress).view(np.bool_)
 
 
+# made of results:
+#   deviation_result
 @dataclass(frozen=True, repr=False)
 class Deviation(Result):
     """How far points are from a surface.
 
-    distances: (V,) of each point of the first: negative inside the solid that the second bounds,
-        exactly 0 on its surface; not negative where that bounds none.
-    faces: (V,) the nearest face of the second.
+    distances: (V,) of `a`: the distance of each point from the surface of `b`, negative inside the
+        solid that `b` bounds, exactly 0 on its surface. Not negative when `b` bounds none.
+    faces: (V,) the nearest face of `b`.
     is_signed: Whether distances have a sign.
     side_counts: Where they have: how many points are inside, on, outside; exact. Else None.
     mean: Of the signed distances.
     mean_absolute: Of their magnitudes, as are the six below.
     rms: Root mean square.
-    p50: The median.
+    p50: The least value that half of the magnitudes do not exceed.
     p95: 95 % are not above it.
     p99: 99 % are not above it.
     max: The largest magnitude.
@@ -247,7 +250,7 @@ class Deviation(Result):
     back: The same from the second to the first; the larger one is the Hausdorff distance. None
         unless `both_ways`.
     histogram: (bins,) how many signed distances are in intervals of equal length.
-    histogram_range: From where to where these go.
+    histogram_range: From where to where the intervals of `histogram` go.
     band_counts: With `band`: how many are below, within, above.
     """
 
@@ -270,6 +273,7 @@ class Deviation(Result):
     histogram: NDArray[np.uint64]
     histogram_range: tuple[float, float]
     band_counts: tuple[int, int, int] | None
+# end
 
 
 def deviation(a: Union[MeshLike, ArrayLike], b: Union[MeshLike, ArrayLike], *,
@@ -289,7 +293,8 @@ def deviation(a: Union[MeshLike, ArrayLike], b: Union[MeshLike, ArrayLike], *,
     >>> map.distances.tolist(), map.band_counts, map.is_signed, map.side_counts
     ([-0.25, 2.0], (0, 1, 1), True, (1, 0, 1))
     """
-    made = _core.deviation(held_body(a), held_body(b), band, bins, both_ways, progress=progress)
+    how = options(_core.DeviationOptions, locals())
+    made = _core.deviation(held_body(a), held_body(b), how, progress=progress)
     if made is None:
         raise ValueError("deviation: a has no points, or b no faces")
-    return Deviation(**made)
+    return made

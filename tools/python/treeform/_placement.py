@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
-from ._errors import need
+from ._errors import need, options
 from ._mesh import Mesh, MeshLike, MeshResult, held, held_body
 from ._progress import Progress
 from ._properties import Feature
@@ -26,17 +26,22 @@ __all__ = ["Alignment", "Body", "Contacts", "Depth", "Impact", "LaidFlat", "Meas
 Body = Union[MeshLike, ArrayLike]
 
 
+# made of results:
+#   search_effort
 class SearchEffort(NamedTuple):
-    """What a search that could go on took, counted in pairs of faces: the same for the same input.
+    """What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
+    two: the same for the same input. What it found holds either way.
 
-    pairs: That it looked at, one in motion counting as two.
-    bound: The most that it was to look at.
-    cut: Questions that took too many: where there are some, something better may exist.
+    pairs: Looked at.
+    bound: Of these: the most that it was to look at.
+    cut: Questions that would have taken more than they may, a 32nd of the bound or what was left of
+        it: where there are some, something better may exist.
     """
 
     pairs: int
     bound: int
     cut: int
+# end
 
 
 class Contacts(NamedTuple):
@@ -59,19 +64,22 @@ class Contacts(NamedTuple):
         return tuple_repr(self)
 
 
+# made of results:
+#   mesh_measure
 @dataclass(frozen=True, repr=False)
 class Measure(Result):
-    """How two bodies lie to each other.
+    """How two meshes lie to each other.
 
     relation: 'separate', 'touching' or 'penetrating'. Exact.
-    distance: 0 if and only if they touch or penetrate.
-    surface_distance: 0 if and only if a face of one meets a face of the other.
+    distance: Not squared. 0 if and only if the meshes touch or penetrate each other.
+    surface_distance: Exactly 0 if and only if a face of one meets a face of the other. So it is
+        positive for a mesh inside a solid whose surface it does not touch.
     on_a: (3,) the nearest point on the surface of `a`; where they meet, a common one.
-    on_b: (3,) likewise of `b`.
+    on_b: (3,) the nearest point on the surface of `b`; where they meet, a common one.
     face_a: The face of `a` that `on_a` is on.
     face_b: The face of `b` that `on_b` is on.
-    a_inside_b: A part of `a` is inside `b`, and does not touch it.
-    b_inside_a: The same with `a` and `b` swapped.
+    a_inside_b: A part of `a` lies inside the solid `b` and does not touch `b`.
+    b_inside_a: The same with `a` and `b` exchanged.
     """
 
     relation: str
@@ -83,27 +91,33 @@ class Measure(Result):
     face_b: int
     a_inside_b: bool
     b_inside_a: bool
+# end
 
 
+# made of results:
+#   placement
 @dataclass(frozen=True, repr=False)
 class Placement(MeshResult):
     """Where a mesh goes. True where it has a place; else `message` says why not.
 
     mesh: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
-    matrix: (4, 4) new = M old; coordinates are rounded once after it.
+    matrix: (4, 4) new = M * old: a translation. `points` are moved by it and rounded once, except
+        for those that are set on the bed.
     end: Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', 'nothing_met', 'too_far',
         'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
         'no_coordinates', 'too_many_steps', 'out_of_range'.
     message: Half a sentence; empty where there is a place.
-    direction: (3,) of length 1; 0 where it does not travel.
-    travel: How far it went.
-    at_start: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'. Exact.
-    at_place: The same at the place.
+    direction: (3,) of the travel, of length 1; 0 when there is none.
+    travel: A length; for `too_far` the one that would be needed.
+    at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'.
+    at_place: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
+        or 'clear'.
     contacts: Pairs of faces that meet there, or keep the clearance.
-    contact_count: All, listed or not.
+    contact_count: Of all, listed or not.
     nearest: The fixed mesh that matters most, and how the mesh lies to it; None where all are far.
     certificate: What was checked about the coordinates.
-    effort: Of `separate`: what the search took. Where some of it was cut, a shorter way may exist.
+    effort: Of `separate`: what its search took. Where some of its questions were cut, a shorter way
+        may exist; without a place, one that was not found.
     angle: Of `turn` and `mate_features`: in degrees.
     tolerance: Of `turn`: the gap beyond the clearance that counts as contact.
     offset: Of `mate_features`: how far the center of the moving feature ended from the fixed one.
@@ -125,6 +139,7 @@ class Placement(MeshResult):
     angle: float = 0.0
     tolerance: float = 0.0
     offset: float = 0.0
+# end
 
     def __bool__(self) -> bool:
         return bool(self.certificate)
@@ -137,27 +152,6 @@ def _bodies(fixed: Any) -> list[_core.HeldMesh]:
     if isinstance(fixed, (list, tuple)) and not _arrays.is_pair(fixed):
         return [held_body(one) for one in fixed]
     return [held_body(fixed)]
-
-
-def _placed(points: Floats, body: _core.HeldMesh, matrix: Floats,
-            certificate: Certificate | None = None) -> Mesh:
-    """`body` where it goes, with its attributes; turned over where `matrix` mirrors."""
-    faces, data = _core.turned(body, matrix)
-    return Mesh._of(points, faces, certificate, data)
-
-
-def _moved(moving: _core.HeldMesh, made: dict[str, Any]) -> Placement:
-    points = made.pop("points")
-    if len(points) == 0:
-        points = moving.vertices
-    made["mesh"] = _placed(points, moving, made["matrix"],
-                           made["certificate"] if made["certificate"] else None)
-    made["contacts"] = Contacts(*made["contacts"])
-    made["effort"] = SearchEffort(*made["effort"])
-    if made["nearest"] is not None:
-        number, how = made["nearest"]
-        made["nearest"] = number, Measure(**how)
-    return Placement(**made)
 
 
 def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0, *,
@@ -177,9 +171,9 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     >>> bool(seated), seated.travel, seated.at_place
     (True, 4.0, 'touching')
     """
-    body = held_body(moving)
-    return _moved(body, _core.slide(body, _bodies(onto), _arrays.vector(direction, "direction"),
-                                    clearance, max_travel, bed, precision, progress=progress))
+    how = options(_core.SlideOptions, locals())
+    return _core.slide(held_body(moving), _bodies(onto), _arrays.vector(direction, "direction"), how,
+                       progress=progress)
 
 
 def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
@@ -195,10 +189,8 @@ def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
     >>> low.travel, low.mesh.bounds[:, 2].tolist()
     (3.25, [0.0, 1.0])
     """
-    body = held_body(moving)
-    return _moved(body, _core.drop(body, _bodies(onto), clearance, max_travel, bed,
-                                   _arrays.vector(direction, "direction"), precision,
-                                   progress=progress))
+    how = options(_core.DropOptions, locals(), direction=_arrays.vector(direction, "direction"))
+    return _core.drop(held_body(moving), _bodies(onto), how, progress=progress)
 
 
 def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
@@ -210,9 +202,8 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     >>> treeform.mate((cube.vertices + [0, 3, 0], cube.faces), cube).travel
     2.0
     """
-    body = held_body(moving)
-    return _moved(body, _core.mate(body, _bodies(onto), clearance, max_travel, precision,
-                                   progress=progress))
+    how = options(_core.MateOptions, locals())
+    return _core.mate(held_body(moving), _bodies(onto), how, progress=progress)
 
 
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
@@ -228,9 +219,8 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     >>> apart.travel, apart.at_start, apart.at_place
     (0.25, 'penetrating', 'touching')
     """
-    body = held_body(moving)
-    return _moved(body, _core.separate(body, _bodies(fixed), clearance, max_travel, effort,
-                                       precision, progress=progress))
+    how = options(_core.SeparateOptions, locals())
+    return _core.separate(held_body(moving), _bodies(fixed), how, progress=progress)
 
 
 def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
@@ -248,10 +238,9 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     >>> bool(door), 0 < door.angle < 180
     (True, True)
     """
-    body = held_body(moving)
-    return _moved(body, _core.turn(body, _bodies(fixed), _arrays.vector(axis, "axis"),
-                                   _arrays.vector(origin, "origin"), clearance, max_angle,
-                                   tolerance, precision, progress=progress))
+    how = options(_core.TurnOptions, locals())
+    return _core.turn(held_body(moving), _bodies(fixed), _arrays.vector(axis, "axis"),
+                      _arrays.vector(origin, "origin"), how, progress=progress)
 
 
 def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
@@ -272,27 +261,30 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     need(of_fixed, "of_fixed", Feature)
     if of_moving.kind != of_fixed.kind:
         raise ValueError(f"of_fixed: {of_fixed.kind!r}, but of_moving is {of_moving.kind!r}")
-    body = held_body(moving)
-    return _moved(body, _core.mate_features(
-        body, _bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
-        of_fixed.origin, of_fixed.direction, clearance, flip, precision, progress=progress))
+    how = options(_core.FeatureMateOptions, locals())
+    return _core.mate_features(
+        held_body(moving), _bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
+        of_fixed.origin, of_fixed.direction, how, progress=progress)
 
 
+# made of results:
+#   laid_flat
 @dataclass(frozen=True, repr=False)
 class LaidFlat(MeshResult):
     """A mesh on the bed.
 
     mesh: The mesh on the bed.
-    matrix: (4, 4) new = M old.
-    chosen: The side that is down, a number of the lists below.
-    message: 'on side 0 of 6, of area 24'
+    matrix: (4, 4) new = M * old, a rotation and a translation. `points` differ from it by a few
+        units in the last place of the largest coordinate, old or new.
+    chosen: Number in `sides`.
+    message: Half a sentence for people.
     areas: (S,) of the flat sides of the convex hull, largest first.
     normals: (S, 3) outward, before the turn.
     tip_angles: (S,) degrees of tilt at which it tips over; negative: by itself.
     overhangs: (S,) area of the faces that would need support; NaN where it was not computed.
-    center_of_mass: (3,) before the turn.
-    mass: What that is of: 'solid', 'surface' or 'points'.
-    on_bed: (n,) vertices of the side, ascending.
+    center_of_mass: (3,) before the turn, rounded.
+    mass: What that is the center of: 'solid', 'surface' or 'points'.
+    on_bed: (n,) points of that side, ascending.
     certificate: What was checked about the coordinates.
     """
 
@@ -308,6 +300,7 @@ class LaidFlat(MeshResult):
     mass: str
     on_bed: Ids
     certificate: Certificate
+# end
 
 
 def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.0, 0.0, 0.0),
@@ -327,36 +320,40 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
     >>> laid.message, laid.mesh.bounds[0, 2]
     ('on side 0 of 6, of area 1', 0.0)
     """
-    body = held(mesh)
-    made = _core.lay_flat(body, choose, _arrays.vector(toward, "toward"), keep_spin, tolerance, bed,
-                          overhang_angle, precision, progress=progress)
+    how = options(_core.LayFlatOptions, locals(), toward=_arrays.vector(toward, "toward"))
+    made = _core.lay_flat(held(mesh), how, progress=progress)
     if made is None:
         raise ValueError("lay_flat: no side: fewer than three points, or all on a line")
-    made["mesh"] = _placed(made.pop("points"), body, made["matrix"], made["certificate"])
-    return LaidFlat(**made)
+    return made
 
 
+# made of results:
+#   align_result
 @dataclass(frozen=True, repr=False)
 class Alignment(MeshResult):
     """The motion that `align` has found.
 
-    matrix: (4, 4) new = M old, with `start` included.
+    matrix: (4, 4) new = M * old, with `start` included. Far from the origin its last column is
+        large, and so is its rounding. There, new = `pivot_moved` + (linear part of M) * (old -
+        `pivot`) is more accurate.
     mesh: The moved mesh; of a cloud, one without faces.
-    rms: Root mean square of the distances that count, after.
+    rms: Root mean square of the distances that count, after, by weights if there are; 0 for none.
+        Of two clouds by `plane_to_plane`, the distances to the planes, as far as both sides agree.
     rms_at_start: The same before, without weights.
-    overlap: Share of the moving points with a partner within `max_distance`, after.
-    inliers: Moving points within 4.5 medians of the distances that count.
-    correlation: Of the signed distances of neighbors: near 0 for noise, near 1 where regions are
-        off.
-    uncertainty: How far the points may be from where they belong, by what remains: the standard
-        deviation as a root mean square over the points.
+    overlap: Share of all moving points whose nearest fixed point is within `max_distance`, after.
+    inliers: How many of the moving points are within 4.5 medians of the distances that count.
+    correlation: Correlation of the signed distances of neighbors, in [-1, 1]: near 0 where they are
+        noise, near 1 where whole regions are off to one side.
+    uncertainty: How far the points may be from where they belong: the standard deviation that the
+        distances leave, and how little they hold, as a root mean square over the points; without
+        the motions that `undetermined` counts.
     scale: Found in addition to that of `start`.
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
-    converged: Whether it has, and nothing speaks against the place.
-    iterations: Steps that were made.
-    start: Which start was best; 0 is the present position.
+    converged: `end` is `converged`.
+    iterations: From the start that was best.
+    start: Which that was: 0 is the present position.
     undetermined: How many independent motions nothing holds, as where a plane slides on a plane.
-    message: 'after 12 steps; rms 0.01, from 0.3; overlap 1'
+    message: Half a sentence for people.
     """
 
     matrix: Floats
@@ -374,6 +371,7 @@ class Alignment(MeshResult):
     start: int
     undetermined: int
     message: str
+# end
 
     def __bool__(self) -> bool:
         return self.converged
@@ -404,24 +402,26 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     >>> bool(found), abs(found.matrix[:3, 3] + [0.02, 0.01, 0]).max() < 1e-6
     (True, True)
     """
-    body = held_body(moving)
+    arguments = locals()
     least, most = 0.0, np.inf
     if not isinstance(scale, (bool, np.bool_)):
         least, most = _arrays.pair(scale, "scale")
         scale = True
-    made = _core.align(body, held_body(onto), method, overlap, weights, max_distance, bool(scale),
-                       least, most, max_iterations, tolerance, starts, samples,
-                       _arrays.matrix(start, "start"), precision, progress=progress)
-    made["mesh"] = _placed(made.pop("points"), body, made["matrix"])
-    return Alignment(**made)
+    how = options(_core.AlignOptions, arguments, scale=bool(scale), least_scale=least,
+                  most_scale=most, start=_arrays.matrix(start, "start"))
+    return _core.align(held_body(moving), held_body(onto), how, progress=progress)
 
 
+# made of results:
+#   packed_part
 class PackedPart(NamedTuple):
     """A part on a plate.
 
-    placed: Whether it has a place.
+    placed: It has a place.
     plate: Number of its plate, from 0.
-    matrix: (4, 4) new = M old.
+    matrix: (4, 4) new = M * old, a turn about z and a translation; the identity when the part is
+        not placed. `points` differ from it by a few units in the last place of the largest
+        coordinate.
     mesh: The part where it goes; where it was, if it is not placed.
     """
 
@@ -429,18 +429,22 @@ class PackedPart(NamedTuple):
     plate: int
     matrix: Floats
     mesh: Mesh
+# end
 
 
+# made of results:
+#   packing
 @dataclass(frozen=True, repr=False)
 class Packing(Result):
     """Filled plates. True where every part has a place.
 
     parts: In the order of the input.
-    not_placed: (n,) numbers of parts without a place.
+    not_placed: (n,) numbers of parts without a place, ascending.
     plates_used: Plates with a part.
-    tries: Orders of the parts that were tried.
-    density: Share of the plates that the parts cover.
-    message: '9 of 9 parts placed'
+    tries: Made.
+    density: Share of the plates that the parts on them cover, seen from above, as the raster has
+        it; with `stack`, of the boxes that their solids with what they enclose fill.
+    message: Half a sentence for people.
     """
 
     parts: list[PackedPart]
@@ -449,6 +453,7 @@ class Packing(Result):
     tries: int
     density: float
     message: str
+# end
 
     def __bool__(self) -> bool:
         return len(self.not_placed) == 0
@@ -475,14 +480,11 @@ def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0
     extent = _arrays.floats(size, "size")
     if extent.shape == (2,):
         extent = np.append(extent, np.inf)
-    bodies = [held(part) for part in _arrays.several(parts, "parts")]
-    made = _core.pack(bodies, _arrays.vector(extent, "size"), _arrays.vector(corner, "corner"),
-                      spacing, turns, stack, plates, _arrays.vector(plate_step, "plate_step"), seed,
-                      tries, seconds, precision, progress=progress)
-    made["parts"] = [
-        PackedPart(placed, plate, matrix, _placed(points, body, matrix))
-        for (placed, plate, matrix, points), body in zip(made["parts"], bodies)]
-    return Packing(**made)
+    how = options(_core.PackOptions, locals(), size=_arrays.vector(extent, "size"),
+                  corner=_arrays.vector(corner, "corner"),
+                  plate_step=_arrays.vector(plate_step, "plate_step"))
+    return _core.pack([held(part) for part in _arrays.several(parts, "parts")], how,
+                      progress=progress)
 
 
 def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coordinates",
@@ -497,21 +499,26 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     >>> how.relation, how.distance, how.on_a[2], how.on_b[2]
     ('separate', 2.0, 1.0, 3.0)
     """
-    made = _core.measure(held_body(a), held_body(b), radius, vertices, progress=progress)
-    return None if made is None else Measure(**made)
+    how = options(_core.MeasureOptions, locals())
+    return _core.measure(held_body(a), held_body(b), how, progress=progress)
 
 
+# made of results:
+#   penetration_depth_result
 class Depth(NamedTuple):
     """A way out.
 
-    depth: The length of `move`.
-    move: (3,) added to each vertex of `a`, it takes `a` out of `b`. Verified exactly.
-    effort: What the search took. Where some of it was cut, a shorter way may exist.
+    depth: The length of `move`, rounded.
+    move: (3,) Adding this to every point of `a`, each coordinate rounded, takes `a` out of `b`:
+        then `relation` does not find them penetrating.
+    effort: What the search took. Where some of its questions were cut, one more reason why a
+        shorter way may exist.
     """
 
     depth: float
     move: Floats
     effort: SearchEffort
+# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
@@ -529,17 +536,18 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
     >>> treeform.penetration_depth(cube, (cube.vertices + [0.75, 0, 0], cube.faces)).depth
     0.25
     """
-    found = _core.penetration_depth(held(a), held(b), directions, effort, progress=progress)
-    if found is None:
-        return None
-    return Depth(found[0], found[1], SearchEffort(*found[2]))
+    how = options(_core.DepthOptions, locals())
+    return _core.penetration_depth(held(a), held(b), how, progress=progress)
 
 
+# made of results:
+#   impact
 class Impact(NamedTuple):
     """The first contact of two meshes in motion.
 
     end: 'free', 'contact' or 'at_start'.
-    time: The greatest number not beyond the exact time; 0 where they meet at the start.
+    time: The greatest double that is not beyond the exact time t of the contact: `a` moved by
+        `time` times the motion has not passed it. 0 when `end` is at_start.
     faces: (n, 2) the faces of `a` and `b` that meet at that time.
     points: (n, 3) a common point of each pair, rounded.
     """
@@ -548,6 +556,7 @@ class Impact(NamedTuple):
     time: float
     faces: Ids
     points: Floats
+# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
@@ -564,7 +573,7 @@ def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *,
     >>> treeform.time_of_impact((cube.vertices + [0, 0, 4], cube.faces), cube, [0, 0, -1]).time
     3.0
     """
-    return Impact(*_core.time_of_impact(held(a), held(b), _arrays.vector(motion, "motion"),
-                                        _arrays.matrix(move_a, "move_a"),
-                                        _arrays.matrix(move_b, "move_b"), latest,
-                                        progress=progress))
+    how = options(_core.ImpactOptions, locals(), move_a=_arrays.matrix(move_a, "move_a"),
+                  move_b=_arrays.matrix(move_b, "move_b"))
+    return _core.time_of_impact(held(a), held(b), _arrays.vector(motion, "motion"), how,
+                                progress=progress)

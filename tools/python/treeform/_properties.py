@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from . import _core
 from ._arrays import Floats, Ids
+from ._errors import options
 from ._mesh import MeshLike, held
 from ._progress import Progress
 from ._results import Result
@@ -15,24 +16,26 @@ __all__ = ["Feature", "MeshDefects", "SolidDefects", "Topology", "count_inside_o
            "find_solid_defects"]
 
 
+# made of results:
+#   solid_defects
 @dataclass(frozen=True, repr=False)
 class SolidDefects(Result):
     """What keeps a mesh from being a solid; `bool()` says whether there is anything.
 
-    nonfinite_vertices: Vertices with a NaN or infinite coordinate, used or not.
-    unusable_faces: Faces with such a corner, or one that is no vertex; all that follows is of the
-        others.
+    nonfinite_vertices: With a NaN or infinite coordinate, used or not.
+    unusable_faces: With such a corner, or no vertex: not counted below.
     without_faces: There are points, but no face that can be used.
-    tetrahedra: Tetrahedra that the faces are, as of a volume mesh.
+    tetrahedra: That the faces are, as of a volume mesh.
     degenerate: Faces without area.
     repeated: Faces with the corners of another one.
-    open_edges: Edges of one face.
-    nonmanifold_edges: Edges of more than two faces.
-    misoriented_edges: Edges of two faces that disagree.
-    nonmanifold_vertices: Vertices with more than one fan of faces.
-    meeting_pairs: Pairs of faces that meet beyond their common corners.
+    open_edges: Of one face.
+    nonmanifold_edges: Of more than two faces.
+    misoriented_edges: Of two faces that disagree.
+    nonmanifold_vertices: With more than one fan of faces.
+    meeting_pairs: Of faces that meet beyond their common corners.
     inverted: Closed components that are inside out, and in no other one.
-    wrongly_nested: Components do not lie in each other as a solid and its cavities do.
+    wrongly_nested: Closed components that meet nowhere lie in each other, but not as a solid and
+        its cavities.
     message: 'open at 37 edges, 2 pairs of faces meet'; 'none'.
     """
 
@@ -50,6 +53,7 @@ class SolidDefects(Result):
     inverted: int
     wrongly_nested: bool
     message: str
+# end
 
     def __bool__(self) -> bool:
         return self.message != "none"
@@ -67,23 +71,26 @@ def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDef
     >>> treeform.find_solid_defects(([[0, 0, float("nan")]], [])).message
     '1 vertex that is not finite, there are points, but no faces'
     """
-    return SolidDefects(**_core.find_solid_defects(held(mesh), progress=progress))
+    return _core.find_solid_defects(held(mesh), progress=progress)
 
 
+# made of results:
+#   mesh_defects
 @dataclass(frozen=True, repr=False)
 class MeshDefects(Result):
-    """Elements with defects, ascending. A face is in at most one list.
+    """Points and faces with defects, ascending. A face is in at most one list.
 
-    nonfinite_points: (n,) vertices with a NaN or infinite coordinate.
-    nonfinite_faces: (n,) faces with such a corner.
-    degenerate_faces: (n,) faces with exactly collinear corners.
-    out_of_range_faces: (n,) faces with a corner that is no vertex.
+    nonfinite_points: (n,) with a NaN or infinite coordinate.
+    nonfinite_faces: (n,) with such a corner.
+    degenerate_faces: (n,) finite, with exactly collinear corners.
+    out_of_range_faces: (n,) with a corner out of range.
     """
 
     nonfinite_points: Ids
     nonfinite_faces: Ids
     degenerate_faces: Ids
     out_of_range_faces: Ids
+# end
 
 
 def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
@@ -94,26 +101,29 @@ def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
     >>> treeform.find_defects(mesh)
     MeshDefects(nonfinite_points=[3], nonfinite_faces=[1], degenerate_faces=[0], out_of_range_faces=[])
     """
-    return MeshDefects(**_core.find_defects(held(mesh), progress=progress))
+    return _core.find_defects(held(mesh), progress=progress)
 
 
+# made of results:
+#   topology_counts
 @dataclass(frozen=True, repr=False)
 class Topology(Result):
-    """Counts over the faces with three different corners. The Euler characteristic is points_used -
-    edges + faces.
+    """Counts over the faces with three different corner numbers. Faces that repeat a corner have no
+    edges here and are counted separately. Faces with collinear corners, and duplicates, are counted
+    like all others. The Euler characteristic is points_used - edges + faces.
 
     edges: Undirected.
     boundary_edges: Used by one face.
-    nonmanifold_edges: Used by three or more.
-    misoriented_edges: Used by two in the same direction.
+    nonmanifold_edges: Used by three or more faces.
+    misoriented_edges: Used by two faces in the same direction.
     nonmanifold_points: Whose faces fall into more than one fan.
     components_by_point: Faces linked by a shared corner.
     components_by_edge: Faces linked by a shared edge.
     points_used: Corners of at least one such face.
-    faces: With three different corners.
+    faces: Faces with three different corners.
     repeated_corner_faces: The others.
-    duplicate_faces: Beyond the first with the same corners.
-    closed: At least one face, no boundary edge, no non-manifold edge.
+    duplicate_faces: Beyond the first with the same three corners.
+    closed: At least one face, no boundary edge, no nonmanifold edge.
     """
 
     edges: int
@@ -128,6 +138,7 @@ class Topology(Result):
     repeated_corner_faces: int
     duplicate_faces: int
     closed: bool
+# end
 
 
 def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
@@ -138,7 +149,7 @@ def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
     >>> counts.closed, counts.points_used - counts.edges + counts.faces
     (True, 2)
     """
-    return Topology(**_core.count_topology(held(mesh), progress=progress))
+    return _core.count_topology(held(mesh), progress=progress)
 
 
 def count_inside_out(mesh: MeshLike, *, progress: Progress = None) -> int:
@@ -165,15 +176,17 @@ def face_components(mesh: MeshLike, *, progress: Progress = None) -> Ids:
     return _core.face_components(held(mesh), progress=progress)
 
 
+# made of results:
+#   mesh_feature
 @dataclass(frozen=True, repr=False)
 class Feature(Result):
     """A plane or an axis, fitted to faces by least squares.
 
-    kind: 'plane' or 'axis'.
-    origin: (3,) on the plane or the axis: the center of the faces.
+    kind: Plane or axis: 'plane' or 'axis'.
+    origin: (3,) center of the faces, on the plane or the axis.
     direction: (3,) of length 1: the normal, outward; along the axis, either way.
     radius: Of the cylinder.
-    hollow: Of a cylinder: its faces look at the axis, as those of a hole.
+    hollow: Of a cylinder: the faces look at the axis, as those of a hole.
     area: Of the faces.
     deviation: Largest distance of a corner from the plane or cylinder.
     faces: (n,) ascending.
@@ -187,6 +200,7 @@ class Feature(Result):
     area: float
     deviation: float
     faces: Ids
+# end
 
 
 def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | None = None,
@@ -202,6 +216,5 @@ def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | Non
     >>> [side.area for side in treeform.find_features(treeform.read("data/cube.stl"))]
     [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
     """
-    return [Feature(**one) for one in
-            _core.find_features(held(mesh), kind, tolerance, plane_angle, facet_angle, arc,
-                                progress=progress)]
+    how = options(_core.FeatureOptions, locals())
+    return _core.find_features(held(mesh), kind, how, progress=progress)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable, Union
+from typing import Any, Iterable, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._core import Certificate
-from ._errors import require
+from ._errors import options, require
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of, held
 from ._progress import Progress
 from ._results import Result
@@ -33,28 +33,31 @@ class MadeMesh(MeshResult):
     certificate: Certificate
 
 
+# made of results:
+#   resolve_result
 @dataclass(frozen=True, repr=False)
 class ResolveResult(MadeMesh):
     """A mesh without self-intersections.
 
-    face_source: (F,) the input's face that each face lies in, the lowest of those that were merged;
-        4294967295 where it fills a hole.
-    vertex_source: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
+    face_source: (F',) input face, lowest of those merged, or `NONE`.
+    vertex_source: (V',) input vertex that each is, or `NONE`.
     statistics: Counts of what was done.
     """
 
     face_source: Ids
     vertex_source: Ids
-    statistics: dict[str, int]
+    statistics: dict[str, Any]
+# end
 
 
+# made of results:
+#   repair_result
 @dataclass(frozen=True, repr=False)
 class RepairResult(MadeMesh):
     """A mended mesh.
 
-    face_source: (F,) the input's face that each face lies in, the lowest of those that were merged;
-        4294967295 where it fills a hole.
-    vertex_source: (V,) the input's vertex that each vertex is; 4294967295 for new ones.
+    face_source: (F',) input face, lowest of those merged, or `NONE`.
+    vertex_source: (V',) input vertex that each is, or `NONE`.
     is_left: (faces of the input,) whether something is left of each, also where it was merged with
         others.
     steps: What each step has done: faces flipped, holes filled, ...
@@ -64,8 +67,11 @@ class RepairResult(MadeMesh):
     vertex_source: Ids
     is_left: NDArray[np.bool_]
     steps: dict[str, Any]
+# end
 
 
+# made of results:
+#   wrap_result
 @dataclass(frozen=True, repr=False)
 class WrapResult(MadeMesh):
     """A closed surface around a mesh.
@@ -74,14 +80,15 @@ class WrapResult(MadeMesh):
     """
 
     statistics: dict[str, Any]
+# end
 
 
-def _mesh_of(made: dict[str, Any], check: bool, *also: str) -> dict[str, Any]:
-    """`made` with a mesh in place of arrays."""
-    certificate = made["certificate"]
+_Made = TypeVar("_Made", bound=MadeMesh)
+
+
+def _checked(made: _Made, check: bool, *also: str) -> _Made:
     if check:
-        require(certificate, *also, of_one=True)
-    made["mesh"] = Mesh._of(made.pop("points"), made.pop("faces"), certificate, made.pop("data"))
+        require(made.certificate, *also, of_one=True)
     return made
 
 
@@ -111,9 +118,8 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     >>> solid.mesh, solid.certificate, len(treeform.self_intersections(solid))
     (Mesh(326 vertices, 648 faces), Certificate(ok), 0)
     """
-    return ResolveResult(**_mesh_of(
-        _core.resolve(held(mesh), mode, inside, precision, max_displacement, keep_cuts, touching,
-                      max_loss, progress=progress), check))
+    how = options(_core.ResolveOptions, locals())
+    return _checked(_core.resolve(held(mesh), mode, how, progress=progress), check)
 
 
 _STEPS = ("join", "orient", "fill", "resolve", "detach")
@@ -145,10 +151,13 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None =
     >>> mended.mesh.is_solid, mended.steps["flipped"], mended.steps["holes"]
     (True, 40, 2)
     """
-    return RepairResult(**_mesh_of(
-        _core.repair(held(mesh), _arrays.several(steps, "steps"), gap, largest_hole, strays,
-                     inside, max_loss, sheet, precision, max_displacement, keep_cuts,
-                     progress=progress), check, "sheet"))
+    arguments = locals()
+    taken = [_arrays.word(step, "steps") for step in _arrays.several(steps, "steps")]
+    for step in taken:
+        if step not in _STEPS:
+            raise ValueError(f"steps: \"{step}\" is none of {', '.join(_STEPS)}")
+    how = options(_core.RepairOptions, arguments, **{step: step in taken for step in _STEPS})
+    return _checked(_core.repair(held(mesh), how, progress=progress), check, "sheet")
 
 
 def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
@@ -165,15 +174,17 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     >>> around.mesh.is_solid, bool(around.certificate)
     (True, True)
     """
-    return WrapResult(**_mesh_of(
-        _core.wrap(held(mesh), size, offset, precision, progress=progress), check))
+    how = options(_core.WrapOptions, locals())
+    return _checked(_core.wrap(held(mesh), size, how, progress=progress), check)
 
 
+# made of results:
+#   convex_hull_result
 @dataclass(frozen=True, repr=False)
 class ConvexHull(Result):
     """The convex hull of points: triangles, grouped by flat sides.
 
-    dimension: 3 for points that span space, 2 in a plane, 1 on a line, 0 for one point, -1 for
+    dimension: 3 for points that span space, 2 in a plane, 1 on a line, 0 when all are equal, -1 for
         none.
     faces: (F, 3) numbers of the points, outward.
     first_face: (S,) the first face of each flat side; its faces follow one another.
@@ -186,6 +197,7 @@ class ConvexHull(Result):
     first_face: Ids
     areas: Floats
     normals: Floats
+# end
 
 
 def convex_hull(points: Union[MeshLike, ArrayLike], *, progress: Progress = None) -> ConvexHull:
@@ -198,8 +210,8 @@ def convex_hull(points: Union[MeshLike, ArrayLike], *, progress: Progress = None
     (3, 12, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
     """
     cloud = cloud_of(points)
-    return ConvexHull(**_core.convex_hull(
-        as_mesh(points).vertices if cloud is None else cloud, progress=progress))
+    return _core.convex_hull(as_mesh(points).vertices if cloud is None else cloud,
+                             progress=progress)
 
 
 def rounded(points: ArrayLike, precision: str = "float32", *,

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._errors import need, settings
+from ._errors import need, options, settings
 from ._files import Columns, Path, named_columns, path_of
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
@@ -22,6 +22,8 @@ __all__ = ["StreamWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal",
            "weld_stream"]
 
 
+# made of results:
+#   weld_result
 @dataclass(frozen=True, repr=False)
 class WeldResult(MeshResult):
     """A welded mesh or cloud.
@@ -38,6 +40,7 @@ class WeldResult(MeshResult):
     source: Ids
     face_source: Ids
     statistics: dict[str, Any]
+# end
 
     @property
     def points(self) -> Floats:
@@ -91,27 +94,17 @@ def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
     >>> thin.points.tolist(), thin.index.tolist()
     ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
     """
-    none: Ids = np.empty(0, np.uint32)
-    how = settings(
-        _core.WeldSettings, _arrays.number(tolerance, "tolerance"), _arrays.word(rule, "rule"),
-        _arrays.word(keep, "keep"), keep_by, _arrays.word(order, "order"), order_by,
-        _conditions(same), _arrays.several(across, "across"),
-        keep_seams, only_borders, keep_manifold, keep_degenerate,
-        none if label is None else _labels(label))
+    how = options(_core.WeldOptions, locals(), same=_conditions(same),
+                  across=_arrays.several(across, "across"))
+    labels = np.empty(0, np.uint32) if label is None else _labels(label)
     points = cloud_of(mesh_or_points)
     if points is not None:
-        made = _core.weld_cloud(points, None, how, progress=progress)
-        made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
-    else:
-        mesh = as_mesh(mesh_or_points)
-        data = None if mesh._attributes is None else mesh._attributes._data
-        if len(mesh._faces):
-            made = _core.weld_mesh(mesh._held, data, how, progress=progress)
-        else:
-            made = _core.weld_cloud(mesh._vertices, data, how, progress=progress)
-            made.update(faces=np.empty((0, 3), np.uint32), face_source=none)
-    welded = Mesh._of(made.pop("points"), made.pop("faces"), None, made.pop("data"))
-    return WeldResult(mesh=welded, **made)
+        return _core.weld_cloud(points, None, how, labels, progress=progress)
+    mesh = as_mesh(mesh_or_points)
+    data = None if mesh._attributes is None else mesh._attributes._data
+    if len(mesh._faces):
+        return _core.weld_mesh(mesh._held, data, how, labels, progress=progress)
+    return _core.weld_cloud(mesh._vertices, data, how, labels, progress=progress)
 
 
 def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress = None) -> int:
@@ -125,6 +118,8 @@ def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress
     return _core.count_nearly_equal(_arrays.points(points, "points"), distance, progress=progress)
 
 
+# made of results:
+#   weld_stream_result
 @dataclass(frozen=True, repr=False)
 class WeldStreamResult(Result):
     """What `weld_stream` has done.
@@ -153,24 +148,22 @@ class WeldStreamResult(Result):
     faces: int
     statistics: dict[str, int]
     warnings: list[str]
+# end
 
 
-def _settings(files: Union[Path, Iterable[Path]], tolerance: float, relative: bool, rule: str,
-              keep: str, keep_by: str, order: str, order_by: str, same: _Same | None,
-              keep_seams: bool, across: Iterable[str], keep_degenerate: bool, as_las: bool,
-              memory: int, folder: Path, points_per_tile: int, columns: Columns | None,
-              mixed: bool) -> _core.StreamSettings:
+def _settings(arguments: dict[str, Any]) -> _core.StreamSettings:
+    files = arguments["files"]
     paths = [files] if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
     if not paths:
         raise ValueError("files: there are none")
-    return settings(
-        _core.StreamSettings, [path_of(path) for path in paths],
-        _arrays.number(tolerance, "tolerance"), relative,
-        _arrays.word(rule, "rule"), _conditions(same), _arrays.word(keep, "keep"),
-        _arrays.word(keep_by, "keep_by"), _arrays.word(order, "order"),
-        _arrays.word(order_by, "order_by"), keep_seams, _arrays.several(across, "across"),
-        keep_degenerate, as_las, _arrays.number(memory, "memory", 0), path_of(folder),
-        _arrays.number(points_per_tile, "points_per_tile", 0), named_columns(columns), mixed)
+    how = options(_core.WeldStreamOptions, arguments, same=_conditions(arguments["same"]),
+                  across=_arrays.several(arguments["across"], "across"),
+                  folder=path_of(arguments["folder"]),
+                  memory=_arrays.number(arguments["memory"], "memory", 0),
+                  points_per_tile=_arrays.number(arguments["points_per_tile"],
+                                                 "points_per_tile", 0))
+    return settings(_core.StreamSettings, [path_of(path) for path in paths], how,
+                    named_columns(arguments["columns"]), arguments["mixed"])
 
 
 def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float = 0.0, *,
@@ -210,12 +203,10 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     >>> done.points, done.kept
     (3, 2)
     """
-    how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
-                    keep_seams, across, keep_degenerate, as_las, memory, folder, points_per_tile,
-                    columns, mixed)
-    return in_team(team, lambda all: WeldStreamResult(**_core.weld_stream(
+    how = _settings(locals())
+    return in_team(team, lambda all: _core.weld_stream(
         how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
-        progress=progress)))
+        progress=progress))
 
 
 class StreamWeld(InSteps[_core.WeldInSteps]):
@@ -258,9 +249,7 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
                  mixed: bool = False, progress: Progress = None) -> None:
         files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
         across = _arrays.several(across, "across")
-        how = _settings(files, tolerance, relative, rule, keep, keep_by, order, order_by, same,
-                        keep_seams, across, keep_degenerate, as_las, memory, folder,
-                        points_per_tile, columns, mixed)
+        how = _settings(locals())
         super().__init__(
             _core.weld_of(how, progress=progress), files, tolerance, relative=relative,
             rule=rule, keep=keep, keep_by=keep_by, order=order, order_by=order_by, same=same,
@@ -285,9 +274,8 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
                progress: Progress = None) -> WeldStreamResult:
         """Welds what lies along the borders of tiles, when all are welded, and writes the outputs,
         each whole or not at all. Once."""
-        return WeldStreamResult(**self._work.finish(
-            path_of(out), path_of(removed), _arrays.word(label, "label"), withhold,
-            progress=progress))
+        return self._work.finish(path_of(out), path_of(removed), _arrays.word(label, "label"),
+                                 withhold, progress=progress)
 
     def remove_folder(self) -> None:
         """Removes the folder of the tiles."""

@@ -54,6 +54,7 @@ struct usable_mesh {
 /// The mesh of a file: `as_mesh(read(path))`.
 [[nodiscard]] TREEFORM_API usable_mesh read_mesh(const std::filesystem::path& path);
 
+/// Which part of a mesh.
 struct part_options {
     /// Whether points with equal coordinates are one vertex.
     vertex_identity vertices = vertex_identity::by_coordinates;

@@ -25,6 +25,7 @@ enum class fill_rule : std::uint8_t {
     positive  ///< once or more
 };
 
+/// How to combine solids.
 struct boolean_options {
     fill_rule inside = fill_rule::nonzero;  ///< what is solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.

@@ -28,6 +28,7 @@ namespace treeform {
 /// Numbers of two parts.
 using part_pair = std::array<std::uint32_t, 2>;
 
+/// How to look for clashes.
 struct clash_options {
     double clearance = 0.0;                ///< parts that are nearer than this are too close
     bool volumes = true;                   ///< of what two closed parts have in common
@@ -50,11 +51,11 @@ struct contact_region {
 
 /// Two parts that are not clear of each other.
 struct part_clash {
-    std::uint32_t a = 0;  ///< the lower number
-    std::uint32_t b = 0;
-    standing how = standing::touching;  ///< or penetrating, closer_than_clearance
-    bool a_inside_b = false;            ///< as in `mesh_relation_result`
-    bool b_inside_a = false;
+    std::uint32_t a = 0;                             ///< the lower number
+    std::uint32_t b = 0;                             ///< number of the second part
+    standing how = standing::touching;               ///< or penetrating, closer_than_clearance
+    bool a_inside_b = false;                         ///< as in `mesh_relation_result`
+    bool b_inside_a = false;                         ///< the same with `a` and `b` swapped
     double distance = 0.0;                           ///< of the surfaces; 0 where they meet
     std::optional<std::array<point3, 2>> nearest{};  ///< of those that are too close: on a, on b
     std::uint64_t face_pairs = 0;                    ///< that meet
@@ -64,10 +65,11 @@ struct part_clash {
     std::optional<double> volume{};
     /// Of penetrating parts: `penetration_depth`, the length of `move`, which takes `a` out of `b`.
     std::optional<double> depth{};
-    point3 move{};
+    point3 move{};                 ///< a short translation that takes `a` out of `b`
     search_effort depth_effort{};  ///< of `depth`, as in `penetration_depth_result`
 };
 
+/// All that is not clear.
 struct clash_result {
     std::vector<part_clash> pairs{};        ///< that are not clear, ascending
     std::array<std::uint64_t, 5> counts{};  ///< of pairs that were looked at, by `standing`
@@ -120,6 +122,7 @@ struct clash_result {
     const mesh_ref& a, const mesh_ref& b, std::span<const mesh_positions> positions,
     double radius = std::numeric_limits<double>::infinity());
 
+/// How to check poses.
 struct pose_options {
     double clearance = 0.0;                ///< parts that are nearer than this are too close
     bool first_only = false;               ///< name only the first clash of each pose

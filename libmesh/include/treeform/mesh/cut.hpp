@@ -22,6 +22,7 @@
 
 namespace treeform {
 
+/// How to cut.
 struct cut_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
@@ -55,6 +56,7 @@ struct TREEFORM_API cut_piece {
     [[nodiscard]] treeform::mesh value() &&;
 };
 
+/// Pieces, and what was checked.
 struct cut_result {
     /// Of K planes, in their order along the normal, K + 1 pieces from the lowest up. None where
     /// the certificate says why.

@@ -22,6 +22,7 @@
 
 namespace treeform {
 
+/// What to find besides distances.
 struct deviation_options {
     /// Signed distances from the first to the second, both included, are within tolerance.
     std::optional<std::array<double, 2>> band{};
@@ -54,6 +55,7 @@ struct band_counts {
     std::uint64_t above = 0;
 };
 
+/// How far points are from a surface.
 struct deviation_result {
     /// [V] of `a`: the distance of each point from the surface of `b`, negative inside the solid
     /// that `b` bounds, exactly 0 on its surface. Not negative when `b` bounds none.
@@ -64,11 +66,11 @@ struct deviation_result {
     std::optional<side_counts> sides{};  ///< of the points of `a`, where distances have a sign
     double mean = 0.0;                   ///< of the signed distances
     double mean_absolute = 0.0;          ///< of their magnitudes, as are the six below
-    double rms = 0.0;
-    double p50 = 0.0;  ///< the least value that half of the magnitudes do not exceed
-    double p95 = 0.0;
-    double p99 = 0.0;
-    double max = 0.0;
+    double rms = 0.0;                    ///< root mean square
+    double p50 = 0.0;         ///< the least value that half of the magnitudes do not exceed
+    double p95 = 0.0;         ///< 95 % are not above it
+    double p99 = 0.0;         ///< 99 % are not above it
+    double max = 0.0;         ///< the largest magnitude
     std::uint32_t worst = 0;  ///< the lowest point with that distance
     double lowest = 0.0;      ///< the least signed distance
     double highest = 0.0;     ///< the greatest signed distance

@@ -25,11 +25,11 @@ struct distance_options {
 
 /// The nearest points of two meshes.
 struct closest_points_result {
-    std::uint32_t face_a = 0;
-    std::uint32_t face_b = 0;
-    double distance = 0.0;  ///< exactly 0 if and only if the meshes meet
-    point3 on_a;            ///< rounded, as is `on_b`
-    point3 on_b;
+    std::uint32_t face_a = 0;  ///< the face of `a` that `on_a` is on
+    std::uint32_t face_b = 0;  ///< that of `b`
+    double distance = 0.0;     ///< exactly 0 if and only if the meshes meet
+    point3 on_a;               ///< the point on the surface of `a`, rounded, as is `on_b`
+    point3 on_b;               ///< the point on the surface of `b`
     friend bool operator==(const closest_points_result&, const closest_points_result&) = default;
 };
 

@@ -91,12 +91,14 @@ struct surface_point {
     friend bool operator==(const surface_point&, const surface_point&) = default;
 };
 
+/// How far to look.
 struct measure_options {
     double radius = std::numeric_limits<double>::infinity();     ///< inclusive
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
 };
 
+/// How two meshes lie to each other.
 struct mesh_measure {
     mesh_relation_result relation{};  ///< its status is that of the whole answer
     /// Not squared. 0 if and only if the meshes touch or penetrate each other.
@@ -121,6 +123,7 @@ struct mesh_measure {
 [[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(const mesh_ref& a, const mesh_ref& b,
                                                                const measure_options& options = {});
 
+/// How to look for a way out.
 struct depth_options {
     std::size_t directions =
         256;  ///< spread over the sphere, tried beside those of faces that meet

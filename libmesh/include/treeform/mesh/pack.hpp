@@ -49,8 +49,8 @@ struct pack_options {
 
 /// A part on a plate.
 struct packed_part {
-    bool placed = false;
-    unsigned plate = 0;  ///< number of its plate, from 0
+    bool placed = false;  ///< it has a place
+    unsigned plate = 0;   ///< number of its plate, from 0
     /// [V] the new points, as they are to be written; unchanged when the part is not placed.
     std::vector<point3> points{};
     /// new = M * old, a turn about z and a translation; the identity when the part is not placed.
@@ -62,8 +62,8 @@ struct packed_part {
 struct packing {
     std::vector<packed_part> parts{};         ///< [P] in the order of the input
     std::vector<std::uint32_t> not_placed{};  ///< numbers of parts without a place, ascending
-    unsigned plates_used = 0;
-    unsigned tries = 0;  ///< made
+    unsigned plates_used = 0;                 ///< plates with a part
+    unsigned tries = 0;                       ///< made
     /// Share of the plates that the parts on them cover, seen from above, as the raster has it;
     /// with `stack`, of the boxes that their solids with what they enclose fill.
     double density = 0.0;

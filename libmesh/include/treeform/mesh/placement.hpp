@@ -92,8 +92,8 @@ struct placement {
     std::optional<double> bed{};  ///< lowest z allowed, as written: the bed plus the clearance
     double below_bed = 0.0;       ///< how far it reached below that at the start
     bool on_bed = false;          ///< the bed stopped it
-    standing at_start = standing::separate;
-    standing at_place = standing::separate;
+    standing at_start = standing::separate;  ///< exact
+    standing at_place = standing::separate;  ///< the same at the place
     std::optional<nearest_fixed> nearest{};  ///< at the place; none when all are too far to matter
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< of all, listed or not

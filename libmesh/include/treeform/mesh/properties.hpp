@@ -104,8 +104,8 @@ struct topology_counts {
 
 /// Of a solid of density 1.
 struct mass_properties {
-    double volume = 0.0;
-    point3 center{};  ///< of mass
+    double volume = 0.0;  ///< what the mesh encloses; negative where it is inside out
+    point3 center{};      ///< of mass
     /// About the center, by axes x, y and z: the energy of turning by w is w . (inertia w) / 2.
     std::array<std::array<double, 3>, 3> inertia{};
     friend bool operator==(const mass_properties&, const mass_properties&) = default;
@@ -137,12 +137,13 @@ enum class face_order : std::uint8_t { kept, any };
 /// \cost O(F), and O(F log F) in any order
 [[nodiscard]] TREEFORM_API bool same_triangles(mesh_view a, mesh_view b, face_order order);
 
+/// What kind of region.
 enum class feature_kind : std::uint8_t { plane, axis };
 
 /// A plane or an axis, fitted to faces by least squares.
 struct mesh_feature {
-    feature_kind kind = feature_kind::plane;
-    point3 origin{};         ///< center of the faces, on the plane or the axis
+    feature_kind kind = feature_kind::plane;  ///< plane or axis
+    point3 origin{};                          ///< center of the faces, on the plane or the axis
     point3 direction{};      ///< of length 1: the normal, outward; along the axis, either way
     double radius = 0.0;     ///< of the cylinder
     bool hollow = false;     ///< of a cylinder: the faces look at the axis, as those of a hole
@@ -151,6 +152,7 @@ struct mesh_feature {
     std::vector<std::uint32_t> faces{};  ///< ascending
 };
 
+/// What counts as flat or cylindrical.
 struct feature_options {
     /// Largest distance of a corner from the plane or cylinder. Default: 1e-4 of the diagonal.
     std::optional<double> tolerance{};

@@ -135,6 +135,7 @@ struct joint_value {
     double value = 0.0;
 };
 
+/// A robot.
 struct urdf_robot {
     std::string name{};
     std::vector<std::string> links{};         ///< [L] names, in the order of the file
@@ -162,6 +163,7 @@ struct urdf_robot {
         std::span<const joint_value> values) const;
 };
 
+/// How to read a robot.
 struct urdf_options {
     bool visual = false;  ///< the meshes that are for show, not those for collisions
     /// Where packages are: `package://name/rest` is FOLDER/name/rest or FOLDER/rest for one of

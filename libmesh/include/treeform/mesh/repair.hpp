@@ -25,17 +25,16 @@ enum class resolve_mode : std::uint8_t {
     remove  ///< delete them, and fill the holes
 };
 
+/// How to resolve self-intersections.
 struct resolve_options {
     fill_rule inside = fill_rule::nonzero;  ///< for `outer`: what is solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// For `split` and `outer`: as in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
-    bool keep_cuts = false;  ///< for `outer`: as in `boolean_options`; `split` keeps all cuts
-    /// For `remove`: delete faces that only touch (`pair_kind::touching`), too; else they stay.
-    bool touching = false;
-    /// For `remove`: give up after making or widening holes this often.
-    int removal_rounds = 16;
+    bool keep_cuts = false;   ///< for `outer`: as in `boolean_options`; `split` keeps all cuts
+    bool touching = false;    ///< for `remove`: delete faces that only touch, too; else they stay
+    int removal_rounds = 16;  ///< for `remove`: give up after making or widening holes this often
     /// For `outer` and `remove`: losing more than this share of the solid's volume, or of the area
     /// of a mesh that bounds none, has the status `excessive_loss`. 1 allows any loss. What the
     /// solid is, is found by `repair` without filling holes: faces agree, and overlaps count once.
@@ -108,6 +107,7 @@ enum class repair_rule : std::uint8_t {
     positive
 };
 
+/// How to repair. All steps are on by default.
 struct repair_options {
     bool join = true;     ///< drop degenerate and repeated faces; close cracks and T-junctions
     bool orient = true;   ///< make faces agree and shells outward; drop strays

@@ -78,6 +78,7 @@ struct face_pair {
     friend auto operator<=>(const face_pair&, const face_pair&) = default;
 };
 
+/// Which pairs to look for.
 struct self_intersection_options {
     /// Which corners two faces share: those with equal coordinates, or with the same number.
     vertex_identity vertices = vertex_identity::by_coordinates;
@@ -94,6 +95,7 @@ struct self_intersection_options {
     progress_callback progress{};
 };
 
+/// Pairs of faces that meet.
 struct self_intersection_result {
     std::vector<face_pair> pairs;                         ///< ascending by (a, b)
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
@@ -156,8 +158,7 @@ struct intersection_regions {
 
 /// How to search a file that is larger than memory.
 struct stream_search_options {
-    /// None: by coordinates for STL, by index for other formats.
-    std::optional<vertex_identity> vertices{};
+    std::optional<vertex_identity> vertices{};  ///< none: by coordinates for STL, else by index
     pair_kinds kinds = pair_kinds::all;
     std::optional<box3> box{};       ///< only faces that meet it
     std::string format{};            ///< of the input, as for `read`
@@ -172,6 +173,7 @@ struct stream_search_options {
     std::function<void()> step_done{};
 };
 
+/// What was found in the file.
 struct stream_search_result {
     /// Only the faces that meet others, in the order of the file; its `degenerate` and `dropped` are
     /// those of all faces.

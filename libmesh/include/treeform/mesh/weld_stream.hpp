@@ -127,8 +127,7 @@ struct weld_stream_outputs {
     std::optional<file> removed{};  ///< the dropped points
     /// If set, `welded` gets all points, with the group of each in a uint32 property of this name.
     std::string label{};
-    /// `welded` gets all points, and those that are not kept have the flag "withheld" of LAS.
-    bool withhold = false;
+    bool withhold = false;  ///< `welded` gets all points, those not kept "withheld" as in LAS
     /// Called with the new numbers of the next input points, from the first to the last.
     std::function<void(std::span<const std::uint64_t>)> map{};
     /// The same as a file: `map_text` gives the text for points from `first` on. Each of a team calls
@@ -150,6 +149,7 @@ struct weld_stream_written {
     std::optional<std::uint64_t> still_within{};
 };
 
+/// What was welded and written.
 struct weld_stream_result {
     cloud_survey survey{};
     weld_stream_counts counts{};

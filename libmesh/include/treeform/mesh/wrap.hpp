@@ -15,6 +15,7 @@
 
 namespace treeform {
 
+/// How to wrap.
 struct wrap_options {
     /// How far the vertices of the wrap are from the mesh, in its length unit; where it is not
     /// given, a thirtieth of the size.

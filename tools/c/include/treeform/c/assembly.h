@@ -51,63 +51,75 @@ TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t b
                                                const double* matrix, treeform_precision written_as,
                                                treeform_file** file);
 
+// made of <mesh/clash.hpp>:
+//   clash_options contact_region part_clash clash_result
 /// How to look for clashes.
 typedef struct treeform_clash_options {
     size_t size;
-    double clearance;
-    int32_t volumes;          ///< of what two closed parts have in common; default 1
-    int32_t depths;           ///< of penetrating parts; default 1
-    uint64_t effort;          ///< for each depth, as in `treeform_depth_options`
-    uint64_t limit;           ///< faces listed for each region and part; default 1000
-    const uint32_t* ignored;  ///< [ignored_count][2] pairs that are not looked at; or null
+    double clearance;  ///< parts that are nearer than this are too close
+    int32_t volumes;   ///< of what two closed parts have in common; default 1
+    int32_t depths;    ///< of penetrating parts; default 1
+    uint64_t effort;   ///< for each depth, as in `treeform_depth_options`
+    uint64_t limit;    ///< faces listed for each region and part; default 1000
+    /// [ignored_count][2] pairs that are not looked at, in any order; or null
+    const uint32_t* ignored;
     size_t ignored_count;
-    treeform_vertices vertices;
+    treeform_vertices vertices;  ///< as in `treeform_relation`
     treeform_progress progress;
     void* progress_data;
 } treeform_clash_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_clash_options_init(treeform_clash_options* options, size_t size);
 
-/// A place where two parts meet.
+/// A place where two parts meet: pairs of faces that hang together, by corners of faces of either
+/// part that meet the same face of the other.
 typedef struct treeform_contact_region {
-    treeform_box box;
+    treeform_box box;  ///< holds all points that the surfaces have in common here
     uint64_t face_pairs;
     const uint32_t* faces_a;  ///< [face_count_a] ascending; the first `limit`
     size_t face_count_a;
-    const uint32_t* faces_b;
+    const uint32_t* faces_b;  ///< [face_count_b]
     size_t face_count_b;
 } treeform_contact_region;
 
 /// Two parts that are not clear of each other.
 typedef struct treeform_part_clash {
-    uint32_t a;  ///< the lower number
-    uint32_t b;
-    treeform_standing how;
-    int32_t a_inside_b;
-    int32_t b_inside_a;
-    double distance;
-    double on_a[3];  ///< nearest points of those that are too close; else NaN
+    uint32_t a;             ///< the lower number
+    uint32_t b;             ///< number of the second part
+    treeform_standing how;  ///< or penetrating, closer_than_clearance
+    int32_t a_inside_b;     ///< as in `mesh_relation_result`
+    int32_t b_inside_a;     ///< the same with `a` and `b` swapped
+    double distance;        ///< of the surfaces; 0 where they meet
+    double on_a[3];         ///< nearest points of those that are too close; else NaN
     double on_b[3];
-    uint64_t face_pairs;
-    const treeform_contact_region* regions;  ///< [region_count]
+    uint64_t face_pairs;                     ///< that meet
+    const treeform_contact_region* regions;  ///< [region_count] by their lowest faces
     size_t region_count;
-    double volume;   ///< of what is inside both; NaN where not known
-    double depth;    ///< of penetrating parts; NaN where not known
-    double move[3];  ///< that takes `a` out of `b`
+    /// Of penetrating parts that are closed: the volume of what is inside both, by the exact
+    /// arrangement, as `operand_volumes::both`.
+    double volume;
+    /// Of penetrating parts: `treeform_penetration_depth`, the length of `move`, which takes `a`
+    /// out of `b`.
+    double depth;
+    double move[3];  ///< a short translation that takes `a` out of `b`
+    /// of `depth`, as in `penetration_depth_result`
     treeform_search_effort depth_effort;
 } treeform_part_clash;
 
 /// All that is not clear.
 typedef struct treeform_clashes {
     void* owner;
-    const treeform_part_clash* pairs;  ///< [count] ascending
+    const treeform_part_clash* pairs;  ///< [count] that are not clear, ascending
     size_t count;
-    uint64_t counts[5];    ///< of pairs that were looked at, by `treeform_standing`
-    uint64_t boxes_apart;  ///< pairs that their boxes keep apart
-    uint64_t ignored;
+    uint64_t counts[5];    ///< of pairs that were looked at, by `standing`
+    uint64_t boxes_apart;  ///< pairs that their boxes keep apart: not looked at
+    uint64_t ignored;      ///< pairs left out whose boxes are not apart
     uint64_t parts_indexed;
-    uint64_t clashes;  ///< pairs that penetrate or are closer than the clearance
+    /// Pairs that penetrate or are closer than the clearance; with a clearance, those that touch,
+    /// too.
+    uint64_t clashes;
 } treeform_clashes;
+// end
 
 /// How all parts [count] lie to each other, two by two; exact.
 TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
@@ -120,14 +132,17 @@ TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size
                                                   const char* first, const char* second,
                                                   treeform_indices** pairs);
 
+// made of <mesh/clash.hpp>:
+//   pose_options pose_clash
 /// How to check poses.
 typedef struct treeform_poses_options {
     size_t size;
-    double clearance;
-    int32_t first_only;       ///< name only the first clash of each pose
-    const uint32_t* ignored;  ///< [ignored_count][2]; or null
+    double clearance;    ///< parts that are nearer than this are too close
+    int32_t first_only;  ///< name only the first clash of each pose
+    /// [ignored_count][2] pairs that are not looked at, in any order; or null
+    const uint32_t* ignored;
     size_t ignored_count;
-    treeform_vertices vertices;
+    treeform_vertices vertices;  ///< as in `treeform_relation`
     treeform_progress progress;
     void* progress_data;
 } treeform_poses_options;
@@ -136,11 +151,12 @@ TREEFORM_C_API void treeform_poses_options_init(treeform_poses_options* options,
 
 /// Two parts that are not clear of each other in a pose.
 typedef struct treeform_pose_clash {
-    uint32_t a;
+    uint32_t a;  ///< the lower number
     uint32_t b;
-    uint8_t how;      ///< a `treeform_standing`
+    uint8_t how;      ///< or penetrating, closer_than_clearance (a `treeform_standing`)
     double distance;  ///< of those that are closer than the clearance; else 0
 } treeform_pose_clash;
+// end
 
 /// What clashes in each pose: those of pose p are clashes[begin[p]] ... clashes[begin[p + 1] - 1].
 typedef struct treeform_poses_result {

@@ -135,13 +135,27 @@ typedef struct treeform_thread_limit treeform_thread_limit;
 TREEFORM_C_API treeform_code treeform_limit_threads(uint32_t threads,
                                                     treeform_thread_limit** limit);
 
-/// Precision of coordinates.
+// made of <mesh/mesh.hpp>:
+//   precision vertex_identity
+/// The numbers that coordinates are written as.
 typedef int32_t treeform_precision;
-enum { TREEFORM_FLOAT32 = 0, TREEFORM_FLOAT64 = 1 };
+enum {
+    /// as a binary STL holds them
+    TREEFORM_FLOAT32 = 0,
+    /// doubles
+    TREEFORM_FLOAT64 = 1
+};
 
-/// Which corners of faces are the same vertex: those with equal coordinates, or with one number.
+/// Which corners of faces are the same vertex. This decides whether a mesh is closed, and which of
+/// its faces are neighbors.
 typedef int32_t treeform_vertices;
-enum { TREEFORM_BY_COORDINATES = 0, TREEFORM_BY_INDEX = 1 };
+enum {
+    /// those with equal coordinates: also right for files that repeat them (STL)
+    TREEFORM_BY_COORDINATES = 0,
+    /// those with the same number
+    TREEFORM_BY_INDEX = 1
+};
+// end
 
 /// Somebody's arrays of points and faces.
 typedef struct treeform_arrays {
@@ -157,8 +171,9 @@ typedef struct treeform_box {
     double max[3];
 } treeform_box;
 
-/// A vertex or face of an operand, by its number within that operand; both numbers are
-/// `TREEFORM_NONE` where there is none.
+// made of <mesh/certificate.hpp>:
+//   operand_element indices strings status open_edge certificate search_effort
+/// A vertex or face of an operand: its number within that operand.
 typedef struct treeform_element {
     uint32_t operand;
     uint32_t index;
@@ -181,53 +196,84 @@ typedef struct treeform_strings {
 /// How an operation that makes a mesh has ended.
 typedef int32_t treeform_status;
 enum {
-    TREEFORM_STATUS_OK = 0,              ///< all that the operation promises was checked and holds
-    TREEFORM_STATUS_OPEN_INPUT = 1,      ///< an operand is not closed: see `open`
-    TREEFORM_STATUS_SHEET = 2,           ///< the mesh has a border, as asked for
-    TREEFORM_STATUS_EXCESSIVE_LOSS = 3,  ///< more was lost than the caller allows
-    TREEFORM_STATUS_NOT_MANIFOLD = 4,    ///< an edge of more than two faces, a vertex of two fans
-    TREEFORM_STATUS_NOT_CERTIFIED = 5,   ///< faces still meet: see `meeting`
-    TREEFORM_STATUS_VANISHED = 6,        ///< no face is left
-    TREEFORM_STATUS_OUT_OF_RANGE = 7,    ///< a coordinate is too large for the precision
-    TREEFORM_STATUS_NO_PLACE = 8,        ///< of a placement
+    /// everything that the operation promises was checked and holds
+    TREEFORM_STATUS_OK = 0,
+    /// an operand is not closed; `open` says where; no mesh is returned
+    TREEFORM_STATUS_OPEN_INPUT = 1,
+    /// the mesh has a border, as asked for; everything else holds
+    TREEFORM_STATUS_SHEET = 2,
+    /// more was lost than the caller allows
+    TREEFORM_STATUS_EXCESSIVE_LOSS = 3,
+    /// with equal coordinates joined, an edge has more than two faces, or a vertex more than one
+    /// fan
+    TREEFORM_STATUS_NOT_MANIFOLD = 4,
+    /// faces still meet in the coordinates returned; `meeting` says which
+    TREEFORM_STATUS_NOT_CERTIFIED = 5,
+    /// no face is left: the result is thinner than the coordinates can show, or faces cancel each
+    /// other out
+    TREEFORM_STATUS_VANISHED = 6,
+    /// a coordinate of the result is too large for the precision asked for
+    TREEFORM_STATUS_OUT_OF_RANGE = 7,
+    /// of a placement: there is no such place; `placement::end` says why
+    TREEFORM_STATUS_NO_PLACE = 8,
+    /// `progress` asked to stop; nothing is returned
     TREEFORM_STATUS_CANCELLED = 9
 };
 
-/// A place where a surface ends.
+/// A place where a surface ends, or where its faces do not agree in their orientation.
 typedef struct treeform_open_edge {
     treeform_element face;  ///< a face at the edge
-    double ends[2][3];
+    double ends[2][3];      ///< ends of the open part of the edge; rounded where it is cut
 } treeform_open_edge;
 
-/// What was checked of the coordinates returned.
+/// What was checked about a mesh that an operation (`treeform_boolean`,
+/// `treeform_resolve_self_intersections`, `treeform_slide`, `treeform_pack`) returns or places:
+/// with exact predicates, on the coordinates returned.
 typedef struct treeform_certificate {
     void* owner;
     treeform_status status;
-    const char* message;       ///< half a sentence for people
-    uint64_t meeting_count;    ///< pairs of faces that meet where they should not
-    const uint32_t* meeting;   ///< [meeting_listed][2] the first 100
-    const double* meeting_at;  ///< [meeting_listed][3] a corner of the first face of each
+    const char* message;  ///< half a sentence for people
+    /// Pairs of faces that meet where they should not. A face paired with itself is degenerate or
+    /// has its outside behind it. `meeting` lists the first 100.
+    uint64_t meeting_count;
+    const uint32_t* meeting;   ///< [meeting_listed][2]
+    const double* meeting_at;  ///< a corner of the first face of each pair in `meeting`
     size_t meeting_listed;
-    uint64_t open_count;             ///< edges where the surface ends
-    const treeform_open_edge* open;  ///< [open_listed] the first 100
+    /// Edges whose signed face count is not zero, in pieces where others overlap them. The first
+    /// 100 of `open_count`.
+    uint64_t open_count;
+    const treeform_open_edge* open;  ///< [open_listed]
     size_t open_listed;
-    uint64_t boundary_edges;         ///< of an odd number of faces
-    uint64_t misoriented_edges;      ///< of faces that disagree
-    double max_displacement;         ///< rounding moved no coordinate further than this
-    treeform_precision precision;    ///< of the coordinates
-    uint64_t vanished_faces;         ///< faces of the exact result, where none is left
-    double size_before, size_after;  ///< of `excessive_loss`: volume, or area
+    /// The same edges as the operands have them, with equal coordinates joined: those of an odd
+    /// number of faces, where the surface ends, and those of an even number, where faces run the
+    /// same way. Both are 0 if a vertex lies inside such an edge: edges may then fit together
+    /// piece by piece.
+    uint64_t boundary_edges;
+    uint64_t misoriented_edges;
+    /// Rounding moved no coordinate of a vertex further than this: from where it was, exactly, or,
+    /// where it is new or gone since rounding broke something, from the nearest place of the
+    /// surface. Measured; moves on the way do not add up.
+    double max_displacement;
+    treeform_precision precision;  ///< of the coordinates
+    /// Of `vanished`, the faces of the exact result, all of them thinner than the coordinates tell
+    /// apart; 0 where there were none.
+    uint64_t vanished_faces;
+    /// Of `excessive_loss`: the volume, or the area where there is no solid, before and after.
+    double size_before;
+    double size_after;
     int32_t size_is_volume;
 } treeform_certificate;
 
-/// What a search that could go on has looked at, in pairs of faces, a pair in motion counting as
-/// two: the same for the same input.
+/// What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
+/// two: the same for the same input. What it found holds either way.
 typedef struct treeform_search_effort {
-    uint64_t pairs;
-    uint64_t bound;  ///< the most that it was to look at
-    uint64_t cut;    ///< questions that took too many: where there are some, something better may
-                     ///< exist
+    uint64_t pairs;  ///< looked at
+    uint64_t bound;  ///< of these: the most that it was to look at
+    /// Questions that would have taken more than they may, a 32nd of the bound or what was left of
+    /// it: where there are some, something better may exist.
+    uint64_t cut;
 } treeform_search_effort;
+// end
 
 #ifdef __cplusplus
 }

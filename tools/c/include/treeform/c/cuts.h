@@ -16,15 +16,20 @@ typedef struct treeform_plane {
     double normal[3];
 } treeform_plane;
 
+// made of <mesh/section.hpp>:
+//   section_loop section_layer section_result
 /// A closed polygon, or, where the mesh ends, an open polyline.
 typedef struct treeform_section_loop {
     size_t first_point;  ///< its points follow one another; the first is not repeated
     size_t point_count;
     uint8_t closed;
-    uint8_t oriented;  ///< faces agree: what is inside is to the left, seen from above the plane
-    uint32_t parent;   ///< the innermost loop around it; `TREEFORM_NONE` for none
-    uint32_t depth;    ///< how many loops are around it
-    double area;       ///< positive where it runs counter-clockwise; 0 for open ones
+    /// The faces along it agree in their orientation. What is inside is to the left then, seen
+    /// from above the plane: outer loops run counter-clockwise, holes clockwise.
+    uint8_t oriented;
+    uint32_t parent;  ///< the innermost loop around it; `TREEFORM_NONE` for open ones
+    /// how many loops are around it: of a solid, holes have an odd one
+    uint32_t depth;
+    double area;  ///< positive where it runs counter-clockwise; 0 for open ones
     double length;
 } treeform_section_loop;
 
@@ -35,7 +40,7 @@ typedef struct treeform_section_layer {
     uint32_t first_loop;  ///< its loops follow one another
     uint32_t loop_count;
     uint32_t open_count;  ///< of these, open polylines
-    double area;          ///< of its loops, added up
+    double area;          ///< of its loops, added up: what is inside a solid
     double length;
 } treeform_section_layer;
 
@@ -46,11 +51,17 @@ typedef struct treeform_section_result {
     size_t layer_count;
     const treeform_section_loop* loops;  ///< [loop_count]
     size_t loop_count;
-    const double* points;   ///< [point_count][2] in the frame: (x . p, y . p) of p in space
-    const uint32_t* faces;  ///< [point_count] the face that the side from each point on lies in
+    /// [point_count][2] In the frame: of p in space, (x . p, y . p), for p within 2^-45 of its
+    /// largest coordinate.
+    const double* points;
+    /// [points] the face that the side from each point on lies in
+    const uint32_t* faces;
     size_t point_count;
-    double x[3], y[3], normal[3];  ///< the frame: axes of length 1, right-handed
+    double x[3];
+    double y[3];
+    double normal[3];
 } treeform_section_result;
+// end
 
 /// Sections of a mesh by the planes at `heights` [count] above `plane` (null: through the origin,
 /// across z): along its normal at length 1. Null and 0 heights are the plane itself. All topology
@@ -62,12 +73,15 @@ TREEFORM_C_API treeform_code treeform_section(const treeform_mesh* mesh,
                                               void* progress_data,
                                               treeform_section_result** section);
 
+// made of lists:
+//   heights
 /// Numbers.
 typedef struct treeform_heights {
     void* owner;
     const double* heights;  ///< [count]
     size_t count;
 } treeform_heights;
+// end
 
 /// Heights above `plane` (null: as above) of the middles of layers of this thickness, from the
 /// lowest point of the mesh to the highest.
@@ -80,15 +94,25 @@ TREEFORM_C_API treeform_code treeform_write_section(const char* path,
                                                     const treeform_section_result* section,
                                                     const char* format);
 
+// made of <mesh/cut.hpp>:
+//   cut_options cut_piece cut_result
 /// How to cut.
 typedef struct treeform_cut_options {
     size_t size;
-    treeform_precision precision;  ///< of the coordinates returned; default: double
-    int32_t open;                  ///< cut a surface, which may end anywhere, and make no caps
-    double max_displacement;       ///< as of `treeform_boolean_options`; default infinite
-    int32_t keep_cuts;             ///< of a mesh that meets itself, do not merge what was cut
+    /// Precision of the coordinates returned. float32 values are stored as doubles; default
+    /// float64
+    treeform_precision precision;
+    /// As in `treeform_boolean_options`: how far what rounding has broken is joined; default
+    /// infinite
+    double max_displacement;
+    /// Of a mesh that meets itself, as in `treeform_boolean_options`: where merging would mix
+    /// values (`merging_mixes_values`), faces that were cut are to stay apart.
+    int32_t keep_cuts;
     treeform_progress progress;
     void* progress_data;
+    /// Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface;
+    /// default 1
+    int32_t caps;
 } treeform_cut_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_cut_options_init(treeform_cut_options* options, size_t size);
@@ -96,20 +120,28 @@ TREEFORM_C_API void treeform_cut_options_init(treeform_cut_options* options, siz
 /// What is between two planes.
 typedef struct treeform_cut_piece {
     treeform_arrays mesh;
-    const uint32_t*
-        face_source;  ///< [F] the input's face that each lies in; `TREEFORM_NONE`: a cap
-    const uint32_t* vertex_source;  ///< [V] the input's vertex that each is; `TREEFORM_NONE`: new
-    const uint32_t* cap;            ///< [F] of a cap, the number of its plane; else `TREEFORM_NONE`
+    /// [F] face of the input that each lies in; `TREEFORM_NONE`: a cap
+    const uint32_t* face_source;
+    /// [V] vertex of the input that each is; `TREEFORM_NONE`: new
+    const uint32_t* vertex_source;
+    /// [F] of a cap, the number of its plane, from the lowest; else none
+    const uint32_t* cap;
+    /// Status ok says what it says of `treeform_boolean_result`; without caps, edges are not
+    /// looked at. A piece without faces is ok, too: there is nothing between these planes.
     const treeform_certificate* certificate;
 } treeform_cut_piece;
 
 /// Pieces, and what was checked.
 typedef struct treeform_cut_result {
     void* owner;
-    const treeform_cut_piece* pieces;  ///< [count]
+    /// [count] Of K planes, in their order along the normal, K + 1 pieces from the lowest up. None
+    /// where the certificate says why.
+    const treeform_cut_piece* pieces;
     size_t count;
-    const treeform_certificate* certificate;  ///< of the first piece that is not ok, or of the mesh
+    /// That of the first piece that is not ok, or of the mesh where it bounds no solid.
+    const treeform_certificate* certificate;
 } treeform_cut_result;
+// end
 
 /// The mesh below, between and above the planes at `heights` [count] above `plane`, as for
 /// `treeform_section`: count + 1 pieces, some perhaps without faces, each closed by caps. The mesh
@@ -125,13 +157,15 @@ TREEFORM_C_API treeform_code treeform_cut_to_fit(const treeform_mesh* mesh, cons
                                                  const treeform_cut_options* options,
                                                  treeform_cut_result** result);
 
-/// Faces of a mesh by themselves.
+// made of <mesh/cut.hpp>:
+//   mesh_part mesh_parts
+/// Faces of a mesh by themselves, with the points that they use.
 typedef struct treeform_mesh_part {
     treeform_arrays mesh;
     const uint32_t* face_source;    ///< [F] the number of each face in the whole
     const uint32_t* vertex_source;  ///< [V] that of each point; ascending
-    double volume;
-    double area;
+    double volume;                  ///< as `signed_volume`
+    double area;                    ///< as `surface_area`
 } treeform_mesh_part;
 
 /// Parts of a mesh.
@@ -140,6 +174,7 @@ typedef struct treeform_mesh_parts {
     const treeform_mesh_part* parts;  ///< [count]
     size_t count;
 } treeform_mesh_parts;
+// end
 
 /// The faces that corners link, as meshes, by their lowest faces; a cavity goes with what is around
 /// it. Parts of a volume below `min_volume` are left out (open ones have none), and all but the

@@ -18,24 +18,28 @@ typedef struct treeform_file treeform_file;
 TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
 
-/// A column of points, and another name for it.
+// made of <mesh/mesh_file.hpp>:
+//   named_column read_options
+/// A column of a table of text, by the name that it gets.
 typedef struct treeform_named_column {
-    const char* name;    ///< the new one
-    const char* source;  ///< that in the file
+    const char* name;    ///< "x", "intensity", ...
+    const char* source;  ///< what the heading calls it, or its number, from 1
 } treeform_named_column;
 
 /// How to read.
 typedef struct treeform_read_options {
     size_t size;
-    const char* format;  ///< as for `treeform_read`
-    /// [column_count] of XYZ, PTS and CSV: names for columns; `source` is what the heading says, or a
-    /// number from 1. Those for x, y and z are the coordinates.
+    const char* format;  ///< null: by content
+    /// [column_count] Of XYZ, PTS and CSV: names for columns. Those for x, y and z are the
+    /// coordinates.
     const treeform_named_column* columns;
     size_t column_count;
-    int32_t drop_nan;  ///< drop points with a NaN or infinite coordinate, and their faces
+    /// `mesh_file::drop_non_finite`, which a warning says; of `treeform_read` alone
+    int32_t drop_nan;
 } treeform_read_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_read_options_init(treeform_read_options* options, size_t size);
+// end
 
 /// Reads the file at `path` as `treeform_read` does; options may be null.
 TREEFORM_C_API treeform_code treeform_read_as(const char* path,
@@ -52,6 +56,8 @@ TREEFORM_C_API treeform_code treeform_file_create(const treeform_mesh* mesh, tre
 /// A copy of a file.
 TREEFORM_C_API treeform_code treeform_file_copy(const treeform_file* file, treeform_file** copy);
 
+// made of <mesh/attributes.hpp> <mesh/mesh_file.hpp>:
+//   scalar_type column element part io_warning mesh_file
 /// The type of the values of a column.
 typedef int32_t treeform_scalar;
 enum {
@@ -71,70 +77,83 @@ enum {
 typedef struct treeform_column {
     const char* name;
     treeform_scalar type;
-    int32_t is_list;
-    int32_t is_stored_elsewhere;  ///< it stands for coordinates, corners or texture coordinates
-    const void* values;           ///< [value_count]
+    int32_t is_list;              ///< a row has a list of values
+    int32_t is_stored_elsewhere;  ///< it stands for what points and faces hold
+    const void* values;           ///< [value_count] of the type
     size_t value_count;
     const uint64_t* list_begin;  ///< [rows + 1] of lists; else null
 } treeform_column;
 
-/// A kind of row in a file: "vertex", "face", "edge", ...
+/// A kind of row in a file, such as vertices, with its properties in the order of the file.
 typedef struct treeform_rows {
-    const char* name;
+    const char* name;  ///< "vertex", "face", "edge", ...
     size_t rows;
     const treeform_column* columns;  ///< [column_count]
     size_t column_count;
 } treeform_rows;
 
-/// Consecutive faces that a file puts under one name; until the next one starts.
+/// Consecutive faces that a file puts under one name. A part ends where the next one starts.
 typedef struct treeform_named_faces {
-    const char* object;
-    const char* group;
-    const char* material;
-    uint32_t first_face;  ///< number in the file
+    const char* object;    ///< OBJ `o`, the name of an STL solid or of a scene's node
+    const char* group;     ///< OBJ `g`
+    const char* material;  ///< OBJ `usemtl`
+    uint32_t first_face;   ///< number in the file
 } treeform_named_faces;
 
-/// Something that a person should know about a file.
+/// Something that a person should know about a file that was read or written.
 typedef struct treeform_warning {
-    const char* code;  ///< "trailing-bytes", "precision", ...
-    const char* text;
+    const char* code;  ///< stable, for scripts: "trailing-bytes", "precision"
+    const char* text;  ///< for people
 } treeform_warning;
 
-/// All that is in a file. Arrays that it points to are the file's: they stay until the file is
-/// changed or freed, the view until it is freed.
+/// The content of a file. Points and faces keep the order and the numbers that they have in it:
+/// nothing is joined, split, reordered or dropped.
 typedef struct treeform_file_view {
     void* owner;
-    treeform_arrays mesh;
-    const uint32_t*
-        stored_face;      ///< [F] the file's face that each triangle is of; null: its number
+    treeform_arrays mesh;  ///< polygons are cut into a fan from their first corner
+    /// [F] the file's number of the face that each triangle comes from; empty when all faces are
+    /// triangles.
+    const uint32_t* stored_face;
     size_t stored_faces;  ///< faces in the file
-    int32_t indexed;      ///< the format numbers its vertices
+    int32_t indexed;      ///< the format numbers its vertices (STL does not)
+    /// float32 when every coordinate is a float32 value, or was one before the transform of its
+    /// node.
     treeform_precision stored_as;
-    const char* format;  ///< "stl-binary", "ply-ascii", ...
-    const treeform_warning* warnings;
+    const char* format;                ///< "stl-binary", "ply-ascii", "obj", ...
+    const treeform_warning* warnings;  ///< [warning_count]
     size_t warning_count;
+    /// [element_count] In the order of the file. "vertex" has a row for each point, "face" one for
+    /// each face as stored.
     const treeform_rows* elements;
     size_t element_count;
+    /// [part_count] by ascending first face; empty when nothing is named
     const treeform_named_faces* parts;
     size_t part_count;
     const double* texture;  ///< [texture_count][3] u, v, w
     size_t texture_count;
     const double* normals;  ///< [normal_count][3]
     size_t normal_count;
-    const uint32_t* texture_of_corner;  ///< [F][3] numbers in `texture`; or null
-    const uint32_t* normal_of_corner;   ///< [F][3] numbers in `normals`; or null
+    /// [F] numbers in `texture`; empty: no corner has any
+    const uint32_t* texture_of_corner;
+    /// [F] numbers in `normals`; empty: no corner has any
+    const uint32_t* normal_of_corner;
+    /// [material_file_count] OBJ `mtllib`, as in the file
     const char* const* material_files;
     size_t material_file_count;
+    /// [texture_file_count] PLY: the names in the lines `comment TextureFile NAME`. The property
+    /// "texnumber" of faces is a number in this list, from 0; without it, faces use the first.
     const char* const* texture_files;
     size_t texture_file_count;
+    /// [comment_count] PLY: one line each, without those of texture files
     const char* const* comments;
     size_t comment_count;
-    const char* const* obj_info;
+    const char* const* obj_info;  ///< [obj_info_count] PLY: one line each
     size_t obj_info_count;
     int32_t is_las;
     double las_scale[3];
     double las_offset[3];
 } treeform_file_view;
+// end
 
 /// Looks into a file.
 TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
@@ -191,24 +210,38 @@ TREEFORM_C_API treeform_code treeform_file_transform(treeform_file* file, const 
 /// Turns the normals of the file as a matrix does; where it mirrors, for faces that are turned over.
 TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix);
 
+// made of <mesh/write.hpp>:
+//   write_options write_result
 /// How to write.
 typedef struct treeform_write_options {
     size_t size;
-    const char* format;  ///< extension without its dot; null: that of the path
-    int32_t ascii;       ///< text when the format has text and binary
-    int32_t precision;   ///< a `treeform_precision`; -1: as the coordinates were stored
-    /// The coordinates are certified: fail rather than round them. For `treeform_write_mesh`.
+    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
+    /// that of the path.
+    const char* format;
+    /// Write text when the format has text and binary. Binary PLY is little endian unless the file
+    /// was read from a big endian one. PCD is compressed only when it was read from a compressed
+    /// one.
+    int32_t ascii;
+    /// Precision of the coordinates; `TREEFORM_NONE`: as they were stored. Binary STL and GLB hold
+    /// float32 only. 3MF holds doubles, but its readers make floats of them: none is float32
+    /// there.; a `treeform_precision`, or -1
+    int32_t precision;
+    /// the coordinates are certified: fail rather than round them. For `treeform_write_mesh`
     int32_t certified;
-    /// Told 0 when the writing begins, and 1 before the file appears, which it does not where this
-    /// returns other than 0. May be null.
+    /// Told 0 when the writing begins and while it goes on, and 1 before the file appears. Where
+    /// it returns false, nothing appears: what was at the path stays as it was.
     treeform_progress progress;
     void* progress_data;
-    const char* const* drop;  ///< [drop_count] columns of points that are not written
+    /// [drop_count] Columns of points that are not written; "normal", "uv" or "color" for all of
+    /// that kind, also those of corners.
+    const char* const* drop;
     size_t drop_count;
-    const treeform_named_column* rename;  ///< [rename_count] columns of points with other names
+    /// [rename_count] of points: `source` is the column, `name` the new one
+    const treeform_named_column* rename;
     size_t rename_count;
-    const double* las_scale;   ///< [3] of LAS and LAZ; null: of the file, else chosen
-    const double* las_offset;  ///< [3]
+    /// [3] Of LAS and LAZ; `TREEFORM_NONE`: those of the file, else as below; or null
+    const double* las_scale;
+    const double* las_offset;  ///< [3] ; or null
 } treeform_write_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_write_options_init(treeform_write_options* options, size_t size);
@@ -216,12 +249,14 @@ TREEFORM_C_API void treeform_write_options_init(treeform_write_options* options,
 /// What was written.
 typedef struct treeform_written {
     void* owner;
-    const char* format;  ///< "stl-binary", ...
+    const char* format;  ///< "stl-binary", "ply-ascii", "obj", ...
     treeform_precision written_as;
-    double max_displacement;  ///< largest change of a coordinate by rounding
-    const treeform_warning* warnings;
+    /// Largest change of a coordinate by rounding to `written_as`.
+    double max_displacement;
+    const treeform_warning* warnings;  ///< [warning_count]
     size_t warning_count;
 } treeform_written;
+// end
 
 /// Writes a file to `path`, whole or not at all; "-" is standard output. `written` may be null.
 TREEFORM_C_API treeform_code treeform_write(const char* path, const treeform_file* file,
@@ -245,30 +280,35 @@ TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
                                                    const treeform_write_options* options,
                                                    treeform_bytes** bytes);
 
-/// The part of a file's mesh to work on, ready for every verb: finite faces, and the number in the
-/// file of each.
+// made of <mesh/as_mesh.hpp>:
+//   usable_mesh part_options
+/// A mesh without NaN or infinite coordinates, and the file's number of each face.
 typedef struct treeform_part {
     void* owner;
     treeform_arrays mesh;
-    const uint32_t*
-        triangle_of_face;          ///< [F] the file's triangle that each face is; null: its number
+    /// [F] the file's triangle that each face is; null: its number
+    const uint32_t* triangle_of_face;
     const uint32_t* face_in_file;  ///< [F] the number in the file, counting polygons
     const uint32_t* component;     ///< [F] with `details`: the component; else null
     uint64_t dropped;              ///< triangles with a coordinate that is not finite
-    uint64_t degenerate;           ///< with `details`: triangles that are a segment or a point
-    uint64_t joined;               ///< points merged by tolerance
+    uint64_t degenerate;           ///< likewise: triangles that are a segment or a point
+    uint64_t joined;               ///< likewise: points merged by tolerance
 } treeform_part;
 
-/// Which part.
+/// Which part of a mesh.
 typedef struct treeform_part_options {
     size_t size;
-    treeform_vertices vertices;  ///< by coordinates: points with equal ones are joined. Default
-    double tolerance;            ///< if greater than 0, points within it are joined
-    const treeform_box* box;     ///< only faces that meet it; or null
-    int32_t details;
+    /// Whether points with equal coordinates are one vertex.
+    treeform_vertices vertices;
+    /// If greater than 0, equal points are joined first, then points within this distance, as by
+    /// `treeform_weld`.
+    double tolerance;
+    const treeform_box* box;  ///< only faces that meet it; or null
+    int32_t details;          ///< find `component` and `distinct`, too
 } treeform_part_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_part_options_init(treeform_part_options* options, size_t size);
+// end
 
 /// The part of a file's mesh that can be used. Points that only faces left out use go, too.
 TREEFORM_C_API treeform_code treeform_usable_part(const treeform_file* file,
@@ -309,9 +349,17 @@ typedef struct treeform_scene_parts {
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
                                                   treeform_scene_parts** parts);
 
+// made of <mesh/read.hpp>:
+//   file_content
 /// Which files of a folder are meant.
 typedef int32_t treeform_file_content;
-enum { TREEFORM_MESHES = 0, TREEFORM_MESHES_AND_POINTS = 1 };
+enum {
+    /// STL, OBJ, PLY, OFF, 3MF, GLB, glTF
+    TREEFORM_MESHES = 0,
+    /// also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
+    TREEFORM_MESHES_AND_POINTS = 1
+};
+// end
 /// `paths` [count] with each folder replaced by the files in it of such a format.
 TREEFORM_C_API treeform_code treeform_files_of(const char* const* paths, size_t count,
                                                treeform_file_content content,
@@ -324,55 +372,67 @@ TREEFORM_C_API int32_t treeform_reads_scenes(void);
 /// A robot.
 typedef struct treeform_robot treeform_robot;
 
+// made of <mesh/read.hpp>:
+//   urdf_options
 /// How to read a robot.
 typedef struct treeform_robot_options {
     size_t size;
-    int32_t visual;                      ///< the meshes that are for show, not those for collisions
-    const char* const* package_folders;  ///< [package_folder_count] where packages are; or null
+    int32_t visual;  ///< the meshes that are for show, not those for collisions
+    /// [package_folder_count] Where packages are: `package://name/rest` is FOLDER/name/rest or
+    /// FOLDER/rest for one of these; else it is looked for in the file's folder and those above it
+    /// in the same way.
+    const char* const* package_folders;
     size_t package_folder_count;
 } treeform_robot_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_robot_options_init(treeform_robot_options* options, size_t size);
+// end
 
 /// Reads a URDF file.
 TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
                                                 const treeform_robot_options* options,
                                                 treeform_robot** robot);
 
-/// A mesh of a link, in a file, or made of a box, cylinder or sphere: `place` takes its points into
-/// the link's frame.
+// made of <mesh/read.hpp>:
+//   urdf_mesh urdf_joint urdf_robot
+/// A mesh of a link, in a file, or made here: `place` takes its points into the link's frame.
 typedef struct treeform_robot_mesh {
     uint32_t link;
-    const char* file;  ///< "" where it was made
-    double place[12];
+    const char* file;      ///< "" where it was made
+    double place[12];      ///< the origin, and the scale of the mesh
     const double* points;  ///< [point_count][3] as made
     size_t point_count;
     const uint32_t* faces;  ///< [face_count][3]
     size_t face_count;
 } treeform_robot_mesh;
 
-/// A joint.
+/// A joint: the child's frame is that of the parent, times `origin`, times the motion of the
+/// joint.
 typedef struct treeform_robot_joint {
     const char* name;
-    int32_t kind;  ///< 0 fixed, 1 revolute, 2 continuous, 3 prismatic
-    uint32_t parent;
+    int32_t kind;
+    uint32_t parent;  ///< numbers of links
     uint32_t child;
-    double lower, upper;  ///< limits; NaN for none
+    double lower;  ///< the limits; NaN for none
+    double upper;
 } treeform_robot_joint;
 
-/// What is in a robot; it stays until it is freed.
+/// A robot.
 typedef struct treeform_robot_view {
     void* owner;
     const char* name;
-    const char* const* links;  ///< [link_count]
+    const char* const* links;  ///< [L] names, in the order of the file
     size_t link_count;
-    const treeform_robot_joint* joints;  ///< [joint_count]
+    /// [joint_count] parents ahead of their children
+    const treeform_robot_joint* joints;
     size_t joint_count;
     const treeform_robot_mesh* meshes;  ///< [mesh_count] by links
     size_t mesh_count;
-    const uint32_t* adjacent;  ///< [adjacent_count][2] pairs of links that need not be compared
+    /// [adjacent_count][2] pairs of links that need not be compared
+    const uint32_t* adjacent;
     size_t adjacent_count;
 } treeform_robot_view;
+// end
 
 /// Looks into a robot.
 TREEFORM_C_API treeform_code treeform_robot_look(const treeform_robot* robot,

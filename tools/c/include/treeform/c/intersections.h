@@ -10,26 +10,39 @@
 extern "C" {
 #endif
 
-/// How two faces meet. Each pair has exactly one kind.
+// made of <mesh/self_intersections.hpp>:
+//   pair_kind
+/// How two faces meet. Each pair has exactly one kind. A shared corner is one that both faces
+/// have; see `vertex_identity`.
 typedef int32_t treeform_pair_kind;
 enum {
-    TREEFORM_CROSSING = 0,   ///< no shared corner; they pass through each other
-    TREEFORM_OVERLAP = 1,    ///< coplanar, with a common area
-    TREEFORM_FOLD = 2,       ///< a shared edge; coplanar, on the same side of it
-    TREEFORM_DUPLICATE = 3,  ///< the same three corners
-    TREEFORM_PIERCE = 4,     ///< one shared corner; they pass through each other
-    TREEFORM_TOUCHING = 5,   ///< contact without crossing
-    TREEFORM_DEGENERATE = 6  ///< they meet, and one of them has no area
+    /// no shared corner; the interiors pass through each other
+    TREEFORM_CROSSING = 0,
+    /// at most one shared corner; coplanar, with a common area
+    TREEFORM_OVERLAP = 1,
+    /// a shared edge; coplanar, on the same side of it
+    TREEFORM_FOLD = 2,
+    /// the same three corners, in either orientation
+    TREEFORM_DUPLICATE = 3,
+    /// one shared corner; the interiors pass through each other
+    TREEFORM_PIERCE = 4,
+    /// contact without crossing: a point or a segment on the rim of one of them
+    TREEFORM_TOUCHING = 5,
+    /// they meet, and one of them has no area
+    TREEFORM_DEGENERATE = 6
 };
+// end
 
 /// All kinds. A set of kinds is a sum of `1u << kind`.
 #define TREEFORM_ALL_KINDS 127u
 
+// made of <mesh/self_intersections.hpp>:
+//   face_pair self_intersection_result self_intersection_options
 /// Two faces that meet.
 typedef struct treeform_face_pair {
-    uint32_t a;
+    uint32_t a;  ///< the lower face number
     uint32_t b;
-    uint8_t kind;  ///< a `treeform_pair_kind`
+    uint8_t kind;  ///<  (a `treeform_pair_kind`)
 } treeform_face_pair;
 
 /// Pairs of faces that meet.
@@ -37,26 +50,31 @@ typedef struct treeform_pairs {
     void* owner;
     const treeform_face_pair* pairs;  ///< [count] ascending by (a, b)
     size_t count;
-    uint64_t counts[7];  ///< by kind, of all pairs, listed or not
+    uint64_t counts[7];  ///< by kind
     uint64_t box_pairs;  ///< pairs of faces whose boxes overlap
 } treeform_pairs;
 
 /// Which pairs to look for.
 typedef struct treeform_self_intersections_options {
     size_t size;
-    treeform_vertices vertices;         ///< default: by coordinates
-    int32_t first_only;                 ///< stop at the first pair found
-    uint32_t kinds;                     ///< default: all
-    int32_t between;                    ///< only pairs of faces of different components
-    int32_t within;                     ///< only pairs of faces of one component
+    /// Which corners two faces share: those with equal coordinates, or with the same number.
+    treeform_vertices vertices;
+    /// Stop at the first pair found: the same pair on any number of threads.
+    int32_t first_only;
+    uint32_t kinds;   ///< Kinds to look for; the others are neither counted nor listed.
+    int32_t between;  ///< only pairs of faces of different components
+    int32_t within;   ///< only pairs of faces of one component
     const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
-    uint64_t limit;                     ///< list at most this many; all are counted. Default: all
+    /// List at most this many pairs, those of the lowest face numbers. All are counted; default
+    /// all
+    uint64_t limit;
     treeform_progress progress;
     void* progress_data;
 } treeform_self_intersections_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_self_intersections_options_init(
     treeform_self_intersections_options* options, size_t size);
+// end
 
 /// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
 /// Exact on the coordinates as given.
@@ -64,13 +82,15 @@ TREEFORM_C_API treeform_code treeform_self_intersections(
     const treeform_mesh* mesh, const treeform_self_intersections_options* options,
     treeform_pairs** pairs);
 
+// made of <mesh/self_intersections.hpp>:
+//   intersection_region intersection_regions
 /// Faces that meet, in one place of the mesh.
 typedef struct treeform_region {
     const uint32_t* faces;  ///< [face_count] ascending
     size_t face_count;
-    double min[3];
+    double min[3];  ///< box of these faces
     double max[3];
-    uint64_t pairs;
+    uint64_t pairs;  ///< pairs in this region
 } treeform_region;
 
 /// All regions, and the region of each pair.
@@ -78,22 +98,31 @@ typedef struct treeform_regions {
     void* owner;
     const treeform_region* regions;  ///< [count] in the order of their lowest face
     size_t count;
-    const uint32_t* region_of_pair;  ///< [pair_count]
+    const uint32_t* region_of_pair;  ///< [pairs]
     size_t pair_count;
 } treeform_regions;
+// end
 
 /// Groups the faces in `pairs` [count] into regions: those that a pair or a shared corner links.
 TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
                                                   const treeform_face_pair* pairs, size_t count,
                                                   treeform_regions** regions);
 
-/// Which pairs to look for, and where the meshes are.
+// made of <mesh/intersections.hpp>:
+//   mesh_intersection_options
+/// Which pairs of faces to look for, and where the meshes are.
 typedef struct treeform_intersections_options {
     size_t size;
-    const double* move_a;  ///< [12] a matrix, or null; the answer is exact for the moved corners
-    const double* move_b;
+    /// [12] Applied to each mesh first. A moved corner is what `transform::operator()` gives,
+    /// rounded to double; the answer is exact for these coordinates. A prepared mesh itself is not
+    /// changed; or null
+    const double* move_a;
+    const double* move_b;  ///< [12] ; or null
+    /// Stop at the first pair found: the same pair on any number of threads.
     int32_t first_only;
-    uint32_t kinds;
+    uint32_t kinds;  ///< Kinds to look for; the others are neither counted nor listed.
+    /// List at most this many pairs, those of the lowest face numbers. All are counted; default
+    /// all
     uint64_t limit;
     treeform_progress progress;
     void* progress_data;
@@ -101,6 +130,7 @@ typedef struct treeform_intersections_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_intersections_options_init(treeform_intersections_options* options,
                                                         size_t size);
+// end
 
 /// All pairs of a face of `a` and a face of `b` that have a common point; exact. Surfaces count,
 /// not solids.
@@ -126,18 +156,21 @@ TREEFORM_C_API treeform_code treeform_faces_in_box(const treeform_mesh* mesh,
                                                    const treeform_box* box,
                                                    treeform_indices** faces);
 
+// made of <mesh/curves.hpp>:
+//   curve_segment segments
 /// What two faces have in common, or one side of it.
 typedef struct treeform_segment {
     double ends[2][3];  ///< equal when the faces meet in a point
-    uint32_t pair;      ///< number of the pair
+    uint32_t pair;      ///< index into the pairs given
 } treeform_segment;
 
-/// Segments.
+/// Segments, in the order of the pairs.
 typedef struct treeform_segments {
     void* owner;
-    const treeform_segment* segments;  ///< [count] in the order of the pairs
+    const treeform_segment* segments;  ///< [count]
     size_t count;
 } treeform_segments;
+// end
 
 /// What the two faces of each pair have in common: that there is something is exact, ends are
 /// rounded.
@@ -146,21 +179,27 @@ TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* m
                                                           size_t count,
                                                           treeform_segments** segments);
 
-/// A path of different points, each joined to the next.
+// made of <mesh/curves.hpp>:
+//   curve_path curve_network
+/// A path of different points, each joined to the next by a segment.
 typedef struct treeform_path {
-    const uint32_t* points;  ///< [count] numbers in `treeform_paths::points`
+    /// [count] numbers in `curve_network::points`; one or more
+    const uint32_t* points;
     size_t count;
     int32_t closed;  ///< a segment leads from the last point to the first
 } treeform_path;
 
-/// Curves.
+/// All curves of a mesh.
 typedef struct treeform_paths {
     void* owner;
     const double* points;  ///< [point_count][3]
     size_t point_count;
-    const treeform_path* paths;  ///< [path_count]
+    /// [path_count] First the paths between points where one segment, or more than two, end. Then
+    /// closed paths. Last single points, where faces meet in one point and no segment ends.
+    const treeform_path* paths;
     size_t path_count;
 } treeform_paths;
+// end
 
 /// The segments joined into paths where their ends are equal as exact points. Faces of the pairs
 /// must have an area.
@@ -178,19 +217,22 @@ TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treef
 TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
                                                   const treeform_face_pair* pairs, size_t count);
 
+// made of <mesh/self_intersections.hpp>:
+//   stream_search_options stream_search_result
 /// How to search a file that is larger than memory.
 typedef struct treeform_search_file_options {
     size_t size;
-    int32_t vertices;         ///< a `treeform_vertices`; -1: as the format has them
-    uint32_t kinds;           ///< default: all
+    /// none: by coordinates for STL, else by index; a `treeform_vertices`, or -1
+    int32_t vertices;
+    uint32_t kinds;
     const treeform_box* box;  ///< only faces that meet it; or null
-    const char* format;       ///< null: by content
-    uint64_t memory;     ///< bytes that the process may take; 0: three quarters of the machine's
-    const char* folder;  ///< for the tiles; null: the input's name and ".search-tiles"
-    uint64_t faces_per_tile;  ///< 0: as the memory allows
+    const char* format;       ///< of the input, as for `treeform_read`
+    uint64_t memory;          ///< bytes that the process may take; 0: `treeform_default_memory`
+    const char* folder;       ///< for the tiles; empty: the input's name and ".search-tiles"
+    uint64_t faces_per_tile;  ///< at most about this many; 0: as the memory allows
     treeform_progress progress;
     void* progress_data;
-    const treeform_team* team;  ///< not for `treeform_search_create`; null: this process alone
+    const treeform_team* team;  ///< not for `stream_search`; or null
 } treeform_search_file_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_search_file_options_init(treeform_search_file_options* options,
@@ -201,16 +243,18 @@ typedef struct treeform_search_result {
     void* owner;
     treeform_arrays mesh;          ///< only the faces that meet others
     const uint32_t* face_in_file;  ///< [F] their numbers in the file
-    const treeform_pairs* found;   ///< pairs of faces of `mesh`
-    uint64_t stored_faces;         ///< faces of the file
-    uint64_t triangles;            ///< that they are cut into
-    uint64_t searched;             ///< triangles that are finite, and meet the box
-    uint64_t points;
-    uint64_t degenerate;  ///< triangles without area
-    uint64_t dropped;     ///< triangles that are not finite
+    /// Pairs of faces of `treeform_named_faces`. Its counters are sums over the tiles.
+    const treeform_pairs* found;
+    uint64_t stored_faces;  ///< faces of the file
+    uint64_t triangles;     ///< that they are cut into
+    uint64_t searched;      ///< triangles that are finite, and meet the box
+    uint64_t points;        ///< of the file; three a face for STL
+    uint64_t degenerate;    ///< triangles without area
+    uint64_t dropped;       ///< triangles that are not finite
     size_t tiles;
     size_t finished_tiles;  ///< by an earlier run
 } treeform_search_result;
+// end
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file (binary STL, or
 /// PLY), for files larger than memory. The folder stays when the process is killed, and the same

@@ -101,12 +101,14 @@ TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_
 TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
                                                       treeform_precision precision, double* step);
 
+// made of <mesh/rounding.hpp>:
+//   rounding_options rounding_effects
 /// Which rounding to look at.
 typedef struct treeform_rounding_options {
     size_t size;
-    treeform_precision before;  ///< of the points before the move; default double
-    treeform_precision after;   ///< of `placed`; default double
-    int32_t always_compare;     ///< compare faces even where coordinates are not coarser
+    treeform_precision before;  ///< of the points before the move; default float64
+    treeform_precision after;   ///< of what is written; default float64
+    int32_t always_compare;     ///< also compare where the step is too small to be noticed
     treeform_progress progress;
     void* progress_data;
 } treeform_rounding_options;
@@ -117,12 +119,14 @@ TREEFORM_C_API void treeform_rounding_options_init(treeform_rounding_options* op
 typedef struct treeform_rounding {
     void* owner;
     double max_displacement;  ///< largest change of a coordinate, apart from the move
-    double step;              ///< between neighboring numbers at the largest coordinate
-    int32_t noticeable;  ///< doubles became floats, or a change is over a millionth of the size
-    int32_t compared;    ///< faces were compared
+    double step;              ///< between neighboring numbers, at the largest coordinate written
+    /// Doubles have become float32, or a change is more than a millionth of the size.
+    int32_t noticeable;
+    int32_t compared;    ///< faces were compared, because coordinates are coarser now
     uint64_t collapsed;  ///< faces that have lost their area
     uint64_t meeting;    ///< pairs of faces that meet now, and did not before
 } treeform_rounding;
+// end
 
 /// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved).
 /// Exact: faces that meet now, and did not, are found by `treeform_self_intersections`.

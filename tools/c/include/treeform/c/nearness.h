@@ -48,9 +48,12 @@ TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, con
                                                      size_t count, double radius,
                                                      double* distances);
 
-/// Where a point is.
+// made of <mesh/point_location.hpp>:
+//   location
+/// Where a point is with respect to a surface or curve.
 typedef int32_t treeform_location;
 enum { TREEFORM_OUTSIDE = 0, TREEFORM_INSIDE = 1, TREEFORM_BOUNDARY = 2 };
+// end
 
 /// Where `points` [count][3] are with respect to a closed mesh, exactly: `where` [count] (a
 /// `treeform_location` each), `winding` [count] how often the surface winds around the point, `on`
@@ -84,14 +87,18 @@ typedef struct treeform_ray {
     double t_max;
 } treeform_ray;
 
-/// A face that a ray hits.
+// made of <mesh/raycast.hpp>:
+//   mesh_hit
+/// A face that a ray hits. The point hit is origin + t direction.
 typedef struct treeform_hit {
-    uint32_t face;     ///< `TREEFORM_NONE`: no hit
-    uint8_t at;        ///< 0 to 2 a corner, 3 to 5 an edge (from corner 0, 1, 2 on), 6 the interior
+    uint32_t face;
+    /// corner, edge or interior that holds the first common point (a `uint8_t`)
+    uint8_t at;
     uint8_t coplanar;  ///< the ray runs in the face's plane, or the face has no area
-    double t;          ///< of the first common point
-    double t_end;      ///< of the last one; equal to t unless coplanar
+    double t;          ///< of the first common point; relative error below 2^-40
+    double t_end;      ///< of the last common point; equal to t unless coplanar
 } treeform_hit;
+// end
 
 /// `hits` [count]: the face that each ray hits first, exactly; of several at one point the lowest.
 TREEFORM_C_API treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays,
@@ -115,13 +122,16 @@ TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
                                                   const treeform_ray* rays, size_t count,
                                                   treeform_hits** hits);
 
-/// How two meshes lie to each other, or one to several. The last two occur with a clearance.
+// made of <mesh/measure.hpp> <mesh/placement.hpp>:
+//   standing mesh_measure measure_options
+/// How a mesh lies to all fixed meshes. The last two occur only with a clearance.
 typedef int32_t treeform_standing;
 enum {
     TREEFORM_SEPARATE = 0,
-    TREEFORM_MEETING = 1,  ///< touching: a common point, and they do not penetrate
+    TREEFORM_MEETING = 1,
     TREEFORM_PENETRATING = 2,
     TREEFORM_TOO_CLOSE = 3,
+    /// separate, by the clearance or more
     TREEFORM_CLEAR = 4
 };
 
@@ -129,30 +139,38 @@ enum {
 typedef struct treeform_relation {
     void* owner;
     treeform_standing how;
-    uint32_t face_a;  ///< faces that show why; 0 when separate
+    /// Faces that show why: two that pass through each other, overlap on the same side of both, or
+    /// touch. For a mesh inside the other, or reaching into it, the lowest face there. Both are 0
+    /// when the meshes are separate.
+    uint32_t face_a;
     uint32_t face_b;
-    int32_t a_inside_b;  ///< a part of `a` lies inside `b` and does not touch it
-    int32_t b_inside_a;
-    double distance;          ///< 0 if and only if they touch or penetrate
-    double surface_distance;  ///< 0 if and only if faces meet
-    uint32_t nearest_a;       ///< faces that hold the nearest points of the surfaces
-    uint32_t nearest_b;
-    double on_a[3];
-    double on_b[3];
-    double barycentric_a[3];  ///< weights of the corners of the faces that give the points
-    double barycentric_b[3];
+    /// a part of `a` lies inside the solid `b` and does not touch `b`
+    int32_t a_inside_b;
+    int32_t b_inside_a;  ///< the same with `a` and `b` exchanged
+    /// Not squared. 0 if and only if the meshes touch or penetrate each other.
+    double distance;
+    /// Exactly 0 if and only if a face of one meets a face of the other. So it is positive for a
+    /// mesh inside a solid whose surface it does not touch.
+    double surface_distance;
+    uint32_t nearest_a;       ///< the face of `a` that `on_a` is on
+    uint32_t nearest_b;       ///< the face of `b` that `on_b` is on
+    double on_a[3];           ///< the nearest point on the surface of `a`
+    double on_b[3];           ///< the nearest point on the surface of `b`
+    double barycentric_a[3];  ///< of it in that face
+    double barycentric_b[3];  ///< of it in that face
 } treeform_relation;
 
-/// How to measure.
+/// How far to look.
 typedef struct treeform_measure_options {
     size_t size;
-    double radius;  ///< default: infinite
-    treeform_vertices vertices;
+    double radius;               ///< inclusive; default infinite
+    treeform_vertices vertices;  ///< as in `treeform_relation`
     treeform_progress progress;
     void* progress_data;
 } treeform_measure_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
+// end
 
 /// The relation of two meshes, their distance and nearest points; null when one has no faces, or
 /// they are separate and further apart than the radius. The relation is exact.
@@ -164,17 +182,23 @@ TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const tree
 TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
                                              treeform_vertices vertices, treeform_standing* how);
 
+// made of <mesh/measure.hpp>:
+//   depth_options
 /// How to look for a way out.
 typedef struct treeform_depth_options {
     size_t size;
-    uint64_t directions;  ///< tried beside those of faces that meet; default 256
-    uint64_t effort;      ///< pairs of faces to look at, at most; 0: by the input
-    treeform_vertices vertices;
+    /// spread over the sphere, tried beside those of faces that meet; default 256
+    uint64_t directions;
+    /// Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20 million
+    /// and 200 for each face.
+    uint64_t effort;
+    treeform_vertices vertices;  ///< as in `treeform_relation`
     treeform_progress progress;
     void* progress_data;
 } treeform_depth_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_depth_options_init(treeform_depth_options* options, size_t size);
+// end
 
 /// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
 /// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate. What
@@ -195,14 +219,15 @@ TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t c
                                                   const treeform_mesh* const* solids,
                                                   size_t solid_count, uint64_t counts[3]);
 
-/// How to compare.
+// made of <mesh/deviation.hpp>:
+//   deviation_options deviation_result
+/// What to find besides distances.
 typedef struct treeform_deviation_options {
     size_t size;
-    double
-        band_low;  ///< signed distances from here to `band_high` are within tolerance; NaN: no band
+    double band_low;  ///< signed distances within tolerance; NaN: no band
     double band_high;
-    uint64_t bins;      ///< of the histogram; default 40
-    int32_t both_ways;  ///< also look from `b` to `a`; default 1
+    uint64_t bins;      ///< of the histogram; 0: none; default 40
+    int32_t both_ways;  ///< also look from the points of `b` to `a`; default 1
     treeform_progress progress;
     void* progress_data;
 } treeform_deviation_options;
@@ -210,36 +235,39 @@ typedef struct treeform_deviation_options {
 TREEFORM_C_API void treeform_deviation_options_init(treeform_deviation_options* options,
                                                     size_t size);
 
-/// How far the points of `a` are from the surface of `b`.
+/// How far points are from a surface.
 typedef struct treeform_deviation_result {
     void* owner;
-    const double* distances;  ///< [count] negative inside `b`
-    const uint32_t* faces;    ///< [count] the nearest face of `b`
+    /// [V] of `a`: the distance of each point from the surface of `b`, negative inside the solid
+    /// that `b` bounds, exactly 0 on its surface. Not negative when `b` bounds none.
+    const double* distances;
+    const uint32_t* faces;  ///< [V] the nearest face of `b`
     size_t count;
-    int32_t is_signed;  ///< `b` is closed, so that distances have a sign
-    double mean;
-    double mean_absolute;
-    double rms;
-    double p50;
-    double p95;
-    double p99;
-    double max;
-    uint32_t worst;  ///< the lowest point with that distance
-    double lowest;
-    double highest;
-    double there_sampled;  ///< the largest distance over the points of `a`
-    double there_at_most;  ///< no point of the surface `a` is further away
-    double back_sampled;   ///< from `b` to `a`; NaN where not asked for
+    int32_t is_signed;     ///< Whether `b` is closed, so that distances have a sign.
+    double mean;           ///< of the signed distances
+    double mean_absolute;  ///< of their magnitudes, as are the six below
+    double rms;            ///< root mean square
+    double p50;            ///< the least value that half of the magnitudes do not exceed
+    double p95;            ///< 95 % are not above it
+    double p99;            ///< 99 % are not above it
+    double max;            ///< the largest magnitude
+    uint32_t worst;        ///< the lowest point with that distance
+    double lowest;         ///< the least signed distance
+    double highest;        ///< the greatest signed distance
+    double there_sampled;  ///< over the points of the first
+    double there_at_most;  ///< a bound for its surface
+    double back_sampled;   ///< the other way; NaN unless `both_ways`
     double back_at_most;
     double histogram_low;
     double histogram_high;
     const uint64_t* histogram;  ///< [bins]
     size_t bins;
-    uint64_t below;  ///< points below, in and above the band
+    uint64_t below;  ///< the band
     uint64_t within;
     uint64_t above;
-    uint64_t sides[3];  ///< points inside, on and outside the solid; 0 unless `is_signed`
+    uint64_t sides[3];  ///< points inside, on and outside
 } treeform_deviation_result;
+// end
 
 /// Signed distances of the points of `a` from the surface of `fixed` [fixed_count] together; null
 /// when there are no points or no faces. The side is exact.

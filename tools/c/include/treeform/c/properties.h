@@ -17,12 +17,16 @@ TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* 
 /// The sum of the areas of all faces, in square units, rounded. O(F).
 TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* area);
 
+// made of <mesh/properties.hpp>:
+//   mass_properties
 /// Of a solid of density 1.
 typedef struct treeform_mass_properties {
-    double volume;
-    double center[3];   ///< of mass
-    double inertia[9];  ///< 3 by 3, about the center, by axes x, y and z
+    double volume;     ///< what the mesh encloses; negative where it is inside out
+    double center[3];  ///< of mass
+    /// About the center, by axes x, y and z: the energy of turning by w is w . (inertia w) / 2.
+    double inertia[9];
 } treeform_mass_properties;
+// end
 
 /// Volume, center of mass and inertia of what a closed mesh encloses. Where the volume is 0, or
 /// noise beside what cancels in it, it is 0 and the others are NaN. O(F).
@@ -42,22 +46,27 @@ TREEFORM_C_API treeform_code treeform_check_solid(const treeform_mesh* mesh,
                                                   treeform_progress progress, void* progress_data,
                                                   treeform_certificate** certificate);
 
-/// Counts over the faces with three different corners, by numbers of points.
+// made of <mesh/properties.hpp>:
+//   topology_counts
+/// Counts over the faces with three different corner numbers. Faces that repeat a corner have no
+/// edges here and are counted separately. Faces with collinear corners, and duplicates, are
+/// counted like all others. The Euler characteristic is points_used - edges + faces.
 typedef struct treeform_topology {
     void* owner;
-    uint64_t edges;
-    uint64_t boundary_edges;       ///< used by one face
-    uint64_t nonmanifold_edges;    ///< used by three or more faces
-    uint64_t misoriented_edges;    ///< used by two faces in the same direction
-    uint64_t nonmanifold_points;   ///< whose faces fall into more than one fan
-    uint64_t components_by_point;  ///< faces linked by a shared corner
-    uint64_t components_by_edge;   ///< faces linked by a shared edge
-    uint64_t points_used;
-    uint64_t faces;                  ///< with three different corners
+    uint64_t edges;                  ///< undirected
+    uint64_t boundary_edges;         ///< used by one face
+    uint64_t nonmanifold_edges;      ///< used by three or more faces
+    uint64_t misoriented_edges;      ///< used by two faces in the same direction
+    uint64_t nonmanifold_points;     ///< whose faces fall into more than one fan
+    uint64_t components_by_point;    ///< faces linked by a shared corner
+    uint64_t components_by_edge;     ///< faces linked by a shared edge
+    uint64_t points_used;            ///< corners of at least one such face
+    uint64_t faces;                  ///< faces with three different corners
     uint64_t repeated_corner_faces;  ///< the others
-    uint64_t duplicate_faces;        ///< beyond the first with the same corners
-    int32_t closed;                  ///< a face, no boundary edge, no nonmanifold edge
+    uint64_t duplicate_faces;        ///< beyond the first with the same three corners
+    int32_t closed;                  ///< at least one face, no boundary edge, no nonmanifold edge
 } treeform_topology;
+// end
 
 /// Counts edges, components and defects. Join equal points first (`treeform_join_equal_points`).
 TREEFORM_C_API treeform_code treeform_count_topology(const treeform_mesh* mesh,
@@ -68,16 +77,24 @@ TREEFORM_C_API treeform_code treeform_count_topology(const treeform_mesh* mesh,
 TREEFORM_C_API treeform_code treeform_face_components(const treeform_mesh* mesh,
                                                       uint32_t* component, size_t* count);
 
-/// Points and faces that algorithms refuse or treat in a special way; ascending.
+// made of <mesh/properties.hpp>:
+//   mesh_defects
+/// Points and faces with defects, ascending. A face is in at most one list.
 typedef struct treeform_defects {
     void* owner;
-    const uint32_t* nonfinite_points;  ///< with a NaN or infinite coordinate
+    /// [nonfinite_point_count] with a NaN or infinite coordinate
+    const uint32_t* nonfinite_points;
     size_t nonfinite_point_count;
-    const uint32_t* nonfinite_faces;  ///< with such a corner
+    const uint32_t* nonfinite_faces;  ///< [nonfinite_face_count] with such a corner
     size_t nonfinite_face_count;
-    const uint32_t* degenerate_faces;  ///< finite, with exactly collinear corners
+    /// [degenerate_face_count] finite, with exactly collinear corners
+    const uint32_t* degenerate_faces;
     size_t degenerate_face_count;
+    /// [out_of_range_face_count] with a corner out of range
+    const uint32_t* out_of_range_faces;
+    size_t out_of_range_face_count;
 } treeform_defects;
+// end
 
 /// Finds them, exactly. O(V + F).
 TREEFORM_C_API treeform_code treeform_find_defects(const treeform_mesh* mesh,
@@ -98,18 +115,21 @@ TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mes
 TREEFORM_C_API treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
                                                      int32_t any_order, int32_t* same);
 
+// made of <mesh/properties.hpp>:
+//   feature_kind mesh_feature features feature_options
 /// What kind of region.
 typedef int32_t treeform_feature_kind;
 enum { TREEFORM_PLANE = 0, TREEFORM_AXIS = 1 };
 
 /// A plane or an axis, fitted to faces by least squares.
 typedef struct treeform_feature {
-    treeform_feature_kind kind;
-    int32_t hollow;       ///< of a cylinder: a hole
-    double origin[3];     ///< center of the faces, on the plane or the axis
-    double direction[3];  ///< of length 1: the outward normal, or along the axis
-    double radius;        ///< of the cylinder
-    double area;
+    treeform_feature_kind kind;  ///< plane or axis
+    int32_t hollow;              ///< of a cylinder: the faces look at the axis, as those of a hole
+    double origin[3];            ///< center of the faces, on the plane or the axis
+    /// of length 1: the normal, outward; along the axis, either way
+    double direction[3];
+    double radius;          ///< of the cylinder
+    double area;            ///< of the faces
     double deviation;       ///< largest distance of a corner from the plane or cylinder
     const uint32_t* faces;  ///< [face_count] ascending
     size_t face_count;
@@ -125,13 +145,21 @@ typedef struct treeform_features {
 /// What counts as flat or cylindrical.
 typedef struct treeform_feature_options {
     size_t size;
-    double tolerance;    ///< a length; NaN: 1e-4 of the diagonal
-    double plane_angle;  ///< degrees; default 1
-    double facet_angle;  ///< degrees; default 46
-    double arc;          ///< degrees; default 60
+    /// Largest distance of a corner from the plane or cylinder. Default: 1e-4 of the diagonal;
+    /// NaN: not given
+    double tolerance;
+    double plane_angle;  ///< in degrees: what faces of a plane may lean; default 1.0
+    /// in degrees: the most between faces of a cylinder side by side; default 46.0
+    double facet_angle;
+    /// in degrees: the least part of a circle that makes an axis; default 60.0
+    double arc;
+    /// of `treeform_find_features`, which finds nothing if asked to stop
+    treeform_progress progress;
+    void* progress_data;
 } treeform_feature_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_feature_options_init(treeform_feature_options* options, size_t size);
+// end
 
 /// The flat or cylindrical regions of the mesh, largest first. Join equal points first.
 TREEFORM_C_API treeform_code treeform_find_features(const treeform_mesh* mesh,
@@ -157,14 +185,18 @@ TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
                                                   treeform_feature_kind kind, const uint32_t* faces,
                                                   size_t face_count, treeform_features** features);
 
-/// A flat side of a convex hull.
+// made of <mesh/convex_hull.hpp>:
+//   hull_side
+/// A flat side of a convex hull: all of the hull that lies in one plane.
 typedef struct treeform_hull_side {
-    uint32_t first_face;  ///< its faces follow one another
+    /// The first of its faces, in `convex_hull_result::faces`; any three corners span its plane.
+    uint32_t first_face;
     uint32_t face_count;
-    double area;
-    double normal[3];  ///< outward, of length 1
-    double center[3];
+    double area;       ///< rounded; infinite where no double holds it
+    double normal[3];  ///< outward, of length 1, rounded
+    double center[3];  ///< of area, rounded
 } treeform_hull_side;
+// end
 
 /// A convex hull.
 typedef struct treeform_hull {

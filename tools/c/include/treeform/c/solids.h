@@ -12,65 +12,114 @@
 extern "C" {
 #endif
 
+// made of <mesh/boolean.hpp>:
+//   fill_rule boolean_options operand_volumes boolean_result
 /// Which points are inside an operand, by how often its surface winds around them.
 typedef int32_t treeform_fill_rule;
-enum { TREEFORM_NONZERO = 0, TREEFORM_ODD = 1, TREEFORM_POSITIVE = 2 };
+enum {
+    /// any number of times except 0
+    TREEFORM_NONZERO = 0,
+    /// an odd number of times
+    TREEFORM_ODD = 1,
+    /// once or more
+    TREEFORM_POSITIVE = 2
+};
 
 /// How to combine solids.
 typedef struct treeform_boolean_options {
     size_t size;
-    treeform_fill_rule inside;     ///< default: nonzero
-    treeform_precision precision;  ///< of the coordinates returned; default: double
-    double
-        max_displacement;  ///< nothing longer goes where rounding broke something; default infinite
-    int32_t keep_cuts;     ///< leave coplanar faces apart that were cut, or overlap
-    int32_t simplify;      ///< merge all coplanar faces of the result, exactly
-    int32_t volumes;       ///< compute `volumes`, of two operands
-    const uint32_t* face_groups;  ///< merge only faces with equal numbers; or null
-    size_t face_group_count;      ///< faces of all operands
+    treeform_fill_rule inside;  ///< what is solid
+    /// Precision of the coordinates returned. float32 values are stored as doubles; default
+    /// float64
+    treeform_precision precision;
+    /// Where rounding makes faces meet, nothing further apart is joined, in the mesh's own length
+    /// unit, nor further than 2^-10 of the largest coordinate. Not negative; default infinite
+    double max_displacement;
+    /// Otherwise coplanar faces that were cut, or that overlap, are merged, exactly and before
+    /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a
+    /// straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    int32_t keep_cuts;
+    int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
+    /// Compute `boolean_result::volumes`, of two operands; not where a `gap` was filled.
+    int32_t volumes;
+    /// [faces of all operands, one after the other] or empty: only those of equal numbers are
+    /// merged; or null
+    const uint32_t* face_groups;
+    size_t face_group_count;
     treeform_progress progress;
     void* progress_data;
-    double min_volume;  ///< leave out parts of the result, and fill voids, of less; default 0
-    double gap;         ///< fill gaps of at most this between operands of a union; default 0
+    /// Of the result, the parts with a volume below this, in cubic units, are left out: specks go,
+    /// and voids are filled, with all that is in them. A part is what edges link, its volume that
+    /// within it. Of solids only. Finite and not negative.
+    double min_volume;
+    /// In a union, gaps of at most this width, in the mesh's own length unit, are filled between
+    /// faces of different operands, where they lie over each other: both look into the gap, they
+    /// lean by at most 45 degrees, and it is measured straight up from either. Nothing else moves.
+    /// Beyond this width what fills it tapers off. Between curved faces there are no seams: at an
+    /// edge of faces that lean less than that, it ends midway. Finite and not negative.
+    double gap;
 } treeform_boolean_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_boolean_options_init(treeform_boolean_options* options, size_t size);
 
-/// The volumes of two operands, their union and intersection.
+/// The volumes of two operands, their union and intersection: first + second = either + both.
 typedef struct treeform_volumes {
+    /// For an operand that winds once around its inside, `signed_volume` without the sign. For
+    /// others, the sum over the cells inside, as are all volumes below.
     double first;
     double second;
-    double either;
-    double both;
+    double either;  ///< in the first or the second
+    double both;    ///< in the first and in the second
 } treeform_volumes;
 
-/// The surface of a solid, and what was checked about it.
+/// The surface of a solid in rounded coordinates, and what was checked about it.
 typedef struct treeform_boolean_result {
     void* owner;
+    /// Faces are counter-clockwise from outside, in the order of their sources. Vertices of
+    /// operands come first, in their order, then new ones on cuts.
     treeform_arrays mesh;
-    const treeform_element* face_source;    ///< [F] the operand face that each lies in
-    const treeform_element* vertex_source;  ///< [V] the operand vertex that each is, or none
-    const treeform_element*
-        face_of_cut_vertex;  ///< [V] of new ones, an operand face it lies in; or null
+    /// [F] the lowest operand face that each face, or a part of it, lies in. Next to places where
+    /// rounding was mended, it may be a neighbor of that face. A face of what fills a `gap` has
+    /// the operand face that it stands on, or lies opposite of; those come last.
+    const treeform_element* face_source;
+    /// [V] the lowest operand vertex each is, or none
+    const treeform_element* vertex_source;
+    /// [V] for each new vertex, an operand face that it lies in, or of what fills a `gap`, as
+    /// `face_source`. Empty with `keep_cuts`.
+    const treeform_element* face_of_cut_vertex;
+    /// Status ok says, checked on the coordinates above: any two faces have a corner, an edge or
+    /// nothing in common; no face is degenerate; the signed face count of every edge is zero; and
+    /// the inside is behind every face: the surface winds once around points just behind it, and
+    /// not around those in front.
     const treeform_certificate* certificate;
-    uint64_t vanished_components;  ///< thinner than the coordinates can show
-    double vanished_reach;         ///< how far gone vertices of others are from the result, at most
-    const double* vanished_at;     ///< [vanished_listed][3] a point of each, at most 100
+    /// Components, by vertices, of the exact result that have no face left, because they are
+    /// thinner than the coordinates can show.
+    uint64_t vanished_components;
+    /// How far places of the exact result are, at most, from `mesh`, as seen from vertices that
+    /// are gone: far where a part too thin to be shown went from a component that is still there.
+    double vanished_reach;
+    const double* vanished_at;  ///< [vanished_listed][3] a point of each, at most 100
     size_t vanished_listed;
-    const treeform_volumes* volumes;  ///< or null
-    uint64_t pairs;                   ///< of faces looked at that meet
-    uint64_t cut_faces;
-    uint64_t degenerate;     ///< operand faces without area
-    uint64_t skipped_faces;  ///< not looked at, as the result cannot be there
-    uint64_t covered;        ///< for `treeform_split`: faces that lie entirely on lower ones
-    uint64_t exact_faces;    ///< of the result before rounding
-    uint64_t split_vertices;
-    uint64_t slivers;         ///< thin faces taken out where rounding made faces meet
-    int32_t rounding_rounds;  ///< how often what met all the same was cut and rounded again
-    uint64_t small_parts;     ///< left out, as their volume is below `min_volume`
-    double small_volume;      ///< of these, added up
-    uint64_t filled_faces;    ///< of operands, at gaps that were filled
+    const treeform_volumes* volumes;
+    uint64_t pairs;       ///< of faces looked at that meet beyond their shared corners
+    uint64_t cut_faces;   ///< input faces that were cut or covered by others
+    uint64_t degenerate;  ///< input faces without area
+    /// input faces not looked at, as the result cannot be there
+    uint64_t skipped_faces;
+    uint64_t covered;  ///< for `split`: input faces that lie entirely on lower ones
+    /// Faces of the exact result, before rounding. When there are some and `mesh` has none, all of
+    /// the result is thinner than the coordinates can show, or was left out as `small_parts`.
+    uint64_t exact_faces;
+    uint64_t split_vertices;  ///< added where parts touch, so that edges have two faces
+    /// Where rounding made faces meet: changes that join what all but touches and take out thin
+    /// faces, and how often what met all the same was cut and rounded once more.
+    uint64_t slivers;
+    int32_t rounding_rounds;
+    uint64_t small_parts;   ///< left out, voids and specks: below `min_volume`
+    double small_volume;    ///< of these, in cubic units, added up
+    uint64_t filled_faces;  ///< of operands, at gaps that were filled (`gap`)
 } treeform_boolean_result;
+// end
 
 /// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with +
 /// or | union, * or & intersection, - difference, ^ exclusive or, and brackets: "(a-b)*c". Exact,
@@ -125,51 +174,79 @@ TREEFORM_C_API treeform_code treeform_split(const treeform_mesh* const* operands
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
 
-/// What to do with faces that meet: cut them; cut them and keep what bounds the solid; delete them
-/// and fill the holes.
+// made of <mesh/repair.hpp>:
+//   resolve_mode resolve_options resolve_result
+/// What to do with faces that meet.
 typedef int32_t treeform_resolve_mode;
-enum { TREEFORM_RESOLVE_SPLIT = 0, TREEFORM_RESOLVE_OUTER = 1, TREEFORM_RESOLVE_REMOVE = 2 };
+enum {
+    /// cut them along the curves where they meet, and keep every piece
+    TREEFORM_RESOLVE_SPLIT = 0,
+    /// cut them, and keep only the pieces that bound the solid
+    TREEFORM_RESOLVE_OUTER = 1,
+    /// delete them, and fill the holes
+    TREEFORM_RESOLVE_REMOVE = 2
+};
 
 /// How to resolve self-intersections.
 typedef struct treeform_resolve_options {
     size_t size;
-    treeform_fill_rule inside;
+    treeform_fill_rule inside;  ///< for `outer`: what is solid
+    /// Precision of the coordinates returned. float32 values are stored as doubles; default
+    /// float64
     treeform_precision precision;
+    /// For `split` and `outer`: as in `treeform_boolean_options`; default infinite
     double max_displacement;
-    int32_t touching;        ///< for `remove`: delete faces that only touch, too
-    int32_t removal_rounds;  ///< for `remove`; default 16
-    double max_loss;         ///< share of the volume or area that may be lost; default 0.05
+    /// for `remove`: delete faces that only touch, too; else they stay
+    int32_t touching;
+    /// for `remove`: give up after making or widening holes this often; default 16
+    int32_t removal_rounds;
+    /// For `outer` and `remove`: losing more than this share of the solid's volume, or of the area
+    /// of a mesh that bounds none, has the status `excessive_loss`. 1 allows any loss. What the
+    /// solid is, is found by `treeform_repair` without filling holes: faces agree, and overlaps
+    /// count once; default 0.05
+    double max_loss;
     treeform_progress progress;
     void* progress_data;
-    int32_t keep_cuts;  ///< for `outer`: leave coplanar faces apart that were cut, or overlap
+    /// for `outer`: as in `treeform_boolean_options`; `split` keeps all cuts
+    int32_t keep_cuts;
 } treeform_resolve_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* options, size_t size);
 
-/// The mesh without self-intersections.
+/// The mesh without self-intersections, where its parts came from, and what was checked.
 typedef struct treeform_resolve_result {
     void* owner;
-    treeform_arrays mesh;
-    const uint32_t* face_source;    ///< [F] input face that each lies in, or `TREEFORM_NONE`
-    const uint32_t* vertex_source;  ///< [V] input vertex that each is, or `TREEFORM_NONE`
+    treeform_arrays mesh;           ///< faces in the order of their sources
+    const uint32_t* face_source;    ///< [F'] input face, lowest of those merged, or none
+    const uint32_t* vertex_source;  ///< [V'] input vertex that each is, or none
+    /// Status ok says, checked on the coordinates above: no face is degenerate, and any two faces
+    /// have a corner, an edge or nothing in common. For `outer` also: the mesh is a closed
+    /// manifold, and the inside is behind every face. For `remove`: closed parts are still closed;
+    /// faces that touched before may still touch (`resolve_options::touching`).
     const treeform_certificate* certificate;
-    uint64_t vanished_components;
-    uint64_t removed;    ///< input faces of which no part is left
-    uint64_t covered;    ///< for `split`
-    uint64_t filled;     ///< faces that fill holes
-    uint64_t left_open;  ///< for `remove`: edges that lost their second face
-    uint64_t exact_faces;
-    uint64_t split_vertices;
+    uint64_t vanished_components;  ///< components, by vertices, that have no face left
+    uint64_t removed;              ///< input faces of which no part is left
+    /// For `split`: input faces that lie entirely on faces of lower numbers. One piece stands for
+    /// all of them, so they are not counted as removed.
+    uint64_t covered;
+    uint64_t filled;          ///< faces that fill holes
+    uint64_t left_open;       ///< for `remove`: edges that lost their second face
+    uint64_t exact_faces;     ///< for `split` and `outer`, as in `boolean_statistics`
+    uint64_t split_vertices;  ///< for `outer`, as in `boolean_statistics`
 } treeform_resolve_result;
+// end
 
 /// The mesh without self-intersections; exact, then rounded and checked.
 TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
     const treeform_mesh* mesh, treeform_resolve_mode mode, const treeform_resolve_options* options,
     treeform_resolve_result** result);
 
+// made of <mesh/repair.hpp>:
+//   repair_rule repair_options repair_statistics repair_result
 /// What is inside, for `treeform_repair`.
 typedef int32_t treeform_repair_rule;
 enum {
+    /// `positive` where every shell is outward after `orient`, else `nonzero` or labels
     TREEFORM_REPAIR_AUTOMATIC = 0,
     TREEFORM_REPAIR_NONZERO = 1,
     TREEFORM_REPAIR_ODD = 2,
@@ -179,81 +256,109 @@ enum {
 /// How to repair. All steps are on by default.
 typedef struct treeform_repair_options {
     size_t size;
-    int32_t join;           ///< drop degenerate and repeated faces; close cracks
-    int32_t orient;         ///< make faces agree and shells outward
-    int32_t fill;           ///< fill holes
-    int32_t resolve;        ///< cut self-intersections
-    int32_t detach;         ///< move apart what touches in an edge or a vertex
-    double gap;             ///< widest crack to close; NaN: what leaves the fewest open edges
-    uint64_t largest_hole;  ///< fill holes of at most this many edges; default: all
-    double strays;  ///< share of the area below which loose pieces are dropped; default 0.001
+    /// drop degenerate and repeated faces; close cracks and T-junctions; default 1
+    int32_t join;
+    int32_t orient;   ///< make faces agree and shells outward; drop strays; default 1
+    int32_t fill;     ///< fill holes; default 1
+    int32_t resolve;  ///< cut self-intersections; drop what bounds nothing; default 1
+    int32_t detach;   ///< move apart what touches in an edge or a vertex; default 1
+    /// Widest crack to close. Where it is not given, the narrowest of 0, a float step, and 1e-6,
+    /// 1e-5, 1e-4, 1e-3 of the diagonal of the bounding box that leaves the fewest open edges;
+    /// NaN: not given
+    double gap;
+    uint64_t largest_hole;  ///< Fill holes of at most this many edges; default all
+    /// Loose open pieces below this share of the area are dropped, and so are single triangles
+    /// below 1 %. Where a larger component vanishes since it bounds nothing, the status is
+    /// `excessive_loss`, unless `max_loss` is 1; default 0.001
+    double strays;
     treeform_repair_rule inside;
-    double max_loss;  ///< default 0.05
-    int32_t sheet;    ///< the mesh is an open surface: its border is kept
+    /// Losing more than this share has the status `excessive_loss`: of the volume, or of the area
+    /// where there were holes. Area is lost of which nothing is left, neither in sight nor hidden
+    /// in the solid. 1 allows any loss; default 0.05
+    double max_loss;
+    /// The mesh is an open surface: its border is kept, and nothing is filled.
+    int32_t sheet;
+    /// Precision of the coordinates returned. float32 values are stored as doubles; default
+    /// float64
     treeform_precision precision;
-    double max_displacement;
+    double max_displacement;  ///< As in `treeform_boolean_options`; default infinite
     treeform_progress progress;
     void* progress_data;
-    int32_t keep_cuts;  ///< leave coplanar faces apart that were cut, or overlap
+    /// likewise; faces that fill holes are merged with each other alone
+    int32_t keep_cuts;
 } treeform_repair_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);
 
-/// What each step has done.
+/// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
 typedef struct treeform_repair_statistics {
-    uint64_t tetrahedra;
-    uint64_t degenerate;
-    uint64_t repeated;
-    uint64_t closed_edges;
-    uint64_t split_edges;
-    double gap;
-    double widest;
-    uint64_t flipped;
-    uint64_t turned;
-    uint64_t strays;
-    uint64_t holes;
-    uint64_t hole_edges;
-    uint64_t filled;
-    uint64_t sheets;  ///< rims not filled, since they end sheets
-    uint64_t open_edges;
-    int32_t resolved;
-    uint64_t pairs;
+    uint64_t tetrahedra;    ///< that the faces were; their boundary was kept
+    uint64_t degenerate;    ///< faces without area, dropped; with such, slivers
+    uint64_t repeated;      ///< faces on others, dropped
+    uint64_t closed_edges;  ///< pairs of border edges that became one
+    uint64_t split_edges;   ///< border edges split at vertices that lie on them
+    double gap;             ///< widest crack that was looked for
+    double widest;          ///< widest crack that was closed
+    uint64_t flipped;       ///< faces turned to agree with their neighbors
+    uint64_t turned;        ///< components turned outward
+    uint64_t strays;        ///< faces of loose and of inner pieces, dropped
+    uint64_t holes;         ///< filled
+    uint64_t hole_edges;    ///< around them
+    uint64_t filled;        ///< faces that fill them
+    uint64_t sheets;        ///< rims not filled, since they end sheets
+    uint64_t open_edges;    ///< left after these steps
+    int32_t resolved;       ///< faces met and were cut
+    uint64_t pairs;         ///< of faces that met
+    /// bounded ones, by least disagreement (`treeform_repair`)
     uint64_t labeled_cells;
-    double dropped_area;
-    double turned_area;
-    uint64_t removed;
-    uint64_t split_vertices;
-    uint64_t detached;
-    uint64_t touching;
-    uint64_t vanished_components;
-    uint64_t dropped_shells;  ///< closed components within the solid, of which nothing is left
-    double volume_before;
+    double dropped_area;           ///< of faces that their labels put within or without
+    double turned_area;            ///< of faces that their labels turned over
+    uint64_t removed;              ///< faces that resolving left nothing of
+    uint64_t split_vertices;       ///< as in `boolean_statistics`
+    uint64_t detached;             ///< vertices moved apart
+    uint64_t touching;             ///< vertices that still have a twin at their place
+    uint64_t vanished_components;  ///< larger than `repair_options::strays`
+    /// closed, within the solid; `odd` makes cavities of them
+    uint64_t dropped_shells;
+    double volume_before;  ///< after `join`, `orient`, `fill`; 0 where it is no solid
     double volume_after;
     double area_before;
     double area_after;
-    double area_lost;
+    double area_lost;  ///< as `repair_options::max_loss` counts it
 } treeform_repair_statistics;
 
-/// The mended mesh.
+/// The mended mesh, where its parts came from, and what was checked.
 typedef struct treeform_repair_result {
     void* owner;
     treeform_arrays mesh;
-    const uint32_t* face_source;    ///< [F] input face that each lies in, or `TREEFORM_NONE`
-    const uint32_t* vertex_source;  ///< [V] or null, of a file
+    const uint32_t* face_source;    ///< [F'] input face, lowest of those merged, or none
+    const uint32_t* vertex_source;  ///< [V'] input vertex that each is, or none
+    /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind
+    /// every face, and any two faces have a corner, an edge or nothing in common. Status sheet
+    /// says the same of a surface with a border.
     const treeform_certificate* certificate;
     const treeform_repair_statistics* statistics;
-    const treeform_file* file;  ///< of `treeform_repair_file`: with attributes; else null
-    const uint8_t* is_left;     ///< [faces of the input] 1 where something is left of one
+    const treeform_file* file;  ///< of a file, with its attributes; else null
+    const uint8_t* is_left;     ///< [F] 1 where something is left of an input face
 } treeform_repair_result;
+// end
 
 /// A solid made of a dirty mesh: closed, oriented, manifold, free of self-intersections.
 TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,
                                              const treeform_repair_options* options,
                                              treeform_repair_result** result);
 
+// made of <mesh/carry.hpp>:
+//   repair_scope
 /// What of a file is mended at a time.
 typedef int32_t treeform_repair_scope;
-enum { TREEFORM_EACH_PART = 0, TREEFORM_WHOLE_FILE = 1 };
+enum {
+    /// Each part of a scene is a solid of its own. Parts may overlap before and after.
+    TREEFORM_EACH_PART = 0,
+    /// overlapping parts become one solid
+    TREEFORM_WHOLE_FILE = 1
+};
+// end
 
 /// The same of a file, or each of its parts, with its attributes. The mesh of the file is taken as
 /// it is read.
@@ -262,25 +367,29 @@ TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
                                                   const treeform_repair_options* options,
                                                   treeform_repair_result** result);
 
-/// What keeps a mesh from being a solid.
+// made of <mesh/repair.hpp>:
+//   solid_defects
+/// What keeps a mesh from being a solid. Points with equal coordinates are one.
 typedef struct treeform_solid_defects {
     void* owner;
-    int32_t any;
-    const char* message;          ///< "open at 37 edges, 2 pairs of faces meet"; "none"
-    uint64_t nonfinite_vertices;  ///< with a NaN or infinite coordinate, used or not
-    uint64_t unusable_faces;      ///< with such a corner, or one that is no vertex
-    int32_t without_faces;        ///< there are points, but no face that can be used
-    uint64_t tetrahedra;
-    uint64_t degenerate;
-    uint64_t repeated;
-    uint64_t open_edges;
-    uint64_t nonmanifold_edges;
-    uint64_t misoriented_edges;
-    uint64_t nonmanifold_vertices;
-    uint64_t meeting_pairs;
-    uint64_t inverted;
+    int32_t any;                    ///< there is one
+    const char* message;            ///< half a sentence for people
+    uint64_t nonfinite_vertices;    ///< with a NaN or infinite coordinate, used or not
+    uint64_t unusable_faces;        ///< with such a corner, or no vertex: not counted below
+    int32_t without_faces;          ///< there are points, but no face that can be used
+    uint64_t tetrahedra;            ///< that the faces are, as of a volume mesh
+    uint64_t degenerate;            ///< faces without area
+    uint64_t repeated;              ///< faces with the corners of another one
+    uint64_t open_edges;            ///< of one face
+    uint64_t nonmanifold_edges;     ///< of more than two faces
+    uint64_t misoriented_edges;     ///< of two faces that disagree
+    uint64_t nonmanifold_vertices;  ///< with more than one fan of faces
+    uint64_t meeting_pairs;         ///< of faces that meet beyond their common corners
+    uint64_t inverted;              ///< closed components that are inside out, and in no other one
+    /// Closed components that meet nowhere lie in each other, but not as a solid and its cavities.
     int32_t wrongly_nested;
 } treeform_solid_defects;
+// end
 
 /// What `treeform_repair` would have to mend, and what it does not take. Nothing is changed.
 /// `progress` may be null.
@@ -296,10 +405,16 @@ TREEFORM_C_API treeform_code treeform_find_solid_defects_of_file(const treeform_
                                                                  void* progress_data,
                                                                  treeform_solid_defects** defects);
 
+// made of <mesh/wrap.hpp>:
+//   wrap_options wrap_result
 /// How to wrap.
 typedef struct treeform_wrap_options {
     size_t size;
-    double offset;  ///< distance of the wrap's vertices; NaN: a thirtieth of the size
+    /// How far the vertices of the wrap are from the mesh, in its length unit; where it is not
+    /// given, a thirtieth of the size; NaN: not given
+    double offset;
+    /// Precision of the coordinates returned. float32 values are stored as doubles; default
+    /// float64
     treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
@@ -307,18 +422,21 @@ typedef struct treeform_wrap_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_wrap_options_init(treeform_wrap_options* options, size_t size);
 
-/// A wrap.
+/// The wrap, and what was checked.
 typedef struct treeform_wrap_result {
     void* owner;
     treeform_arrays mesh;
+    /// Status ok says, checked on the coordinates above: a closed manifold, outward, no two faces
+    /// of which meet beyond common corners and edges.
     const treeform_certificate* certificate;
     double size;
     double offset;
-    double area;  ///< of the mesh that was wrapped
-    uint64_t points;
-    uint64_t tetrahedra;
-    uint64_t filled;
+    double area;          ///< of the mesh that was wrapped
+    uint64_t points;      ///< of the tetrahedra that were made
+    uint64_t tetrahedra;  ///< at the end
+    uint64_t filled;      ///< of them, filled so that the wrap is a manifold
 } treeform_wrap_result;
+// end
 
 /// A closed surface around all faces of a mesh, whatever they are, which enters no hole or gap
 /// narrower than `size`.

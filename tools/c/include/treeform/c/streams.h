@@ -49,28 +49,31 @@ typedef struct treeform_weld_stream_options {
 TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_options* options,
                                                       size_t size);
 
-/// What was welded.
+// made of <mesh/weld_stream.hpp>:
+//   weld_stream_result
+/// What was welded and written.
 typedef struct treeform_weld_stream_result {
     void* owner;
-    uint64_t points;      ///< of the inputs
-    uint64_t non_finite;  ///< all are kept
-    double tolerance;     ///< as a length
-    uint64_t kept;
-    uint64_t groups;          ///< of two points or more
-    double max_displacement;  ///< of a point at most, with what rounds it to the steps of LAS
+    uint64_t points;
+    uint64_t non_finite;      ///< points left as they are
+    double tolerance;         ///< as a length
+    uint64_t kept;            ///< points
+    uint64_t groups;          ///< groups of two points or more
+    double max_displacement;  ///< the furthest that a point moved
     uint64_t tiles;
     uint64_t finished_tiles;  ///< by an earlier run
-    const char* format;       ///< that was written
-    uint64_t still_within;    ///< as `treeform_count_still_within`
+    const char* format;       ///< of the output
+    uint64_t still_within;    ///< points that would be merged if the output were welded
     int32_t still_within_known;
-    uint64_t faces;  ///< of a mesh, that are left; and cut into triangles
+    uint64_t faces;  ///< that are kept, as stored; and cut into triangles
     uint64_t triangles;
-    uint64_t collapsed;  ///< as in `treeform_weld_counts`, as are the next four
+    uint64_t collapsed;  ///< as in `weld_statistics`, and so are the next four
     uint64_t degenerate;
     uint64_t nonmanifold_before;
     uint64_t nonmanifold_after;
     uint64_t flipped;
 } treeform_weld_stream_result;
+// end
 
 /// Welds the cloud in the files `inputs` [count] (PLY, PCD, LAS, LAZ, PTS, XYZ, CSV), or the mesh in
 /// one file (PLY, binary STL), and writes `output`, whole or not at all: the same bytes as `treeform_weld_file` would lead to.

@@ -9,59 +9,89 @@
 extern "C" {
 #endif
 
+// made of <mesh/weld.hpp> <mesh/weld_options.hpp>:
+//   weld_rule weld_keep weld_order weld_condition weld_options weld_result
 /// Which points become one.
 typedef int32_t treeform_weld_rule;
 enum {
-    TREEFORM_WELD_FIRST = 0,  ///< a point goes to the nearest earlier kept one within the tolerance
-    TREEFORM_WELD_CHAIN = 1   ///< all points linked by steps of at most the tolerance
+    /// Goes through the points in order, and drops a point when an earlier kept one is within the
+    /// tolerance. The point then belongs to the nearest of these; among equally near ones, to the
+    /// earliest. So no two kept points are within the tolerance, no point is further than that
+    /// from the one it belongs to, and welding the kept points again changes nothing.
+    TREEFORM_WELD_FIRST = 0,
+    /// All points that are linked by steps of at most the tolerance are one group. Its earliest
+    /// point is kept. A point may be many tolerances away from it.
+    TREEFORM_WELD_CHAIN = 1
 };
 
-/// Which point of a group is kept.
+/// Which point of a group is kept, with its coordinates and properties.
 typedef int32_t treeform_weld_keep;
 enum {
+    /// the lowest-numbered; kept points do not move
     TREEFORM_KEEP_FIRST = 0,
+    /// the highest-numbered
     TREEFORM_KEEP_LAST = 1,
+    /// the mean of coordinates and floating-point properties; the rest of the first point
     TREEFORM_KEEP_MEAN = 2,
-    TREEFORM_KEEP_LOWEST = 3,  ///< by the property `keep_by`
+    /// the one with the least value of `keep_by`, not NaN if there are others; of equal ones the
+    /// first
+    TREEFORM_KEEP_LOWEST = 3,
+    /// the one with the greatest value of `keep_by`, otherwise as `lowest`
     TREEFORM_KEEP_HIGHEST = 4
 };
 
-/// In which order the rules go through the points.
+/// In which order the rules go through the points: which is the first of several.
 typedef int32_t treeform_weld_order;
 enum {
+    /// as they are numbered
     TREEFORM_ORDER_GIVEN = 0,
-    TREEFORM_ORDER_LOWEST = 1,  ///< by the property `order_by`
+    /// by `order_by`, the least value first, NaN last; of equal ones the lowest-numbered
+    TREEFORM_ORDER_LOWEST = 1,
+    /// by `order_by`, the greatest value first, otherwise as `lowest`
     TREEFORM_ORDER_HIGHEST = 2
 };
 
-/// A vertex property that must agree, up to a tolerance, for two points to become one.
+/// A vertex property that must agree for two points to become one.
 typedef struct treeform_weld_condition {
+    /// A column of the element "vertex" with one value a row; "x", "y" or "z" for a coordinate;
+    /// "normal", "uv" or "color" for all columns of that kind.
     const char* property;
+    /// Largest difference of two values, inclusive and decided exactly. NaN agrees only with NaN,
+    /// an infinity only with itself, -0 with +0.
     double tolerance;
 } treeform_weld_condition;
 
-/// How to weld. Options of properties are for files.
+/// How to weld. `tolerance` is all that most callers set.
 typedef struct treeform_weld_options {
     size_t size;
-    double tolerance;  ///< Euclidean, inclusive; 0, the default: equal coordinates
+    double tolerance;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
     treeform_weld_rule rule;
-    const uint32_t*
-        label;  ///< [label_count] points with different labels are never merged; or null
+    /// [V] or empty: points with different labels are never merged; or null
+    const uint32_t* label;
     size_t label_count;
-    /// Whether two points may be merged; or null. Symmetric; called from several threads at once.
+    /// whether two points may be merged; or null. Symmetric; called from several threads at once
     int (*may_merge)(uint32_t a, uint32_t b, void* data);
     void* may_merge_data;
-    const treeform_weld_condition* same;  ///< [same_count] properties that must agree
+    /// [same_count] Properties that must agree, in addition to `label` and `may_merge`.
+    const treeform_weld_condition* same;
     size_t same_count;
-    int32_t keep_seams;         ///< normals, texture coordinates and colors must agree
-    const char* const* across;  ///< [across_count] except for these
+    /// For a mesh with faces: keep seams. Normals, texture coordinates and colors of points must
+    /// agree, too, except for those named in `across`.
+    int32_t keep_seams;
+    const char* const* across;  ///< [across_count]
     size_t across_count;
     treeform_weld_keep keep;
+    /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* keep_by;
+    /// Except for `given`, needs `weld_keep::first`: the point that is first in this order is
+    /// kept. What the rules promise holds for it. Points that are kept stay in the order of
+    /// numbers.
     treeform_weld_order order;
+    /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* order_by;
-    int32_t only_borders;     ///< merge only points on edges of exactly one face
-    int32_t keep_manifold;    ///< do not make edges or points non-manifold
+    int32_t only_borders;  ///< merge only points on edges of exactly one face
+    /// split groups that would make non-manifold edges or points
+    int32_t keep_manifold;
     int32_t keep_degenerate;  ///< keep faces that repeat a corner
     treeform_progress progress;
     void* progress_data;
@@ -69,27 +99,32 @@ typedef struct treeform_weld_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_options_init(treeform_weld_options* options, size_t size);
 
-/// What was merged.
+/// The welded mesh.
 typedef struct treeform_weld_result {
     void* owner;
-    treeform_arrays mesh;            ///< of a cloud without faces
-    const uint32_t* group_of_point;  ///< [point_count] the new number of each input point
+    treeform_arrays mesh;
+    const uint32_t* group_of_point;  ///< [V] groups in the order of their first points
     size_t point_count;
-    const uint32_t* first_of_group;  ///< [G] the first point of each
-    const uint32_t* point_of_group;  ///< [G] the input point that gave its properties; or null
+    /// [G] the first point of each, ascending: the lowest-numbered, unless `order` asks for
+    /// another
+    const uint32_t* first_of_group;
+    const uint32_t* point_of_group;  ///< [G] input point that gave its properties
     size_t group_count;
-    const uint32_t* face_of_new;  ///< [F] the input face that each face was
+    const uint32_t* face_of_new;  ///< [F'] input face that each face was
     uint64_t merged_groups;       ///< groups of two points or more
-    uint64_t non_finite;          ///< points left as they are
-    uint64_t collapsed;           ///< faces that repeat a corner now, but did not before
-    uint64_t degenerate;          ///< faces that repeated a corner before
-    double max_displacement;      ///< the furthest that a point moved
+    /// points with a NaN or infinite coordinate, left as they are
+    uint64_t non_finite;
+    uint64_t collapsed;   ///< faces that repeat a corner now, but did not before
+    uint64_t degenerate;  ///< faces that repeated a corner before
+    /// The furthest that a point moved, rounded up to a double.
+    double max_displacement;
     uint64_t nonmanifold_before;  ///< edges of more than two faces
     uint64_t nonmanifold_after;
-    uint64_t flipped;           ///< faces whose normal turned by more than a right angle
+    uint64_t flipped;           ///< kept faces whose normal turned by more than a right angle
     uint64_t left_alone;        ///< groups that `keep_manifold` did not merge whole
-    const treeform_file* file;  ///< of `treeform_weld_file`; else null
+    const treeform_file* file;  ///< of a file, with its attributes; else null
 } treeform_weld_result;
+// end
 
 /// The mesh or cloud with the points merged that are within the tolerance of each other: exact.
 TREEFORM_C_API treeform_code treeform_weld(const treeform_mesh* mesh,

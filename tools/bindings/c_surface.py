@@ -1,0 +1,437 @@
+"""Which structs and enumerations of C++ are in C, where the names differ, and which functions are
+one call. All else follows from the headers: `c_language.py` says how."""
+
+from __future__ import annotations
+
+from c_language import Bound, List, Member
+
+#: Names of enumerations in C, and what their constants begin with; "": as in C++ after TREEFORM_.
+ENUMS = {
+    "precision": ("treeform_precision", ""),
+    "vertex_identity": ("treeform_vertices", ""),
+    "status": ("treeform_status", "STATUS_"),
+    "fill_rule": ("treeform_fill_rule", ""),
+    "resolve_mode": ("treeform_resolve_mode", "RESOLVE_"),
+    "repair_rule": ("treeform_repair_rule", "REPAIR_"),
+    "repair_scope": ("treeform_repair_scope", ""),
+    "pair_kind": ("treeform_pair_kind", ""),
+    "location": ("treeform_location", ""),
+    "standing": ("treeform_standing", {"touching": "MEETING",
+                                       "closer_than_clearance": "TOO_CLOSE"}),
+    "mesh_relation": ("treeform_standing", {}),
+    "feature": ("uint8_t", ""),
+    "feature_kind": ("treeform_feature_kind", ""),
+    "placement_end": ("treeform_placement_end", "END_"),
+    "motion_end": ("int32_t", ""),
+    "mass_of": ("int32_t", ""),
+    "urdf_joint_kind": ("int32_t", ""),
+    "lay_choice": ("treeform_lay_choice", "LAY_"),
+    "plate_turns": ("treeform_plate_turns", "TURNS_"),
+    "align_method": ("treeform_align_method", {"automatic": "ALIGN_AUTOMATIC"}),
+    "align_weights": ("treeform_align_weights", "WEIGHTS_"),
+    "align_end": ("treeform_align_end", {"converged": "ALIGN_CONVERGED",
+                                         "out_of_iterations": "ALIGN_OUT_OF_ITERATIONS",
+                                         "doubtful": "ALIGN_DOUBTFUL",
+                                         "nothing_to_align": "ALIGN_NOTHING"}),
+    "weld_rule": ("treeform_weld_rule", "WELD_"),
+    "weld_keep": ("treeform_weld_keep", "KEEP_"),
+    "weld_order": ("treeform_weld_order", "ORDER_"),
+    "file_content": ("treeform_file_content", ""),
+    "scalar_type": ("treeform_scalar", {"float32": "SCALAR_FLOAT32", "float64": "SCALAR_FLOAT64"}),
+}
+
+MESSAGE = Member("const char* message", "half a sentence for people",
+                 "to.message = kept.keep(from.message()).c_str();")
+FILE = Member("const treeform_file* file", "of a file, with its attributes; else null")
+
+
+BOUND = [
+    # base.h
+    Bound("operand_element", "element", "same"),
+    Bound("open_edge", kind="same"),
+    Bound("search_effort", kind="same"),
+    Bound("certificate", names={"status": "status"},
+          counts={"meeting": "meeting_listed", "meeting_at": "", "open": "open_listed"},
+          custom={"+": [MESSAGE]}),
+    # mesh.h
+    Bound("rounding_options", custom={"+": [Member(
+        "int32_t always_compare", "also compare where the step is too small to be noticed")]}),
+    Bound("rounding_effects", "rounding"),
+    # properties.h
+    Bound("mass_properties", kind="part"),
+    Bound("topology_counts", "topology"),
+    Bound("mesh_defects", "defects"),
+    Bound("mesh_feature", "feature", "part"),
+    Bound("feature_options"),
+    Bound("hull_side", kind="same"),
+    # intersections.h
+    Bound("face_pair", kind="same"),
+    Bound("self_intersection_result", "pairs", counts={"pairs": "count"},
+          leave="exact_pairs predicates tree_seconds pair_seconds"),
+    Bound("mesh_intersection_result", "pairs", counts={"pairs": "count"},
+          leave="exact_pairs predicates searched"),
+    Bound("self_intersection_options", "self_intersections_options", custom={
+        "component_of_face": [Member("const uint32_t* component_of_face",
+                                     "[F] for `between` and `within`; or null")]}),
+    Bound("intersection_region", "region", "part"),
+    Bound("intersection_regions", "regions",
+          counts={"regions": "count", "region_of_pair": "pair_count"}),
+    Bound("mesh_intersection_options", "intersections_options"),
+    Bound("curve_segment", "segment", "same"),
+    Bound("curve_path", "path", "part", leave="pairs", counts={"points": "count"}),
+    Bound("curve_network", "paths", custom={"points": [
+        Member("const double* points", "[point_count][3]",
+               "to.points = positions_of(kept, from.points);"),
+        Member("size_t point_count", "", "to.point_count = from.points.size();")]}),
+    Bound("stream_search_options", "search_file_options", leave="step_done"),
+    Bound("stream_search_result", "search_result", leave="bounds header started_anew", custom={
+        "part": [
+            Member("treeform_arrays mesh", "only the faces that meet others",
+                   "to.mesh = arrays(from.part.mesh);"),
+            Member("const uint32_t* face_in_file", "[F] their numbers in the file",
+                   "to.face_in_file = faces_in_file(kept, from.part).data();"),
+            Member("uint64_t degenerate", "triangles without area",
+                   "to.degenerate = from.part.degenerate;"),
+            Member("uint64_t dropped", "triangles that are not finite",
+                   "to.dropped = from.part.dropped;")]}),
+    # solids.h
+    Bound("boolean_options"),
+    Bound("operand_volumes", "volumes", "part"),
+    Bound("boolean_result", counts={"vanished_at": "vanished_listed"}),
+    Bound("resolve_options"),
+    Bound("resolve_result"),
+    Bound("repair_options"),
+    Bound("repair_statistics", kind="part"),
+    Bound("repair_result", custom={"+": [FILE]}),
+    Bound("repaired_file", "repair_result", leave="file parts"),
+    Bound("solid_defects", custom={"+": [
+        Member("int32_t any", "there is one", "to.any = from.any();"), MESSAGE]}),
+    Bound("wrap_options"),
+    Bound("wrap_result"),
+    # cuts.h
+    Bound("section_loop", kind="same"),
+    Bound("section_layer", kind="same"),
+    Bound("section_result"),
+    Bound("cut_options"),
+    Bound("cut_piece", kind="part"),
+    Bound("cut_result", counts={"pieces": "count"}),
+    Bound("mesh_part", kind="part"),
+    # nearness.h
+    Bound("mesh_hit", "hit", "same"),
+    Bound("measure_options"),
+    Bound("mesh_measure", "relation", names={"relation": "how"}, custom={
+        f"on_{x}": [
+            Member(f"uint32_t nearest_{x}", f"the face of `{x}` that `on_{x}` is on",
+                   f"to.nearest_{x} = from.on_{x}.face;"),
+            Member(f"double on_{x}[3]", f"the nearest point on the surface of `{x}`",
+                   f"copy(from.on_{x}.point, to.on_{x});"),
+            Member(f"double barycentric_{x}[3]", "of it in that face",
+                   f"std::copy(from.on_{x}.barycentric.begin(), from.on_{x}.barycentric.end(), "
+                   f"to.barycentric_{x});")] for x in "ab"}),
+    Bound("depth_options"),
+    Bound("deviation_options", custom={"band": [
+        Member("double band_low", "signed distances within tolerance; NaN: no band", "",
+               "if (!std::isnan(o.band_low) || !std::isnan(o.band_high))"
+               " how.band = {o.band_low, o.band_high};", "to.band_low = not_known;"),
+        Member("double band_high", "", "", "", "to.band_high = not_known;")]}),
+    Bound("deviation_result", leave="winding_numbers", counts={"distances": "count", "faces": ""},
+          custom={
+        "sides": [Member("uint64_t sides[3]", "points inside, on and outside",
+                         "if (from.sides) { to.sides[0] = from.sides->inside; "
+                         "to.sides[1] = from.sides->on; to.sides[2] = from.sides->outside; }")],
+        "there": [Member(f"double there_{name}", doc, f"to.there_{name} = from.there.{name};")
+                  for name, doc in (("sampled", "over the points of the first"),
+                                    ("at_most", "a bound for its surface"))],
+        "back": [Member(f"double back_{name}", doc,
+                        f"to.back_{name} = from.back ? from.back->{name} : not_known;")
+                 for name, doc in (("sampled", "the other way; NaN unless `both_ways`"),
+                                   ("at_most", ""))],
+        "histogram": [
+            Member("double histogram_low", "", "to.histogram_low = from.histogram.low;"),
+            Member("double histogram_high", "", "to.histogram_high = from.histogram.high;"),
+            Member("const uint64_t* histogram", "[bins]",
+                   "to.histogram = from.histogram.counts.data();"),
+            Member("size_t bins", "", "to.bins = from.histogram.counts.size();")],
+        "band": [Member(f"uint64_t {name}", doc,
+                        f"if (from.band) to.{name} = from.band->{name};")
+                 for name, doc in (("below", "the band"), ("within", ""), ("above", ""))]}),
+    # weld.h
+    Bound("weld_condition", kind="part"),
+    Bound("weld_options", leave="search", custom={"may_merge": [
+        Member("int (*may_merge)(uint32_t a, uint32_t b, void* data)",
+               "whether two points may be merged; or null. Symmetric; called from several threads "
+               "at once", "",
+               "if (o.may_merge) how.may_merge = [call = o.may_merge, data = o.may_merge_data]("
+               "std::uint32_t a, std::uint32_t b) { return call(a, b, data) != 0; };"),
+        Member("void* may_merge_data")]}),
+    Bound("weld_result", leave="attributes", names={"groups": "merged_groups"},
+          counts={"group_of_point": "point_count", "first_of_group": "group_count"},
+          custom={"+": [FILE]}),
+    Bound("file_weld_result", "weld_result", leave="file", names={"groups": "merged_groups"},
+          counts={"group_of_point": "point_count", "first_of_group": "group_count"}),
+    # streams.h
+    Bound("weld_stream_result", custom={
+        "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
+                   for type, name, doc in (
+                       ("uint64_t", "points", ""),
+                       ("uint64_t", "non_finite", "points left as they are"),
+                       ("double", "tolerance", "as a length"), ("uint64_t", "tiles", ""),
+                       ("uint64_t", "finished_tiles", "by an earlier run"))],
+        "max_displacement": [Member(
+            "double max_displacement", "the furthest that a point moved",
+            "to.max_displacement = from.counts.max_displacement + from.survey.las_moved;")],
+        "written": [
+            Member("const char* format", "of the output",
+                   'to.format = from.written.welded ? from.written.welded->format.c_str() : "";'),
+            Member("uint64_t still_within", "points that would be merged if the output were welded",
+                   "to.still_within = from.written.still_within.value_or(0);"),
+            Member("int32_t still_within_known", "",
+                   "to.still_within_known = from.written.still_within.has_value();")]}),
+    # placement.h
+    Bound("place_options", leave="direction",
+          of="slide_options mate_options drop_options separate_options turn_options "
+             "feature_mate_options measure_among_options",
+          doc="How to slide, mate, separate, turn. What an operation does not use is ignored."),
+    Bound("placement_contact", "contact", "part", custom={"fixed": [
+        Member("uint32_t fixed", "number of the fixed mesh",
+               "to.fixed = static_cast<std::uint32_t>(from.fixed);")]}),
+    Bound("placement", leave="max_travel predicates", counts={"contacts": "contact_listed",
+                                                                "points": "point_count"}, custom={
+        "nearest": [
+            Member("uint32_t nearest_fixed",
+                   "the fixed mesh that matters most; `TREEFORM_NONE` for none",
+                   "to.nearest_fixed = from.nearest ? "
+                   "static_cast<std::uint32_t>(from.nearest->fixed) : TREEFORM_NONE;"),
+            Member("const treeform_relation* nearest",
+                   "how it lies to the moving one, `a`; or null",
+                   "if (from.nearest) "
+                   "to.nearest = &filled<treeform_relation>(kept, from.nearest->how);")],
+        "+": [MESSAGE,
+              Member("double angle", "of `treeform_turn` and `treeform_mate_features`, in degrees; "
+                     "else 0"),
+              Member("double tolerance", "of `treeform_turn`"),
+              Member("uint64_t steps", "of `treeform_turn`"),
+              Member("double offset", "of `treeform_mate_features`: distance of the features' "
+                     "centers")]}),
+    Bound("impact", leave="exact predicates", counts={"contacts": "contact_listed"}),
+    Bound("approach", "impact", leave="exact predicates", counts={"contacts": "contact_listed"}),
+    Bound("face_contact", "impact_contact", "same", custom={"at": [
+        Member("uint8_t on_a", "the part of the face, as in `treeform_hit::at`"),
+        Member("uint8_t on_b")]}),
+    Bound("impact_options"),
+    Bound("lay_flat_options"),
+    Bound("side_stability", "stability", "same"),
+    Bound("laid_flat", leave="contact", names={"mass": "mass_of"}, counts={"stability": "",
+                                                                        "points": "point_count"},
+          custom={"+": [MESSAGE]}),
+    Bound("pack_options", names={"size": "plate"}),
+    Bound("packed_part", kind="part", counts={"points": "point_count"}),
+    Bound("packing", counts={"parts": "part_count"}, custom={"+": [MESSAGE]}),
+    Bound("align_options"),
+    Bound("align_freedom", "freedom", "same"),
+    Bound("align_result", leave="converged", counts={"points": "point_count"},
+          custom={"+": [MESSAGE, Member(
+              "size_t undetermined", "how many of `freedoms` nothing holds",
+              "to.undetermined = from.undetermined();")]}),
+    # assembly.h
+    Bound("clash_options"),
+    Bound("contact_region", kind="part",
+          counts={"faces_a": "face_count_a", "faces_b": "face_count_b"}),
+    Bound("part_clash", kind="part", custom={"nearest": [
+        Member("double on_a[3]", "nearest points of those that are too close; else NaN",
+               "copy(from.nearest ? (*from.nearest)[0] : nowhere, to.on_a);"),
+        Member("double on_b[3]", "",
+               "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
+    Bound("clash_result", "clashes", counts={"pairs": "count"}),
+    Bound("pose_options", "poses_options"),
+    Bound("pose_clash", kind="same"),
+    # files.h
+    Bound("named_column", kind="part"),
+    Bound("io_warning", "warning", "part"),
+    Bound("column", kind="part", leave="role", custom={
+        "list_length": [
+            Member("int32_t is_list", "a row has a list of values",
+                   "to.is_list = from.list_length.has_value();"),
+            Member("int32_t is_stored_elsewhere", "it stands for what points and faces hold",
+                   "to.is_stored_elsewhere = from.role != tf::column_role::data;")],
+        "values": [Member("const void* values", "[value_count] of the type",
+                          "to.values = from.values.data();"),
+                   Member("size_t value_count", "", "to.value_count = from.size();")],
+        "list_begin": [Member("const uint64_t* list_begin", "[rows + 1] of lists; else null",
+                              "if (from.list_length) to.list_begin = from.list_begin.data();")]}),
+    Bound("element", "rows", "part"),
+    Bound("part", "named_faces", "part"),
+    Bound("mesh_file", "file_view", leave="ranges has_w header", custom={
+        "texture": [Member("const double* texture", "[texture_count][3] u, v, w",
+                           "to.texture = flat(from.attributes.corners.texture);"),
+                    Member("size_t texture_count", "",
+                           "to.texture_count = from.attributes.corners.texture.size();")],
+        "las": [Member("int32_t is_las", "", "to.is_las = from.las.has_value();"),
+                Member("double las_scale[3]", "", "if (from.las) std::copy(from.las->scale.begin(), "
+                       "from.las->scale.end(), to.las_scale);"),
+                Member("double las_offset[3]", "", "if (from.las) std::copy(from.las->offset.begin()"
+                       ", from.las->offset.end(), to.las_offset);")]}),
+    Bound("read_options", custom={"+": [Member("const char* format", "null: by content")]}),
+    Bound("write_options", leave="keep_names round", custom={"+": [Member(
+        "int32_t certified",
+        "the coordinates are certified: fail rather than round them. For `treeform_write_mesh`")]}),
+    Bound("write_result", "written"),
+    Bound("part_options"),
+    Bound("usable_mesh", "part", leave="distinct stored_face", custom={
+        "+": [Member("const uint32_t* face_in_file",
+                     "[F] the number in the file, counting polygons",
+                     "to.face_in_file = faces_in_file(kept, from).data();")],
+        "triangle_of_face": [Member(
+            "const uint32_t* triangle_of_face",
+            "[F] the file's triangle that each face is; null: its number",
+            "to.triangle_of_face = or_null(from.triangle_of_face);")],
+        "component": [Member("const uint32_t* component",
+                             "[F] with `details`: the component; else null",
+                             "to.component = or_null(from.component);")]}),
+    Bound("urdf_options", "robot_options"),
+    Bound("urdf_joint", "robot_joint", "part", leave="origin axis mimics mimic_line", custom={
+        "limits": [Member("double lower", "the limits; NaN for none",
+                          "to.lower = from.limits ? (*from.limits)[0] : not_known;"),
+                   Member("double upper", "",
+                          "to.upper = from.limits ? (*from.limits)[1] : not_known;")]}),
+    Bound("urdf_mesh", "robot_mesh", "part", custom={
+        "file": [Member("const char* file", '"" where it was made',
+                        "to.file = kept.keep(from.file.string()).c_str();")],
+        "shape": [
+            Member("const double* points", "[point_count][3] as made",
+                   "to.points = flat(from.shape.points);"),
+            Member("size_t point_count", "", "to.point_count = from.shape.points.size();"),
+            Member("const uint32_t* faces", "[face_count][3]",
+                   "to.faces = flat(from.shape.faces);"),
+            Member("size_t face_count", "", "to.face_count = from.shape.faces.size();")]}),
+    Bound("urdf_robot", "robot_view", leave="approximated skipped", counts={"links": "link_count"},
+          custom={"+": [
+              Member("const uint32_t* adjacent",
+                     "[adjacent_count][2] pairs of links that need not be compared",
+                     "const auto& adjacent = kept.keep(from.adjacent()); "
+                     "to.adjacent = flat(adjacent);"),
+              Member("size_t adjacent_count", "", "to.adjacent_count = adjacent.size();")]}),
+]
+
+#: Lists as results: what of, the name of the list, and what is said.
+LISTS = [
+    List("mesh_feature", "features", "features", "Features, largest area first."),
+    List("mesh_part", "mesh_parts", "parts", "Parts of a mesh."),
+    List("curve_segment", "segments", "segments", "Segments, in the order of the pairs."),
+    List("uint32_t", "indices", "values", "A list of numbers."),
+    List("double", "heights", "heights", "Numbers."),
+    List("string", "strings", "values", "A list of words."),
+]
+
+#: Headers of C++ that functions need beside those of the structs, by C header.
+INCLUDES = {"mesh": ["mesh/as_mesh.hpp", "mesh/cut.hpp"],
+            "nearness": ["mesh/distance.hpp", "mesh/point_location.hpp"],
+            "properties": ["mesh/boolean.hpp", "mesh/point_location.hpp", "mesh/predicates.hpp"],
+            "intersections": ["mesh/curves.hpp"]}
+
+#: Functions that are one call. `$name` is an argument as C++ has it; without `$`, as it is in C.
+CALLS = {
+    # mesh.h
+    "treeform_mesh_is_cloud": 'glue::need(mesh, "mesh").prepared->is_cloud()',
+    "treeform_mesh_indexes_built": 'glue::need(mesh, "mesh").prepared->indexes_built()',
+    "treeform_select_faces": "tf::submesh($mesh, $faces).mesh",
+    "treeform_coordinate_step": "tf::coordinate_step(glue::view(mesh).points, $precision)",
+    # properties.h
+    "treeform_is_solid": "static_cast<bool>(tf::check_solid($mesh))",
+    "treeform_check_solid": "tf::check_solid($mesh, $progress)",
+    "treeform_count_topology":
+        "tf::count_topology(glue::view(mesh).points.size(), glue::view(mesh).faces)",
+    "treeform_find_defects": "tf::find_defects($mesh)",
+    "treeform_closing_tolerance":
+        "tf::closing_tolerance(glue::view(mesh), $tolerances).value_or(count)",
+    "treeform_same_triangles":
+        "tf::same_triangles(glue::view(a), glue::view(b), "
+        "any_order != 0 ? tf::face_order::any : tf::face_order::kept)",
+    "treeform_feature_at_face":
+        "glue::as_list(tf::feature_at(glue::view(mesh), $kind, face, $options))",
+    "treeform_fit_feature": "glue::as_list(tf::fit_feature(glue::view(mesh), $kind, $faces))",
+    "treeform_orient2d": 'tf::orient2d(glue::finite2(a, "a"), glue::finite2(b, "b"), '
+                         'glue::finite2(c, "c"))',
+    "treeform_orient3d": 'tf::orient3d(glue::finite(a, "a"), glue::finite(b, "b"), '
+                         'glue::finite(c, "c"), glue::finite(d, "d"))',
+    "treeform_compare_distance":
+        'tf::compare_distance(glue::finite(a, "a"), glue::finite(b, "b"), glue::finite(c, "c"), '
+        'glue::finite(d, "d"))',
+    # intersections.h
+    "treeform_group_pairs": "tf::group_pairs(glue::view(mesh), glue::pairs_of(mesh, pairs, count))",
+    "treeform_intersections": "tf::mesh_intersections($a, $b, $options)",
+    "treeform_intersects": "tf::intersects($a, $b, tf::mesh_positions{$move_a, $move_b})",
+    "treeform_intersection_curves":
+        "tf::intersection_curves(glue::view(mesh), glue::pairs_of(mesh, pairs, count))",
+    "treeform_intersection_paths":
+        "tf::intersection_paths(glue::view(mesh), glue::pairs_of(mesh, pairs, count))",
+    "treeform_write_curves":
+        "tf::write_curves($path, glue::view(mesh), glue::pairs_of(mesh, pairs, count), {}, "
+        "glue::text(format))",
+    "treeform_self_intersections_of_file": "tf::self_intersections_of_file($path, $options)",
+    "treeform_is_searched_in_tiles": "tf::is_searched_in_tiles($path, glue::text(format))",
+    # solids.h
+    "treeform_boolean":
+        "tf::boolean($operands, tf::boolean_expression($expression, count), $options)",
+    "treeform_boolean_named":
+        "tf::boolean($operands, tf::boolean_expression($expression, $names), $options)",
+    "treeform_names_in": "tf::boolean_expression::names_in($expression)",
+    "treeform_unite": "tf::unite($a, $b, $options)",
+    "treeform_subtract": "tf::subtract($a, $b, $options)",
+    "treeform_intersection": "tf::intersection($a, $b, $options)",
+    "treeform_symmetric_difference": "tf::symmetric_difference($a, $b, $options)",
+    "treeform_unite_all":
+        "tf::boolean($operands, tf::boolean_expression::union_of(count), $options)",
+    "treeform_clip":
+        "tf::clip($operands, sheet, tf::boolean_expression($expression, count), $options)",
+    "treeform_split": "tf::split($operands, $options)",
+    "treeform_resolve_self_intersections":
+        "tf::resolve_self_intersections($mesh, $mode, $options)",
+    "treeform_repair": "tf::repair($mesh, $options)",
+    "treeform_find_solid_defects": "tf::find_solid_defects($mesh, $progress)",
+    "treeform_wrap": "tf::wrap($mesh, size, $options)",
+    # cuts.h
+    "treeform_section":
+        "tf::section($mesh, glue::plane(plane), glue::heights(heights, count), {$progress})",
+    "treeform_layer_heights":
+        "tf::layer_heights(glue::view(mesh).points, glue::plane(plane), thickness)",
+    "treeform_cut": "tf::cut($mesh, glue::plane(plane), glue::heights(heights, count), $options)",
+    "treeform_cut_to_fit": "tf::cut_to_fit($mesh, $size, $options)",
+    "treeform_components": "tf::components($mesh, {.min_volume = min_volume, "
+                           ".largest = largest != 0 ? largest : SIZE_MAX})",
+    "treeform_transform_mesh": "tf::transform_mesh($mesh, $matrix)",
+    # nearness.h
+    "treeform_distance": "tf::distance($a, $b, tf::distance_options{$move_a, $move_b})",
+    "treeform_measure": "tf::measure($a, $b, $options)",
+    "treeform_relate":
+        "static_cast<treeform_standing>(tf::relation($a, $b, {.vertices = $vertices}).relation)",
+    "treeform_count_inside_out": "tf::count_inside_out($mesh)",
+    "treeform_deviation": "tf::deviation($a, $fixed, $options)",
+    # weld.h
+    "treeform_count_nearly_equal": "tf::count_nearly_equal(glue::view(mesh).points, distance)",
+    # placement.h
+    **{f"treeform_{verb}": f"tf::{verb}($moving, $fixed, glue::read_as<tf::{verb}_options>(options))"
+       for verb in ("mate", "separate", "measure_among")},
+    "treeform_slide":
+        "tf::slide($moving, $fixed, $direction, glue::read_as<tf::slide_options>(options))",
+    "treeform_drop":
+        "fixed_count == 0 ? tf::drop($moving, glue::drop_options_of(options, direction)) "
+        ": tf::drop($moving, $fixed, glue::drop_options_of(options, direction))",
+    "treeform_turn": "tf::turn($moving, $fixed, {$origin, $direction}, "
+                     "glue::read_as<tf::turn_options>(options))",
+    "treeform_mate_features":
+        'tf::mate_features($moving, $fixed, glue::feature_of(of_moving, "of_moving"), '
+        'glue::feature_of(of_fixed, "of_fixed"), '
+        "glue::read_as<tf::feature_mate_options>(options))",
+    "treeform_time_of_impact": "tf::time_of_impact($a, $b, $motion, $options)",
+    # assembly.h
+    "treeform_clash": "tf::clash($parts, $options)",
+    # files.h
+    "treeform_read": "tf::read($path, glue::text(format))",
+    "treeform_file_copy": "tf::mesh_file($file)",
+    "treeform_file_split_polygons": "$file.split_polygons()",
+    "treeform_file_round_to_las": "tf::round_to_las($file)",
+    "treeform_file_round_to_float32": "$file.round_to_float32()",
+    "treeform_usable_part": "tf::usable_part($file.mesh, $file.stored_face, $options)",
+    "treeform_files_of": "tf::files_of($paths, $content)",
+}

@@ -1,0 +1,332 @@
+"""Writes what `c_language.py` knows: blocks of the C headers, and the sources of tools/c/made."""
+
+from __future__ import annotations
+
+import pathlib
+import re
+import subprocess
+import textwrap
+
+from c_language import Bound, Language, List, Member
+from headers import ROOT, Enum
+
+INCLUDE = ROOT / "tools/c/include/treeform/c"
+MADE = ROOT / "tools/c/made"
+_BLOCK = re.compile(r"^// made of [^\n]+:\n((?://   [^\n]+\n)+).*?^// end\n", re.M | re.S)
+SCALARS = ["double", "int32_t", "uint32_t", "uint64_t", "size_t"]
+_STRUCT = re.compile(r"^typedef struct (treeform_\w+) \{\n(.*?)^\} \1;", re.M | re.S)
+
+
+def formatted(text: str, name: str) -> str:
+    """Text as clang-format writes it."""
+    done = subprocess.run(["clang-format", f"--assume-filename={ROOT / name}"], input=text,
+                          capture_output=True, text=True, check=True)
+    return done.stdout
+
+
+def comment(text: str, indent: str = "") -> str:
+    lines: list[str] = []
+    for part in text.split("\n\n"):
+        lines += textwrap.wrap(part, 95 - len(indent), break_long_words=False,
+                               break_on_hyphens=False) + [""]
+    return "".join(f"{indent}/// {line}".rstrip() + "\n" for line in lines[:-1])
+
+
+def names_of(block: re.Match[str]) -> list[str]:
+    """What a block of a header is made of."""
+    return [name for name in block.group(1).split() if name != "//"]
+
+
+class Writer:
+    def __init__(self, language: Language, lists: list[List],
+                 enums: dict[str, tuple[str, str | dict[str, str]]], calls: dict[str, str],
+                 includes: dict[str, list[str]]) -> None:
+        self.language, self.enums = language, enums
+        self.calls, self.includes = calls, includes
+        self.lists = {one.of: one for one in lists}
+        self.order: dict[str, list[str]] = {}  #: members of structs as they stand now
+        self.where: dict[str, str] = {}  #: the header of each name of a block
+        self.fields: set[str] = set()  #: of the struct that is written
+        self.values = {name for one in language.enums.values() for name, _ in one.values}
+        self.known = set(exported()) | {one.c for one in language.bound.values()}
+
+    # ---- words ----
+
+    def words(self, text: str) -> str:
+        """A sentence of C++ for C: names in backticks are those of C."""
+        def name(found: re.Match[str]) -> str:
+            word = found.group(1)
+            bound = self.language.bound.get(word)
+            if bound:
+                return f"`{bound.c}`"
+            there = f"treeform_{word}" in self.known and word not in self.fields | self.values
+            return f"`treeform_{word}`" if there else found.group(0)
+        text = re.sub(r"`(\w+)`", name, text)
+        text = re.sub(r"; none( for|:)", r"; `TREEFORM_NONE`\1", text)
+        return text.replace("`operand_element::none`", "`TREEFORM_NONE`")
+
+    # ---- headers ----
+
+    def read_order(self, text: str) -> None:
+        for name, body in _STRUCT.findall(text):
+            body = re.sub(r"//.*", "", body)
+            members: list[str] = []
+            for one in body.split(";"):
+                one = " ".join(one.split())
+                if one and "(" in one:
+                    members.append(Member(one).name)
+                elif one:
+                    members += [Member(part).name for part in one.split(",")]
+            self.order[name] = members
+
+    def in_order(self, c: str, members: list[Member]) -> list[Member]:
+        """Old members keep their places, so that old programs go on to work; new ones come last."""
+        before = self.order.get(c, [])
+        before = before[1:] if before and before[0] in ("owner", "size") else before
+        place = {name: i for i, name in enumerate(before)}
+        return sorted(members, key=lambda one: place.get(one.name, len(before)))
+
+    def struct(self, bound: Bound) -> str:
+        self.fields = {one.name for one in self.language.structs[bound.cpp].fields}
+        first = {"options": "size_t size;\n", "result": "void* owner;\n"}.get(bound.kind, "")
+        said = self.language.structs[bound.cpp].doc
+        text = comment(self.words(said))
+        text += f"typedef struct {bound.c} {{\n{first}"
+        for one in self.in_order(bound.c, self.language.members(bound)):
+            doc = self.words(one.doc)
+            line = f"    {one.decl};"
+            if doc and len(line) + len(doc) < 82 and "\n" not in doc:
+                text += f"{line}  ///< {doc}\n"
+            else:
+                text += comment(doc, "    ") if doc else ""
+                text += line + "\n"
+        text += f"}} {bound.c};\n"
+        if bound.kind == "options":
+            text += (f"/// Sets the defaults.\nTREEFORM_C_API void {bound.c}_init({bound.c}* options,"
+                     " size_t size);\n")
+        return text
+
+    def list_struct(self, one: List) -> str:
+        element = {"uint32_t": "const uint32_t*", "double": "const double*",
+                   "string": "const char* const*"}.get(one.of)
+        element = element or f"const {self.language.bound[one.of].c}*"
+        return (comment(one.doc) + f"typedef struct {one.c} {{\nvoid* owner;\n"
+                f"{element} {one.name};  ///< [count]\nsize_t count;\n}} {one.c};\n")
+
+    def constants(self, name: str) -> list[str]:
+        prefix = self.enums[name][1]
+        special = prefix if isinstance(prefix, dict) else {}
+        front = prefix if isinstance(prefix, str) else ""
+        return ["TREEFORM_" + special.get(value, (front + value).upper())
+                for value, _ in self.language.enums[name].values]
+
+    def enum(self, name: str) -> str:
+        it: Enum = self.language.enums[name]
+        c = self.enums[name][0]
+        self.fields = set()
+        text = comment(self.words(it.doc)) + f"typedef int32_t {c};\nenum {{\n"
+        last = len(it.values) - 1
+        for i, (constant, (_, doc)) in enumerate(zip(self.constants(name), it.values)):
+            if doc:
+                text += comment(self.words(doc), "    ")
+            text += f"    {constant} = {i}{',' if i < last else ''}\n"
+        return text + "};\n"
+
+    def thing(self, name: str) -> str:
+        if name in self.language.bound:
+            return self.struct(self.language.bound[name])
+        if name in self.enums:
+            return self.enum(name)
+        return self.list_struct(next(one for one in self.lists.values()
+                                     if one.c == "treeform_" + name))
+
+    def header_of(self, name: str) -> str:
+        for all in (self.language.structs, self.language.enums):
+            if name in all:
+                return all[name].header
+        return ""
+
+    def block(self, names: list[str]) -> str:
+        of = sorted({self.header_of(name) for name in names} - {""})
+        text = f"// made of {' '.join(f'<{one}>' for one in of) or 'lists'}:\n"
+        text += "".join(f"//   {line}\n" for line in textwrap.wrap(" ".join(names), 90))
+        return text + "\n".join(self.thing(name) for name in names) + "// end\n"
+
+    def header(self, path: pathlib.Path) -> str:
+        """The text of a C header with its blocks made anew."""
+        text = path.read_text()
+        self.read_order(text)
+
+        def made(found: re.Match[str]) -> str:
+            names = names_of(found)
+            self.where |= {name: path.stem for name in names}
+            return self.block(names)
+        return formatted(_BLOCK.sub(made, text), f"tools/c/include/treeform/c/{path.name}")
+
+    # ---- sources ----
+
+    def declarations(self) -> str:
+        text = ("#pragma once\n/// \\file\n/// Made by tools/bindings: structs of C filled from those "
+                "of C++, and options read.\n\n")
+        headers = sorted({self.header_of(name) for name in self.language.bound})
+        text += "".join(f"#include <treeform/{one}>\n" for one in headers)
+        text += "\n#include <tools/c/glue.hpp>\n\nnamespace glue {\n\n"
+        for bound in self.language.bound.values():
+            if bound.of:
+                text += self.read_as(bound)
+            elif bound.kind == "options":
+                text += f"[[nodiscard]] tf::{bound.cpp} read(const {bound.c}* options);\n"
+                text += f"[[nodiscard]] tf::{bound.cpp} read(const {bound.c}& o);\n"
+            elif bound.kind != "same":
+                text += f"void fill(keeper& kept, const tf::{bound.cpp}& from, {bound.c}& to);\n"
+        for one in self.lists.values():
+            text += (f"void fill(keeper& kept, const std::vector<{one.element}>& from, "
+                     f"{one.c}& to);\n")
+        return text + "\n}  // namespace glue\n"
+
+    def read_as(self, bound: Bound) -> str:
+        """Options of several functions, read as those of one of them."""
+        text = (f"/// Those of the options that an operation has.\ntemplate <class Options>\n"
+                f"[[nodiscard]] Options read_as(const {bound.c}* options) {{\n"
+                f"const auto o = chosen(options, {bound.c}_init);\nOptions how;\n")
+        for one in self.language.members(bound):
+            if one.read:
+                name = re.search(r"how\.(\w+)", one.read).group(1)
+                text += f"if constexpr (requires {{ how.{name}; }}) {one.read}\n"
+        return text + "return how;\n}\n"
+
+    def filling(self, bound: Bound) -> str:
+        """The functions of a struct."""
+        members = self.language.members(bound)
+        if bound.kind == "same":
+            fields = [one.name for one in self.language.structs[bound.cpp].fields
+                      if one.name not in bound.custom]
+            names = [bound.names.get(name, name) for name in fields]
+            text = f"static_assert(sizeof({bound.c}) == sizeof(tf::{bound.cpp}));\n"
+            return text + "".join(
+                f"static_assert(offsetof({bound.c}, {c}) == offsetof(tf::{bound.cpp}, {cpp}));\n"
+                for c, cpp in zip(names, fields))
+        if bound.kind == "options":
+            text = (f"tf::{bound.cpp} glue::read(const {bound.c}* options) {{\n"
+                    f"return read(chosen(options, {bound.c}_init));\n}}\n"
+                    f"tf::{bound.cpp} glue::read(const {bound.c}& o) {{\ntf::{bound.cpp} how;\n")
+            text += "".join(one.read + "\n" for one in members) + "return how;\n}\n\n"
+            if bound.of:
+                text = ""
+            text += (f"void {bound.c}_init({bound.c}* options, size_t size) {{\n"
+                     f"{bound.c} to{{}};\n")
+            defaults = "".join(one.default + "\n" for one in members if one.default)
+            if bound.of:
+                defaults = re.sub(r"\bfrom\.(\w+)", lambda found: "tf::" + self.language.owner(
+                    bound, found.group(1)) + "{}." + found.group(1), defaults)
+            elif "from." in defaults:
+                text += f"const tf::{bound.cpp} from;\n"
+            text += "using namespace glue;\n" if re.search(r"\b(not_known|copy)\b", defaults) else ""
+            return text + defaults + "glue::init(options, size, to);\n}\n"
+        body = "".join(one.fill + "\n" for one in members if one.fill)
+        kept = "kept" if re.search(r"(?<!\.)\bkept\b", body) else ""
+        return (f"void glue::fill(keeper& {kept}, const tf::{bound.cpp}& from, {bound.c}& to) {{\n"
+                + body + "}\n")
+
+    def list_filling(self, one: List) -> str:
+        bound = self.language.bound.get(one.of)
+        value = "from.data()"
+        if one.of == "string":
+            value = "words(kept, from)"
+        elif bound:
+            value = f"{'same' if bound.kind == 'same' else 'list'}<{bound.c}>(" \
+                    f"{'' if bound.kind == 'same' else 'kept, '}from)"
+        kept = "kept" if "kept" in value else ""
+        return (f"void glue::fill(keeper& {kept}, const std::vector<{one.element}>& from, "
+                f"{one.c}& to) {{\nto.{one.name} = {value};\nto.count = from.size();\n}}\n")
+
+    def source(self, stem: str, names: list[str], text: str) -> str:
+        """The source for a C header."""
+        parts = [self.filling(bound) for bound in self.language.bound.values()
+                 if bound.cpp in names or any(self.language.bound[name].c == bound.c for name in names
+                        if name in self.language.bound)]
+        parts += [self.list_filling(one) for one in self.lists.values()
+                  if one.c[len("treeform_"):] in names]
+        constants = "".join(
+            f"static_assert({constant} == static_cast<int>(tf::{name}::{value}));\n"
+            for name in names if name in self.enums
+            for constant, (value, _) in zip(self.constants(name), self.language.enums[name].values))
+        calls = [self.call(*found) for found in prototypes(text) if found[0] in self.calls]
+        result = f"// Made by tools/bindings of {stem}.h and the headers of C++: see its README.\n"
+        result += "".join(f"#include <treeform/{one}>\n" for one in self.includes.get(stem, []))
+        result += "#include <tools/c/made/structs.hpp>\n"
+        result += "\nnamespace tf = treeform;\n\n" + constants + "\n"
+        return formatted(result + "\n".join(parts + calls), f"tools/c/made/{stem}.cpp")
+
+    # ---- functions ----
+
+    def call(self, name: str, parameters: list[tuple[str, str]]) -> str:
+        expression = self.calls[name]
+        out_type, out = parameters[-1]
+        types = dict((n, t) for t, n in parameters)
+
+        def argument(found: re.Match[str]) -> str:
+            return self.argument(found.group(1), types, parameters)
+        value = re.sub(r"\$(\w+)", argument, expression)
+        declared = ", ".join(re.sub(r"(\[\d*\])? (\w+)$", r" \2\1", f"{t} {n}")
+                             for t, n in parameters)
+        text = f"treeform_code {name}({declared}) {{\nreturn glue::guard([&] {{\n"
+        plain = out_type[:-1] in SCALARS or out_type[:-1] in [c for c, _ in self.enums.values()]
+        if out_type.endswith("**"):
+            text += f"glue::start({out});\nreturn glue::give({value}, {out});\n"
+        elif plain and out_type.endswith("*"):
+            text += (f"(void)glue::need({out}, \"{out}\");\n*{out} = {value};\n")
+        else:
+            text += f"{value};\n"
+        return text + "});\n}\n"
+
+    def argument(self, name: str, types: dict[str, str], parameters: list[tuple[str, str]]) -> str:
+        type = types[name]
+        at = [n for _, n in parameters].index(name)
+        after = parameters[at + 1] if at + 1 < len(parameters) else ("", "")
+        counts = [n for t, n in parameters[at + 1:] if t == "size_t"]
+        counted = bool(counts)
+        if type == "const treeform_mesh*":
+            return f'glue::ref({name}, "{name}")'
+        if type == "const treeform_mesh* const*":
+            return f'glue::refs({name}, {counts[0]}, "{name}")'
+        if type == "const char* const*":
+            return f'glue::texts({name}, {counts[0]}, "{name}")'
+        if type == "const char*":
+            return f'std::string(&glue::need({name}, "{name}"))'
+        if type in ("const treeform_file*", "treeform_file*"):
+            return f'glue::need({name}, "{name}").content'
+        if found := re.fullmatch(r"const (treeform_\w+_options)\*", type):
+            return f"glue::read({name})"
+        if type == "const double[3]":
+            return f'glue::point({name}, "{name}")'
+        if type == "treeform_progress":
+            return f"glue::progress({name}, {after[1]})"
+        for cpp, (c, _) in self.enums.items():
+            if c == type and c.startswith("treeform_"):
+                count = len(self.language.enums[cpp].values)
+                return f'glue::choice<tf::{cpp}>({name}, {count}, "{name}")'
+        if type == "const double*" and not counted:
+            return f"glue::matrix({name})"
+        if type.startswith("const ") and type.endswith("*") and counted:
+            return f'glue::array({name}, {counts[0]}, "{name}")'
+        raise ValueError(f"{name}: {type}: no such argument yet")
+
+
+def prototypes(text: str) -> list[tuple[str, list[tuple[str, str]]]]:
+    """Functions of a C header: names, and the types and names of their parameters."""
+    text = re.sub(r"//.*", "", text)
+    found = []
+    for name, inside in re.findall(r"TREEFORM_C_API treeform_code (treeform_\w+)\((.*?)\);", text,
+                                   re.S):
+        parameters = []
+        for one in inside.split(","):
+            one = " ".join(one.split())
+            type, n, size = re.fullmatch(r"(.+?)\s*\b(\w+)((?:\[\d*\])?)", one).groups()
+            parameters.append((type + size, n))
+        found.append((name, parameters))
+    return found
+
+
+def exported() -> list[str]:
+    return re.findall(r"^ +(treeform_\w+);$", (ROOT / "tools/c/exports.map").read_text(), re.M)

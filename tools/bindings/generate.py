@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""generate.py [--check | --self-test]: makes the parts of the C library and of the Python package
+that follow from the headers of C++. With --check it changes nothing, and fails where a file is not
+what it would make.
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import pathlib
+import shutil
+import sys
+
+import c_surface
+import python_language
+import python_surface
+import python_write
+from c_language import Language
+from c_write import _BLOCK, INCLUDE, MADE, Writer, formatted, names_of
+from headers import ROOT, Enum, Field, Struct, read_all
+
+
+def c_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pathlib.Path, str]:
+    names = {cpp: c for cpp, (c, _) in c_surface.ENUMS.items()}
+    writer = Writer(Language(structs, enums, c_surface.BOUND, names), c_surface.LISTS,
+                    c_surface.ENUMS, c_surface.CALLS, c_surface.INCLUDES)
+    made: dict[pathlib.Path, str] = {}
+    for path in sorted(INCLUDE.glob("*.h")):
+        made[path] = writer.header(path)
+    for path, text in list(made.items()):
+        blocks = [name for found in _BLOCK.finditer(text) for name in names_of(found)]
+        if blocks:
+            made[MADE / f"{path.stem}.cpp"] = writer.source(path.stem, blocks, text)
+    made[MADE / "structs.hpp"] = formatted(writer.declarations(), "tools/c/made/structs.hpp")
+    return made
+
+
+def python_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pathlib.Path, str]:
+    language = python_language.Language(structs, enums, python_surface.RESULTS,
+                                        python_surface.WORDS)
+    writer = python_write.Writer(language, python_surface.OPTIONS, python_surface.COUNTERS,
+                                 python_surface.FUNCTIONS)
+    made = writer.sources()
+    for path in sorted([*python_write.PACKAGE.glob("*.py"), *python_write.PACKAGE.glob("*.pyi")]):
+        made[path] = writer.package_file(path)
+    return made
+
+
+def all_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pathlib.Path, str]:
+    for name in [*(one.cpp for one in c_surface.BOUND), *python_surface.OPTIONS,
+                 *(one.cpp for one in python_surface.RESULTS)]:
+        if name in structs and structs[name].unclear:
+            raise ValueError(f"{name} of {structs[name].header}: what is {structs[name].unclear}?")
+    return c_files(structs, enums) | python_files(structs, enums)
+
+
+def self_test() -> None:
+    """A counter and an option more are one line each of C++, and then everywhere."""
+    structs, enums = read_all()
+    structs["boolean_statistics"].fields.append(Field("unheard", "uint64_t", "0", "of nothing"))
+    structs["repair_options"].fields.append(Field("unseen", "double", "2.5", "a length"))
+    made = {path.relative_to(ROOT).as_posix(): text
+            for path, text in all_files(structs, enums).items()}
+    for path, words in {
+            "tools/c/include/treeform/c/solids.h": ["uint64_t unheard;  ///< of nothing",
+                                                    "double unseen;  ///< a length; default 2.5"],
+            "tools/c/made/solids.cpp": ["to.unheard = from.statistics.unheard;",
+                                        "how.unseen = o.unseen;", "to.unseen = from.unseen;"],
+            "tools/python/src/made/results.cpp": ['made["unheard"] = from.unheard;'],
+            "tools/python/src/made/options.cpp": ['visit("unseen", how.unseen);'],
+            "tools/python/treeform/_core.pyi": ["unseen: float = ..."]}.items():
+        text = " ".join(made[path].split())
+        for word in words:
+            assert " ".join(word.split()) in text, (path, word)
+    print("a field more is everywhere")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true", help="only look")
+    parser.add_argument("--self-test", action="store_true", help="whether a field more is made")
+    options = parser.parse_args()
+    if not shutil.which("clang-format"):
+        print("skipped: no clang-format")
+        return 77
+    if options.self_test:
+        self_test()
+        return 0
+    made = all_files(*read_all())
+    there = {path for folder in (MADE, python_write.MADE) for path in folder.glob("*.[ch]pp")}
+    wrong = 0
+    for path in sorted(there | set(made)):
+        before, text = path.read_text() if path.exists() else "", made.get(path, "")
+        if text == before:
+            continue
+        wrong += 1
+        if options.check:
+            name = str(path.relative_to(ROOT))
+            sys.stdout.writelines(difflib.unified_diff(
+                before.splitlines(True), text.splitlines(True), name, f"{name}, made anew"))
+        elif path in made:
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(text)
+        else:
+            path.unlink()
+    if options.check and wrong:
+        print(f"{wrong} files are not what the headers say: run tools/bindings/generate.py")
+    return int(options.check and wrong > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

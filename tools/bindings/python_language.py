@@ -1,0 +1,323 @@
+"""The package for Python: classes of results, options by name, functions, and the stub."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from dataclasses import dataclass, field
+
+from headers import Enum, Field, Struct
+
+NUMBERS = {"double": "float", "bool": "bool", "int": "int", "unsigned": "int", "size_t": "int",
+           "uint8_t": "int", "uint32_t": "int", "uint64_t": "int", "int32_t": "int"}
+#: Annotations and shapes of what becomes arrays.
+ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
+          "array<array<double,3>,3>": ("Floats", "(3, 3)"), "box3": ("Floats", "(2, 3)"),
+          "array<point3,2>": ("Floats", "(2, 3)"), "vector<uint32_t>": ("Ids", "({},)"),
+          "vector<double>": ("Floats", "({},)"), "vector<point3>": ("Floats", "({}, 3)"),
+          "vector<face>": ("Ids", "({}, 3)"), "vector<operand_element>": ("Ids", "({}, 2)")}
+
+
+#: What results are made in, as functions take it.
+CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
+            "moving": ", const held_mesh& moving", "data": ", const file_data* data"}
+
+
+@dataclass
+class Attribute:
+    """An attribute of a result. `code` gives its value; in it, `from` is the struct of C++."""
+
+    name: str
+    annotation: str
+    doc: str
+    code: str
+    default: str = ""
+
+
+@dataclass
+class Result:
+    """A struct of C++ as a class of Python."""
+
+    cpp: str
+    name: str
+    module: str  #: "_cuts"
+    base: str = "Result"
+    doc: str = ""  #: "": that of C++
+    names: dict[str, str] = field(default_factory=dict)
+    leave: str = ""
+    inherited: str = ""  #: fields that the base has
+    context: str = ""  #: what it is made in, of `CONTEXTS`
+    custom: dict[str, list[Attribute]] = field(default_factory=dict)  #: "+": more of them
+    docs: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def is_tuple(self) -> bool:
+        return self.base == "NamedTuple"
+
+
+@dataclass
+class Function:
+    """A function of the extension: `cut(mesh: Mesh, ...) -> list[CutPiece]`, and the call of C++."""
+
+    declared: str
+    call: str
+    context: str = ""  #: an argument whose attributes results get, or that moves
+    kind: str = "by_elements"  #: `job_kind`
+
+    @property
+    def name(self) -> str:
+        return self.declared.partition("(")[0]
+
+    @property
+    def parameters(self) -> list[tuple[str, str]]:
+        inside = self.declared[self.declared.index("(") + 1:self.declared.rindex(") -> ")]
+        return [tuple(one.split(": ")) for one in re.split(r", (?=\w+: )", inside) if one]
+
+    @property
+    def returns(self) -> str:
+        return self.declared.partition(" -> ")[2]
+
+
+#: Types of arguments: in C++, in the stub, and how a call gets them.
+ARGUMENTS = {
+    "Mesh": ("const held_mesh&", "HeldMesh", "{}.ref()"),
+    "Meshes": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})"),
+    "Vector": ("const array_of<double>&", "Floats", "point_of({})"),
+    "Matrix": ("const array_of<double>&", "Floats", "transform_of({})"),
+    "Points": ("const points_array&", "Floats", "points_of({})"),
+    "Numbers": ("const array_of<double>&", "Floats", "rows_of<double>({})"),
+    "Ids": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})"),
+    "Kinds": ("const array_of<std::uint8_t>&", "Bytes", "{}"),
+    "Pairs": ("const ids_array&", "Ids", "{}"),
+    "float": ("double", "float", "{}"), "int": ("std::size_t", "int", "{}"),
+    "bool": ("bool", "bool", "{}"), "str": ("const std::string&", "str", "{}"),
+    "names": ("const std::vector<std::string>&", "list[str]", "{}"),
+}
+
+
+def camel(name: str) -> str:
+    return "".join(part.capitalize() for part in name.split("_"))
+
+
+class Language:
+    def __init__(self, structs: dict[str, Struct], enums: dict[str, Enum], results: list[Result],
+                 words: dict[str, str]) -> None:
+        self.structs, self.enums, self.words = structs, enums, words
+        self.results = {one.cpp: one for one in results}
+
+    # ---- results ----
+
+    def attributes(self, of: Result) -> list[Attribute]:
+        made: list[Attribute] = []
+        for one in self.structs[of.cpp].fields:
+            made += self._attribute(of, one, "")
+        return made + of.custom.get("+", [])
+
+    def _attribute(self, of: Result, one: Field, path: str) -> list[Attribute]:
+        if one.name in of.custom:
+            return of.custom[one.name]
+        if one.name in of.leave.split() or one.name in ("status", "cancelled"):
+            return []
+        name, source = of.names.get(one.name, one.name), f"from.{path}{one.name}"
+        type = one.type
+        context = f", {of.context}" if of.context else ""
+        doc = of.docs.get(name) or self.sentence(one)
+        if type == "mesh":
+            return [Attribute(name, "Mesh", doc,
+                              f"mesh_object(std::move({source}), certificate, data)")]
+        if type == "certificate":
+            return [Attribute(name, "Certificate", doc, "certificate")]
+        if type.startswith("vector<") and (inner := type[7:-1]) in self.results:
+            return [Attribute(name, f"list[{self.results[inner].name}]", doc,
+                              f"as_python(std::move({source}){context})")]
+        if type in self.structs and type not in self.results and type not in ARRAYS:
+            if name in ("statistics", "steps"):
+                return [Attribute(name, "dict[str, Any]", doc, f"counters({source})")]
+            made: list[Attribute] = []
+            for inner in self.structs[type].fields:
+                made += self._attribute(of, inner, f"{path}{one.name}.")
+            return made
+        return [Attribute(name, self.annotation(type), doc, f"as_python(std::move({source}))")]
+
+    def counters_code(self, name: str, leave: str) -> str:
+        fields = [one.name for one in self.structs[name].fields if one.name not in leave.split()]
+        return (f"py::dict counters(const tf::{name}& from) {{\npy::dict made;\n"
+                + "".join(f'made["{one}"] = from.{one};\n' for one in fields)
+                + "return made;\n}\n")
+
+    def annotation(self, type: str) -> str:
+        if type in NUMBERS:
+            return NUMBERS[type]
+        if type in self.enums or type == "string":
+            return "str"
+        if type in ARRAYS:
+            return ARRAYS[type][0]
+        if type in self.results:
+            return self.results[type].name
+        if found := re.fullmatch(r"optional<(.+)>", type):
+            return f"{self.annotation(found.group(1))} | None"
+        raise ValueError(f"{type}: Python has no such thing yet")
+
+    def sentence(self, one: Field) -> str:
+        """What is said of a field, with its shape in front."""
+        text = one.sentence
+        shape = ARRAYS.get(one.type.removeprefix("optional<").removesuffix(">"), ("", ""))[1]
+        if one.type in ARRAYS:
+            shape = ARRAYS[one.type][1]
+        if not text:
+            return ""
+        text = re.sub(r"`?\bnone\b`?(?=:)", "`NONE`", text)
+        for before, after in self.words.items():
+            text = text.replace(before, after)
+        if "uint32_t" in one.type:
+            text = re.sub(r"\b(else|or) none\b", r"\1 `NONE`", text)
+        values = self.enums[one.type].values if one.type in self.enums else []
+        if 1 < len(values) < 7:
+            words = [f"'{value}'" for value, _ in values]
+            text = f"{text.rstrip('.')}: {', '.join(words[:-1])} or {words[-1]}".lstrip(": ")
+        if shape and text:
+            text = f"{shape.format(one.shape or 'n')} {text}"
+        elif text:
+            text = text[0].upper() + text[1:]
+        return text if not text or text.endswith((".", ":")) else text + "."
+
+    def class_text(self, of: Result, order: list[str]) -> str:
+        """The class, for a file of the package."""
+        own = [one for one in self.attributes(of) if one.name not in of.inherited.split()]
+        place = {name: i for i, name in enumerate(order)}
+        own.sort(key=lambda one: (bool(one.default), place.get(one.name, len(order))))
+        head = "" if of.is_tuple else "@dataclass(frozen=True, repr=False)\n"
+        text = f"{head}class {of.name}({of.base}):\n"
+        doc = of.doc or self.structs[of.cpp].doc
+        if not doc:
+            raise ValueError(f"{of.cpp} has no docstring")
+        lines = _wrapped(doc, 4, '"""')
+        for one in own:
+            if not one.doc:
+                raise ValueError(f"{of.cpp}::{one.name} has no sentence")
+            lines += ([""] if one is own[0] else []) + _wrapped(f"{one.name}: {one.doc}", 8, "", 4)
+        text += "\n".join(lines) + '\n    """\n\n'
+        for one in own:
+            text += f"    {one.name}: {one.annotation}{one.default and ' = ' + one.default}\n"
+        return text
+
+    def object_code(self, of: Result) -> str:
+        """The function that makes an object of it."""
+        attributes = self.attributes(of)
+        parameter = CONTEXTS[of.context]
+        text = f"py::object object(of_result, tf::{of.cpp}&& from{parameter}) {{\n"
+        codes = [one.code for one in attributes]
+        if "certificate" in " ".join(codes) and any(
+                one.name == "certificate" for one in self.structs[of.cpp].fields):
+            text += "const py::object certificate = py::cast(from.certificate);\n"
+        elif any("certificate" in code for code in codes):
+            text += "const py::object certificate = py::none();\n"
+        if any("data)" in code for code in codes):
+            value = {"attributes": "data_of(from, attributes)", "": "py::none()"}.get(of.context)
+            text += f"const py::object data = {value};\n" if value else ""
+        text += "py::dict made;\n"
+        for one in attributes:
+            text += f'made["{one.name}"] = {one.code};\n'
+        return text + f'return object_of("treeform.{of.module}", "{of.name}", made);\n}}\n'
+
+    def declaration(self, of: Result) -> str:
+        parameter = CONTEXTS[of.context]
+        return f"py::object object(of_result, tf::{of.cpp}&& from{parameter});\n"
+
+    # ---- options ----
+
+    def option_fields(self, name: str, leave: str) -> list[Field]:
+        return [one for one in self.structs[name].fields if one.name not in leave.split()
+                and "progress" not in one.type and "function<" not in one.type]
+
+    def option_code(self, name: str, leave: str) -> str:
+        text = f"template <class Visit>\nvoid each_field(tf::{name}& how, const Visit& visit) {{\n"
+        for one in self.option_fields(name, leave):
+            text += f'visit("{one.name}", how.{one.name});\n'
+        return text + "}\n"
+
+    def option_class(self, name: str) -> str:
+        return f'add_options_of<tf::{name}>(module, "{camel(name)}");\n'
+
+    def option_stub(self, name: str, leave: str) -> str:
+        arguments = ["self", "*"]
+        for one in self.option_fields(name, leave):
+            type = {"pair_kinds": "Optional[list[str]]", "filesystem::path": "str",
+                    "vector<string>": "list[str]", "vector<weld_condition>": "Same",
+                    "optional<array<double,2>>": "Optional[Sequence[float]]"}.get(one.type)
+            type = type or self.annotation(one.type)
+            if type.endswith(" | None"):
+                type = f"Optional[{type[:-7]}]"
+            if type == "int":
+                type = "Optional[int]"
+            arguments.append(f"{one.name}: {type} = ...")
+        text = f"class {camel(name)}:\n    names: tuple[str, ...]\n"
+        text += "    defaults: dict[str, Any]\n"
+        return text + _call("    def __init__(", arguments, ") -> None: ...") + "\n\n"
+
+    # ---- functions ----
+
+    def function_code(self, one: Function) -> str:
+        parameters = []
+        call = one.call
+        how = ""
+        for name, type in one.parameters:
+            cpp, _, value = ARGUMENTS.get(type, ("", "", "{}"))
+            if type in self.structs:
+                cpp, value, how = f"tf::{type}", "{}", name
+            elif type in self.enums:
+                cpp = "const std::string&"
+                value = f'choice<tf::{type}>("{name}", words_of<tf::{type}>::all, {{}})'
+            parameters.append(f"{cpp}{'' if cpp.endswith('&') else ' '}{name}")
+            call = call.replace(f"${name}", value.format(name))
+        text = f"py::object {one.name}({', '.join(parameters)}) {{\n"
+        context = f", {one.context}" if one.context else ""
+        if one.context.startswith("attributes of "):
+            operand = one.context[len("attributes of "):]
+            many = dict(one.parameters)[operand] == "Meshes"
+            text += f"const carrying attributes({operand if many else '{&' + operand + '}'});\n"
+            context = ", attributes"
+            if how and any(f.name == "keep_cuts" for f in self.structs[dict(
+                    one.parameters)[how]].fields):
+                text += f"{how}.keep_cuts = {how}.keep_cuts || attributes.mixes();\n"
+        report = bool(how) and any("progress" in f.type for f in self.structs[dict(
+            one.parameters)[how]].fields)
+        text += f"return as_python(run([&](const tf::progress_callback&" \
+                f"{' report' if report or 'report' in call else ''}) {{\n"
+        if report:
+            text += f"{how}.progress = report;\n"
+        return text + f"return {call};\n}}){context});\n}}\n"
+
+    def function_stub(self, one: Function) -> str:
+        arguments = []
+        for name, type in one.parameters:
+            stub = ARGUMENTS.get(type, ("", "", ""))[1]
+            if type in self.structs:
+                stub = camel(type)
+            elif type in self.enums:
+                stub = "str"
+            arguments.append(f"{name}: {stub}")
+        return _call(f"def {one.name}(", [*arguments, "progress: Watched = ..."],
+                     f") -> {one.returns}: ...") + "\n"
+
+
+def _wrapped(text: str, indent: int, front: str, first: int | None = None) -> list[str]:
+    lines: list[str] = []
+    for i, part in enumerate(text.split("\n\n")):
+        lines += ([""] if i else []) + textwrap.wrap(
+            part, 100, initial_indent=" " * (indent if first is None else first)
+            + (front if i == 0 else ""), subsequent_indent=" " * indent,
+            break_long_words=False, break_on_hyphens=False)
+    return lines
+
+
+def _call(front: str, arguments: list[str], end: str) -> str:
+    """A declaration over as many lines as it needs."""
+    lines, line = [], front
+    for i, one in enumerate(arguments):
+        piece = one + (", " if i + 1 < len(arguments) else end)
+        if len(line + piece.rstrip()) > 100:
+            lines.append(line.rstrip())
+            line = " " * len(front)
+        line += piece
+    return "\n".join([*lines, line])

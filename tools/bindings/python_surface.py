@@ -1,0 +1,403 @@
+"""Which structs of C++ are classes, options and functions in Python, and where they differ. All else
+follows from the headers: `python_language.py` says how."""
+
+from __future__ import annotations
+
+from python_language import Attribute, Function, Result
+
+#: Words of C++ in sentences, and those of Python.
+WORDS = {"`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
+         "`boolean_statistics`": "`BooleanResult.statistics`",
+         "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
+
+MESSAGE = Attribute("message", "str", "Half a sentence for people.", "py::cast(from.message())")
+MESH_OF_PLACE = Attribute(
+    "mesh", "Mesh",
+    "The moved mesh, in coordinates that have been checked; where it was, if it has no place.",
+    "moved_mesh(std::move(from.points), moving, from.matrix, "
+    "from.certificate ? certificate : py::none())")
+
+
+def column(name: str, annotation: str, doc: str, rows: str, value: str) -> Attribute:
+    """An array of a value of each row."""
+    return Attribute(name, annotation, doc,
+                     f"column(from.{rows}, [](const auto& one) {{ return {value}; }})")
+
+
+RESULTS = [
+    # _booleans
+    Result("boolean_result", "BooleanResult", "_booleans", "MeshResult", context="attributes",
+           doc="The surface of a solid, and what was checked about it. Every function that takes a "
+               "mesh takes a result; `vertices, faces = result.mesh`.",
+           leave="face_of_cut_vertex vanished_at",
+           docs={"mesh": "Faces are counter-clockwise from outside.",
+                 "certificate": "What was checked about its coordinates.",
+                 "face_source": "(F, 2) the lowest operand, and its face, that each face lies in.",
+                 "vertex_source": "(V, 2) the lowest operand, and its vertex, that each vertex is; "
+                                  "`NONE` for new ones."},
+           custom={"volumes": [Attribute(
+               "volumes", "tuple[float, float, float, float] | None",
+               "With `volumes`: of the first, the second, either and both.", "volumes_of(from)")],
+               "vanished_components": [], "vanished_reach": [],
+               "statistics": [Attribute("statistics", "dict[str, Any]",
+                                        "Counts of what was done.",
+                                        "with(with(counters(from.statistics), "
+                                        '"vanished_components", from.vanished_components), '
+                                        '"vanished_reach", from.vanished_reach)')]}),
+    # _cuts
+    Result("cut_piece", "CutPiece", "_cuts", "MadeMesh", context="attributes",
+           inherited="mesh certificate"),
+    Result("mesh_part", "MeshPart", "_cuts", "MeshResult", context="attributes",
+           doc="Faces of a mesh by themselves, with the vertices that they use, and their "
+               "attributes.",
+           docs={"mesh": "The part."}),
+    Result("mass_properties", "MassProperties", "_cuts"),
+    # _repair
+    Result("resolve_result", "ResolveResult", "_repair", "MadeMesh", context="attributes",
+           doc="A mesh without self-intersections.", inherited="mesh certificate",
+           docs={"statistics": "Counts of what was done."},
+           custom={"vanished_components": [], "statistics": [Attribute(
+               "statistics", "dict[str, Any]", "Counts of what was done.",
+               'with(counters(from.statistics), "vanished_components", from.vanished_components)')]}),
+    Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
+           doc="A mended mesh.", inherited="mesh certificate", names={"statistics": "steps"},
+           docs={"steps": "What each step has done: faces flipped, holes filled, ..."},
+           custom={"is_left": [Attribute(
+               "is_left", "NDArray[np.bool_]", "(faces of the input,) whether something is left of "
+               "each, also where it was merged with others.",
+               'as_python(std::move(from.is_left)).attr("view")("bool")')]}),
+    Result("wrap_result", "WrapResult", "_repair", "MadeMesh",
+           doc="A closed surface around a mesh.", inherited="mesh certificate",
+           docs={"statistics": "What it took."}),
+    Result("convex_hull_result", "ConvexHull", "_repair",
+           doc="The convex hull of points: triangles, grouped by flat sides.",
+           docs={"faces": "(F, 3) numbers of the points, outward."},
+           custom={"sides": [
+               column("first_face", "Ids", "(S,) the first face of each flat side; its faces follow "
+                      "one another.", "sides", "one.first_face"),
+               column("areas", "Floats", "(S,) the area of each side.", "sides", "one.area"),
+               column("normals", "Floats", "(S, 3) the outward normal of each side, of length 1.",
+                      "sides", "numbers(one.normal)")]}),
+    # _properties
+    Result("solid_defects", "SolidDefects", "_properties",
+           doc="What keeps a mesh from being a solid; `bool()` says whether there is anything.",
+           custom={"+": [Attribute("message", "str",
+                                   "'open at 37 edges, 2 pairs of faces meet'; 'none'.",
+                                   "py::cast(from.message())")]}),
+    Result("mesh_defects", "MeshDefects", "_properties"),
+    Result("topology_counts", "Topology", "_properties"),
+    Result("mesh_feature", "Feature", "_properties"),
+    # _intersections
+    *[Result(f"{cpp}_intersection_result", "FacePairs", "_intersections",
+             leave="box_pairs exact_pairs predicates searched tree_seconds pair_seconds",
+             custom={"pairs": [
+                 column("pairs", "Ids", "(n, 2) uint32, ascending; of one mesh, the lower face "
+                        "first.", "pairs", "std::array{one.a, one.b}"),
+                 column("kinds", "NDArray[np.uint8]", "(n,) uint8: how they meet, a place in "
+                        "`KINDS`.", "pairs", "static_cast<std::uint8_t>(one.kind)")],
+                 "counts": [Attribute("counts", "dict[str, int]",
+                                      "How many of each kind there are, listed or not.",
+                                      "counts_of<tf::pair_kind>(from.counts)")]})
+      for cpp in ("self", "mesh")],
+    Result("intersection_region", "Region", "_intersections", custom={
+        "min": [Attribute("bounds", "Floats", "(2, 3) the box around them.",
+                          "as_python(std::array{from.min, from.max})")], "max": []}),
+    Result("stream_search_result", "FilePairs", "_intersections", "FacePairs",
+           inherited="pairs kinds counts",
+           doc="Pairs of faces of a file that meet; they are numbers of faces of `mesh`.",
+           leave="triangles searched points bounds header finished_tiles started_anew",
+           docs={"tiles": "Parts that space was cut into."},
+           custom={
+               "part": [
+                   Attribute("face_in_file", "Ids", "(F,) the number in the file of each face of "
+                             "`mesh`.", "faces_in_file(from.part)"),
+                   Attribute("mesh", "Mesh", "Only the faces that meet others, in the order of the "
+                             "file.", "mesh_object(std::move(from.part.mesh), py::none(), "
+                             "py::none())"),
+                   Attribute("dropped", "int", "Triangles with a coordinate that is not finite, left "
+                             "out.", "py::cast(from.part.dropped)")],
+               "found": [
+                   column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
+                   column("kinds", "", "", "found.pairs", "static_cast<std::uint8_t>(one.kind)"),
+                   Attribute("counts", "", "", "counts_of<tf::pair_kind>(from.found.counts)")]}),
+    # _files
+    Result("write_result", "Written", "_files", doc="What `write` wrote.",
+           names={"written_as": "precision"},
+           docs={"format": "'stl-binary', 'ply-ascii', 'obj', ...",
+                 "precision": "Of the coordinates written: 'float32' or 'float64'."},
+           custom={"warnings": [Attribute("warnings", "list[str]", "What a person should know.",
+                                          "texts_of(from.warnings)")]}),
+    # _weld
+    Result("weld_result", "WeldResult", "_weld", "MeshResult", context="data",
+           doc="A welded mesh or cloud.", leave="attributes",
+           names={"point_of_group": "source", "face_of_new": "face_source"},
+           docs={"source": "(m,) the input point that gave each new one its properties.",
+                 "face_source": "(F,) the input face that each face was; empty for a cloud.",
+                 "statistics": "Counts of what was done."},
+           custom={"groups": [Attribute("index", "Ids", "(n,) the new number of each point.",
+                                        "as_python(std::move(from.groups.group_of_point))")],
+                   "mesh": [Attribute("mesh", "Mesh", "The welded mesh; of a cloud, one without "
+                                      "faces.", "mesh_object(std::move(from.mesh), py::none(), "
+                                      "with_attributes(data, std::move(from.attributes)))")]}),
+    Result("weld_stream_result", "WeldStreamResult", "_weld", doc="What `weld_stream` has done.",
+           leave="written max_displacement points faces triangles tolerance non_finite box single "
+                 "sources ranges warnings las_moved conditions finished_tiles unfinished "
+                 "started_anew damaged disk_bytes disk_bytes_free collapsed degenerate "
+                 "nonmanifold_before nonmanifold_after flipped",
+           custom={"survey": [
+               Attribute("points", "int", "Points of the inputs.", "py::cast(from.survey.points)"),
+               Attribute("tolerance", "float", "As a length.", "py::cast(from.survey.tolerance)"),
+               Attribute("non_finite", "int", "Points that are not finite; all are kept.",
+                         "py::cast(from.survey.non_finite)"),
+               Attribute("tiles", "int", "Parts that space was cut into.",
+                         "py::cast(from.survey.tiles)"),
+               Attribute("continued", "bool", "Whether the run went on from what an earlier one had "
+                         "left.", "py::cast(from.survey.continued)")],
+               "+": [
+                   Attribute("max_displacement", "float", "The furthest that a point moved, at most; "
+                             "also to a step of LAS.",
+                             "py::cast(from.counts.max_displacement + from.survey.las_moved)"),
+                   Attribute("faces", "int", "Of a mesh, faces that are left.",
+                             "py::cast(from.counts.faces)"),
+                   Attribute("statistics", "dict[str, int]", "Of a mesh, what became of its faces, as "
+                             "in `WeldResult.statistics`.", "counters(from.counts)"),
+                   Attribute("warnings", "list[str]", "What a person should know.",
+                             "warnings_of(from)")]},
+           docs={"kept": "Points that are left.", "groups": "Groups of two points or more."}),
+    # _nearness
+    Result("deviation_result", "Deviation", "_nearness", leave="winding_numbers",
+           doc="How far points are from a surface.",
+           docs={"is_signed": "Whether distances have a sign."},
+           custom={
+               "sides": [Attribute("side_counts", "tuple[int, int, int] | None", "Where they have: "
+                                   "how many points are inside, on, outside; exact. Else None.",
+                                   "from.sides ? py::object(py::make_tuple(from.sides->inside, "
+                                   "from.sides->on, from.sides->outside)) : py::none()")],
+               "there": [Attribute("there", "tuple[float, float]",
+                                   "(over the points of the first, a bound that no point of its "
+                                   "surface exceeds); of the distances from the first to the second.",
+                                   "py::make_tuple(from.there.sampled, from.there.at_most)")],
+               "back": [Attribute("back", "tuple[float, float] | None",
+                                  "The same from the second to the first; the larger one is the "
+                                  "Hausdorff distance. None unless `both_ways`.",
+                                  "from.back ? py::object(py::make_tuple(from.back->sampled, "
+                                  "from.back->at_most)) : py::none()")],
+               "histogram": [
+                   Attribute("histogram_range", "tuple[float, float]", "From where to where the "
+                             "intervals of `histogram` go.",
+                             "py::make_tuple(from.histogram.low, from.histogram.high)"),
+                   Attribute("histogram", "NDArray[np.uint64]", "(bins,) how many signed distances "
+                             "are in intervals of equal length.",
+                             "as_python(std::move(from.histogram.counts))")],
+               "band": [Attribute("band_counts", "tuple[int, int, int] | None",
+                                  "With `band`: how many are below, within, above.",
+                                  "from.band ? py::object(py::make_tuple(from.band->below, "
+                                  "from.band->within, from.band->above)) : py::none()")]}),
+    Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
+    # _placement
+    Result("search_effort", "SearchEffort", "_placement", "NamedTuple"),
+    Result("mesh_measure", "Measure", "_placement", leave="face_a face_b", custom={
+        f"on_{x}": [
+            Attribute(f"on_{x}", "Floats", f"(3,) the nearest point on the surface of `{x}`; where "
+                      "they meet, a common one.", f"as_python(from.on_{x}.point)"),
+            Attribute(f"face_{x}", "int", f"The face of `{x}` that `on_{x}` is on.",
+                      f"py::cast(from.on_{x}.face)")] for x in "ab"},
+           docs={"relation": "'separate', 'touching' or 'penetrating'. Exact."}),
+    Result("placement", "Placement", "_placement", "MeshResult", context="moving",
+           doc="Where a mesh goes. True where it has a place; else `message` says why not.",
+           leave="clearance bed below_bed on_bed max_travel statistics",
+           docs={"end": "Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', "
+                        "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
+                        "'starts_touching', 'starts_below_bed', 'no_coordinates', "
+                        "'too_many_steps', 'out_of_range'.",
+                 "certificate": "What was checked about the coordinates."},
+           custom={
+               "points": [MESH_OF_PLACE],
+               "contacts": [Attribute(
+                   "contacts", "Contacts", "Pairs of faces that meet there, or keep the clearance.",
+                   "contacts_of(from)")],
+               "nearest": [Attribute(
+                   "nearest", "tuple[int, Measure] | None", "The fixed mesh that matters most, and "
+                   "how the mesh lies to it; None where all are far.",
+                   "from.nearest ? py::object(py::make_tuple(from.nearest->fixed, "
+                   "as_python(std::move(from.nearest->how)))) : py::none()")],
+               "+": [Attribute("message", "str", "Half a sentence; empty where there is a place.",
+                               "py::cast(from.message())"),
+                     Attribute("angle", "float", "Of `turn` and `mate_features`: in degrees.",
+                               "py::cast(0.0)", "0.0"),
+                     Attribute("tolerance", "float", "Of `turn`: the gap beyond the clearance that "
+                               "counts as contact.", "py::cast(0.0)", "0.0"),
+                     Attribute("offset", "float", "Of `mate_features`: how far the center of the "
+                               "moving feature ended from the fixed one.", "py::cast(0.0)", "0.0")]}),
+    Result("impact", "Impact", "_placement", "NamedTuple",
+           leave="exact contact_count pairs_tested predicates",
+           doc="The first contact of two meshes in motion.",
+           docs={"end": "'free', 'contact' or 'at_start'."},
+           custom={"contacts": [
+               column("faces", "Ids", "(n, 2) the faces of `a` and `b` that meet at that time.",
+                      "contacts", "std::array{one.face_a, one.face_b}"),
+               column("points", "Floats", "(n, 3) a common point of each pair, rounded.",
+                      "contacts", "numbers(one.point)")]}),
+    Result("penetration_depth_result", "Depth", "_placement", "NamedTuple"),
+    Result("laid_flat", "LaidFlat", "_placement", "MeshResult", context="moving",
+           leave="bed contact corrected", doc="A mesh on the bed.",
+           docs={"certificate": "What was checked about the coordinates."},
+           custom={
+               "points": [Attribute("mesh", "Mesh", "The mesh on the bed.",
+                                    "moved_mesh(std::move(from.points), moving, from.matrix, "
+                                    "certificate)")],
+               "sides": [column("areas", "Floats", "(S,) of the flat sides of the convex hull, "
+                                "largest first.", "sides", "one.area"),
+                         column("normals", "Floats", "(S, 3) outward, before the turn.", "sides",
+                                "numbers(one.normal)")],
+               "stability": [column("tip_angles", "Floats", "(S,) degrees of tilt at which it tips "
+                                    "over; negative: by itself.", "stability", "one.tip_angle"),
+                             column("overhangs", "Floats", "(S,) area of the faces that would need "
+                                    "support; NaN where it was not computed.", "stability",
+                                    "one.overhang")],
+               "+": [MESSAGE]}),
+    Result("align_result", "Alignment", "_placement", "MeshResult", context="moving",
+           leave="pivot pivot_moved freedoms", doc="The motion that `align` has found.",
+           docs={"end": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'."},
+           custom={"points": [Attribute("mesh", "Mesh", "The moved mesh; of a cloud, one without "
+                                        "faces.", "moved_mesh(std::move(from.points), moving, "
+                                        "from.matrix, py::none())")],
+                   "+": [Attribute("undetermined", "int", "How many independent motions nothing "
+                                   "holds, as where a plane slides on a plane.",
+                                   "py::cast(from.undetermined())"), MESSAGE]}),
+    Result("packed_part", "PackedPart", "_placement", "NamedTuple", context="moving",
+           docs={"plate": "Number of its plate, from 0."},
+           custom={"points": [Attribute(
+               "mesh", "Mesh", "The part where it goes; where it was, if it is not placed.",
+               "moved_mesh(std::move(from.points), moving, from.matrix, py::none())")]}),
+    Result("packing", "Packing", "_placement", leave="pairs_measured bed certificate",
+           doc="Filled plates. True where every part has a place.",
+           custom={"parts": [Attribute("parts", "list[PackedPart]", "In the order of the input.",
+                                       "py::list()")], "+": [MESSAGE]}),
+    # _assembly
+    Result("part_clash", "PartClash", "_assembly", docs={
+        "how": "'penetrating', 'touching' or 'closer_than_clearance'."},
+           custom={"regions": [Attribute(
+               "regions", "list[tuple[Floats, int, Ids, Ids]]", "Where they meet: (box (2, 3), "
+               "pairs of faces, faces of a, faces of b).", "regions_of(from)")]}),
+    Result("pose_result", "PoseClashes", "_assembly", leave="boxes_apart",
+           doc="What is not clear in each of many poses: n pairs of parts, pose after pose.",
+           docs={"clashing": "Poses with a pair that penetrates or is too close."},
+           custom={"poses": [
+               Attribute("pose", "Ids", "(n,) the pose, ascending.",
+                         "column_of_poses(from, [](std::uint32_t pose, const tf::pose_clash&) "
+                         "{ return pose; })"),
+               *[Attribute(name, annotation, doc, "column_of_poses(from, [](std::uint32_t, const "
+                           f"tf::pose_clash& one) {{ return {value}; }})")
+                 for name, annotation, doc, value in (
+                     ("parts", "Ids", "(n, 2) the parts, the lower number first.",
+                      "std::array{one.a, one.b}"),
+                     ("how", "NDArray[np.uint8]", "(n,) uint8: how they lie, a place in "
+                      "`STANDINGS`.", "static_cast<std::uint8_t>(one.how)"),
+                     ("distance", "Floats", "(n,) of those that are closer than the clearance; else "
+                      "0.", "one.distance"))]]}),
+    Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
+           doc="How all parts lie to each other.",
+           custom={"counts": [Attribute("counts", "dict[str, int]",
+                                        "Pairs that were looked at, by how they lie.",
+                                        "counts_of<tf::standing>(from.counts)")]}),
+]
+
+#: Counters as dictionaries, and what is not among them.
+COUNTERS = {"boolean_statistics": "", "resolve_statistics": "", "repair_statistics": "",
+            "wrap_statistics": "", "weld_statistics": "",
+            "weld_stream_counts": "kept groups max_displacement faces"}
+
+#: Options by name: structs, and the fields that Python gives in another way, or not at all.
+OPTIONS = {
+    "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
+    "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
+    "feature_options": "", "self_intersection_options": "component_of_face between within",
+    "mesh_intersection_options": "", "stream_search_options": "box team",
+    "weld_options": "label may_merge search", "weld_stream_options": "team shared las_scale las_offset",
+    "slide_options": "close_in limit vertices", "drop_options": "limit vertices",
+    "mate_options": "limit vertices", "separate_options": "normals face_pairs limit vertices",
+    "turn_options": "max_steps limit vertices", "feature_mate_options": "limit vertices",
+    "measure_options": "", "depth_options": "vertices", "impact_options": "limit",
+    "lay_flat_options": "overhang_sides", "align_options": "accelerate", "pack_options": "tighten",
+    "deviation_options": "", "clash_options": "ignored effort", "pose_options": "ignored",
+}
+
+#: Functions of the extension that are one call.
+FUNCTIONS = [
+    # _booleans
+    Function("split(meshes: Meshes, options: boolean_options) -> BooleanResult",
+             "tf::split($meshes, options)", "attributes of meshes"),
+    # _cuts
+    Function("layer_heights(mesh: Mesh, at: Vector, normal: Vector, thickness: float) -> Floats",
+             "tf::layer_heights(mesh.view().points, {$at, $normal}, thickness)"),
+    Function("components(mesh: Mesh, options: components_options) -> list[MeshPart]",
+             "tf::components($mesh, options)", "attributes of mesh"),
+    Function("submesh(mesh: Mesh, faces: Ids) -> MeshPart", "tf::submesh($mesh, $faces)",
+             "attributes of mesh"),
+    Function("moved_points(mesh: Mesh, matrix: Matrix) -> Floats",
+             "tf::transform_mesh({mesh.view().points, {}}, $matrix).points"),
+    Function("mass_properties(mesh: Mesh) -> Optional[MassProperties]",
+             "tf::find_mass_properties(mesh.view())"),
+    # _repair
+    Function("resolve(mesh: Mesh, mode: resolve_mode, options: resolve_options) -> ResolveResult",
+             "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh"),
+    Function("repair(mesh: Mesh, options: repair_options) -> RepairResult",
+             "tf::repair($mesh, options)", "attributes of mesh"),
+    Function("wrap(mesh: Mesh, size: float, options: wrap_options) -> WrapResult",
+             "tf::wrap($mesh, size, options)", kind="long_work"),
+    Function("convex_hull(points: Points) -> ConvexHull", "tf::convex_hull($points, report)"),
+    Function("rounded(points: Points, precision: precision) -> Floats",
+             "tf::rounded($points, $precision)"),
+    # _properties
+    Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
+    Function("signed_volume(mesh: Mesh) -> float", "tf::signed_volume(mesh.view())"),
+    Function("surface_area(mesh: Mesh) -> float", "tf::surface_area(mesh.view())"),
+    Function("find_defects(mesh: Mesh) -> MeshDefects", "tf::find_defects(mesh.view())"),
+    Function("count_topology(mesh: Mesh) -> Topology",
+             "tf::count_topology(mesh.view().points.size(), mesh.view().faces)"),
+    Function("face_components(mesh: Mesh) -> Ids",
+             "tf::face_components(mesh.view().points.size(), mesh.view().faces)"),
+    Function("count_inside_out(mesh: Mesh) -> int", "tf::count_inside_out(mesh.view())"),
+    Function("find_features(mesh: Mesh, kind: feature_kind, options: feature_options)"
+             " -> list[Feature]", "tf::find_features(mesh.view(), $kind, options)"),
+    Function("find_solid_defects(mesh: Mesh) -> SolidDefects",
+             "tf::find_solid_defects($mesh, report)"),
+    # _intersections
+    Function("self_intersections(mesh: Mesh, options: self_intersection_options) -> FacePairs",
+             "tf::self_intersections($mesh, options)"),
+    Function("mesh_intersections(a: Mesh, b: Mesh, options: mesh_intersection_options) -> FacePairs",
+             "tf::mesh_intersections($a, $b, options)"),
+    Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
+             "tf::faces_in_box(mesh.view(), $min, $max)"),
+    # _weld
+    Function("count_nearly_equal(points: Points, distance: float) -> int",
+             "tf::count_nearly_equal($points, distance)"),
+    # _nearness
+    Function("deviation(a: Mesh, b: Mesh, options: deviation_options) -> Optional[Deviation]",
+             "tf::deviation(a.prepared(), b.prepared(), options)"),
+    # _placement
+    Function("slide(moving: Mesh, fixed: Meshes, direction: Vector, options: slide_options)"
+             " -> Placement", "tf::slide($moving, $fixed, $direction, options)", "moving"),
+    Function("drop(moving: Mesh, fixed: Meshes, options: drop_options) -> Placement",
+             "fixed.empty() ? tf::drop($moving, options) : tf::drop($moving, $fixed, options)",
+             "moving"),
+    Function("mate(moving: Mesh, fixed: Meshes, options: mate_options) -> Placement",
+             "tf::mate($moving, $fixed, options)", "moving"),
+    Function("separate(moving: Mesh, fixed: Meshes, options: separate_options) -> Placement",
+             "tf::separate($moving, $fixed, options)", "moving"),
+    Function("measure(a: Mesh, b: Mesh, options: measure_options) -> Optional[Measure]",
+             "tf::measure(a.prepared(), b.prepared(), options)"),
+    Function("penetration_depth(a: Mesh, b: Mesh, options: depth_options) -> Optional[Depth]",
+             "tf::penetration_depth(a.prepared(), b.prepared(), options)"),
+    Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",
+             "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)"),
+    Function("lay_flat(moving: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
+             "tf::lay_flat(moving.prepared(), options)", "moving"),
+    Function("align(moving: Mesh, fixed: Mesh, options: align_options) -> Alignment",
+             "tf::align(moving.prepared(), fixed.prepared(), options)", "moving"),
+    # _assembly
+    Function("closest_points(a: Mesh, b: Mesh, move_a: Matrix, move_b: Matrix, radius: float)"
+             " -> Optional[NearestPoints]",
+             "tf::closest_points(a.prepared(), b.prepared(), {$move_a, $move_b, radius})"),
+]

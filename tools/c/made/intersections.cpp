@@ -1,0 +1,243 @@
+// Made by tools/bindings of intersections.h and the headers of C++: see its README.
+#include <treeform/mesh/curves.hpp>
+
+#include <tools/c/made/structs.hpp>
+
+namespace tf = treeform;
+
+static_assert(TREEFORM_CROSSING == static_cast<int>(tf::pair_kind::crossing));
+static_assert(TREEFORM_OVERLAP == static_cast<int>(tf::pair_kind::overlap));
+static_assert(TREEFORM_FOLD == static_cast<int>(tf::pair_kind::fold));
+static_assert(TREEFORM_DUPLICATE == static_cast<int>(tf::pair_kind::duplicate));
+static_assert(TREEFORM_PIERCE == static_cast<int>(tf::pair_kind::pierce));
+static_assert(TREEFORM_TOUCHING == static_cast<int>(tf::pair_kind::touching));
+static_assert(TREEFORM_DEGENERATE == static_cast<int>(tf::pair_kind::degenerate));
+
+static_assert(sizeof(treeform_face_pair) == sizeof(tf::face_pair));
+static_assert(offsetof(treeform_face_pair, a) == offsetof(tf::face_pair, a));
+static_assert(offsetof(treeform_face_pair, b) == offsetof(tf::face_pair, b));
+static_assert(offsetof(treeform_face_pair, kind) == offsetof(tf::face_pair, kind));
+
+void glue::fill(keeper&, const tf::self_intersection_result& from, treeform_pairs& to) {
+    to.pairs = same<treeform_face_pair>(from.pairs);
+    to.count = from.pairs.size();
+    std::copy(from.counts.begin(), from.counts.end(), to.counts);
+    to.box_pairs = from.box_pairs;
+}
+
+void glue::fill(keeper&, const tf::mesh_intersection_result& from, treeform_pairs& to) {
+    to.pairs = same<treeform_face_pair>(from.pairs);
+    to.count = from.pairs.size();
+    std::copy(from.counts.begin(), from.counts.end(), to.counts);
+    to.box_pairs = from.box_pairs;
+}
+
+tf::self_intersection_options glue::read(const treeform_self_intersections_options* options) {
+    return read(chosen(options, treeform_self_intersections_options_init));
+}
+tf::self_intersection_options glue::read(const treeform_self_intersections_options& o) {
+    tf::self_intersection_options how;
+    how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    how.first_only = o.first_only != 0;
+    how.kinds = kinds(o.kinds);
+
+    how.between = o.between != 0;
+    how.within = o.within != 0;
+    how.limit = limit(o.limit);
+    how.progress = progress(o);
+
+    return how;
+}
+
+void treeform_self_intersections_options_init(treeform_self_intersections_options* options,
+                                              size_t size) {
+    treeform_self_intersections_options to{};
+    const tf::self_intersection_options from;
+    to.vertices = static_cast<treeform_vertices>(from.vertices);
+    to.first_only = from.first_only;
+    to.kinds = TREEFORM_ALL_KINDS;
+    to.between = from.between;
+    to.within = from.within;
+    to.limit = from.limit;
+    glue::init(options, size, to);
+}
+
+void glue::fill(keeper&, const tf::intersection_region& from, treeform_region& to) {
+    to.faces = or_null(from.faces);
+    to.face_count = from.faces.size();
+    copy(from.min, to.min);
+    copy(from.max, to.max);
+    to.pairs = from.pairs;
+}
+
+void glue::fill(keeper& kept, const tf::intersection_regions& from, treeform_regions& to) {
+    to.regions = list<treeform_region>(kept, from.regions);
+    to.count = from.regions.size();
+    to.region_of_pair = or_null(from.region_of_pair);
+    to.pair_count = from.region_of_pair.size();
+}
+
+tf::mesh_intersection_options glue::read(const treeform_intersections_options* options) {
+    return read(chosen(options, treeform_intersections_options_init));
+}
+tf::mesh_intersection_options glue::read(const treeform_intersections_options& o) {
+    tf::mesh_intersection_options how;
+    how.move_a = matrix(o.move_a);
+    how.move_b = matrix(o.move_b);
+    how.first_only = o.first_only != 0;
+    how.kinds = kinds(o.kinds);
+    how.limit = limit(o.limit);
+    how.progress = progress(o);
+
+    return how;
+}
+
+void treeform_intersections_options_init(treeform_intersections_options* options, size_t size) {
+    treeform_intersections_options to{};
+    const tf::mesh_intersection_options from;
+    to.first_only = from.first_only;
+    to.kinds = TREEFORM_ALL_KINDS;
+    to.limit = from.limit;
+    glue::init(options, size, to);
+}
+
+static_assert(sizeof(treeform_segment) == sizeof(tf::curve_segment));
+static_assert(offsetof(treeform_segment, ends) == offsetof(tf::curve_segment, ends));
+static_assert(offsetof(treeform_segment, pair) == offsetof(tf::curve_segment, pair));
+
+void glue::fill(keeper&, const tf::curve_path& from, treeform_path& to) {
+    to.points = or_null(from.points);
+    to.count = from.points.size();
+    to.closed = from.closed;
+}
+
+void glue::fill(keeper& kept, const tf::curve_network& from, treeform_paths& to) {
+    to.points = positions_of(kept, from.points);
+    to.point_count = from.points.size();
+    to.paths = list<treeform_path>(kept, from.paths);
+    to.path_count = from.paths.size();
+}
+
+tf::stream_search_options glue::read(const treeform_search_file_options* options) {
+    return read(chosen(options, treeform_search_file_options_init));
+}
+tf::stream_search_options glue::read(const treeform_search_file_options& o) {
+    tf::stream_search_options how;
+    if (o.vertices != -1) how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    how.kinds = kinds(o.kinds);
+    how.box = box(o.box);
+    how.format = text(o.format);
+    how.memory = o.memory;
+    how.folder = text(o.folder);
+    how.faces_per_tile = o.faces_per_tile;
+    how.team = team(o.team);
+    how.progress = step_progress(o);
+
+    return how;
+}
+
+void treeform_search_file_options_init(treeform_search_file_options* options, size_t size) {
+    treeform_search_file_options to{};
+    const tf::stream_search_options from;
+    to.vertices = -1;
+    to.kinds = TREEFORM_ALL_KINDS;
+    to.memory = from.memory;
+    to.faces_per_tile = from.faces_per_tile;
+    glue::init(options, size, to);
+}
+
+void glue::fill(keeper& kept, const tf::stream_search_result& from, treeform_search_result& to) {
+    to.mesh = arrays(from.part.mesh);
+    to.face_in_file = faces_in_file(kept, from.part).data();
+    to.degenerate = from.part.degenerate;
+    to.dropped = from.part.dropped;
+    to.found = &filled<treeform_pairs>(kept, from.found);
+    to.stored_faces = from.stored_faces;
+    to.triangles = from.triangles;
+    to.searched = from.searched;
+    to.points = from.points;
+    to.tiles = from.tiles;
+    to.finished_tiles = from.finished_tiles;
+}
+
+void glue::fill(keeper&, const std::vector<tf::curve_segment>& from, treeform_segments& to) {
+    to.segments = same<treeform_segment>(from);
+    to.count = from.size();
+}
+
+treeform_code treeform_group_pairs(const treeform_mesh* mesh, const treeform_face_pair* pairs,
+                                   size_t count, treeform_regions** regions) {
+    return glue::guard([&] {
+        glue::start(regions);
+        return glue::give(tf::group_pairs(glue::view(mesh), glue::pairs_of(mesh, pairs, count)),
+                          regions);
+    });
+}
+
+treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
+                                     const treeform_intersections_options* options,
+                                     treeform_pairs** pairs) {
+    return glue::guard([&] {
+        glue::start(pairs);
+        return glue::give(
+            tf::mesh_intersections(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)),
+            pairs);
+    });
+}
+
+treeform_code treeform_intersects(const treeform_mesh* a, const treeform_mesh* b,
+                                  const double* move_a, const double* move_b, int32_t* meet) {
+    return glue::guard([&] {
+        (void)glue::need(meet, "meet");
+        *meet = tf::intersects(glue::ref(a, "a"), glue::ref(b, "b"),
+                               tf::mesh_positions{glue::matrix(move_a), glue::matrix(move_b)});
+    });
+}
+
+treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
+                                           const treeform_face_pair* pairs, size_t count,
+                                           treeform_segments** segments) {
+    return glue::guard([&] {
+        glue::start(segments);
+        return glue::give(
+            tf::intersection_curves(glue::view(mesh), glue::pairs_of(mesh, pairs, count)),
+            segments);
+    });
+}
+
+treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
+                                          const treeform_face_pair* pairs, size_t count,
+                                          treeform_paths** paths) {
+    return glue::guard([&] {
+        glue::start(paths);
+        return glue::give(
+            tf::intersection_paths(glue::view(mesh), glue::pairs_of(mesh, pairs, count)), paths);
+    });
+}
+
+treeform_code treeform_write_curves(const char* path, const treeform_mesh* mesh,
+                                    const treeform_face_pair* pairs, size_t count,
+                                    const char* format) {
+    return glue::guard([&] {
+        tf::write_curves(std::string(&glue::need(path, "path")), glue::view(mesh),
+                         glue::pairs_of(mesh, pairs, count), {}, glue::text(format));
+    });
+}
+
+treeform_code treeform_self_intersections_of_file(const char* path,
+                                                  const treeform_search_file_options* options,
+                                                  treeform_search_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(tf::self_intersections_of_file(std::string(&glue::need(path, "path")),
+                                                         glue::read(options)),
+                          result);
+    });
+}
+
+treeform_code treeform_is_searched_in_tiles(const char* path, const char* format, int32_t* is) {
+    return glue::guard([&] {
+        (void)glue::need(is, "is");
+        *is = tf::is_searched_in_tiles(std::string(&glue::need(path, "path")), glue::text(format));
+    });
+}

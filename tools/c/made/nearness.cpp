@@ -1,0 +1,187 @@
+// Made by tools/bindings of nearness.h and the headers of C++: see its README.
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/point_location.hpp>
+
+#include <tools/c/made/structs.hpp>
+
+namespace tf = treeform;
+
+static_assert(TREEFORM_OUTSIDE == static_cast<int>(tf::location::outside));
+static_assert(TREEFORM_INSIDE == static_cast<int>(tf::location::inside));
+static_assert(TREEFORM_BOUNDARY == static_cast<int>(tf::location::boundary));
+static_assert(TREEFORM_SEPARATE == static_cast<int>(tf::standing::separate));
+static_assert(TREEFORM_MEETING == static_cast<int>(tf::standing::touching));
+static_assert(TREEFORM_PENETRATING == static_cast<int>(tf::standing::penetrating));
+static_assert(TREEFORM_TOO_CLOSE == static_cast<int>(tf::standing::closer_than_clearance));
+static_assert(TREEFORM_CLEAR == static_cast<int>(tf::standing::clear));
+
+static_assert(sizeof(treeform_hit) == sizeof(tf::mesh_hit));
+static_assert(offsetof(treeform_hit, face) == offsetof(tf::mesh_hit, face));
+static_assert(offsetof(treeform_hit, at) == offsetof(tf::mesh_hit, at));
+static_assert(offsetof(treeform_hit, coplanar) == offsetof(tf::mesh_hit, coplanar));
+static_assert(offsetof(treeform_hit, t) == offsetof(tf::mesh_hit, t));
+static_assert(offsetof(treeform_hit, t_end) == offsetof(tf::mesh_hit, t_end));
+
+tf::measure_options glue::read(const treeform_measure_options* options) {
+    return read(chosen(options, treeform_measure_options_init));
+}
+tf::measure_options glue::read(const treeform_measure_options& o) {
+    tf::measure_options how;
+    how.radius = o.radius;
+    how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    how.progress = progress(o);
+
+    return how;
+}
+
+void treeform_measure_options_init(treeform_measure_options* options, size_t size) {
+    treeform_measure_options to{};
+    const tf::measure_options from;
+    to.radius = from.radius;
+    to.vertices = static_cast<treeform_vertices>(from.vertices);
+    glue::init(options, size, to);
+}
+
+void glue::fill(keeper&, const tf::mesh_measure& from, treeform_relation& to) {
+    to.how = static_cast<treeform_standing>(from.relation.relation);
+    to.face_a = from.relation.face_a;
+    to.face_b = from.relation.face_b;
+    to.a_inside_b = from.relation.a_inside_b;
+    to.b_inside_a = from.relation.b_inside_a;
+    to.distance = from.distance;
+    to.surface_distance = from.surface_distance;
+    to.nearest_a = from.on_a.face;
+    copy(from.on_a.point, to.on_a);
+    std::copy(from.on_a.barycentric.begin(), from.on_a.barycentric.end(), to.barycentric_a);
+    to.nearest_b = from.on_b.face;
+    copy(from.on_b.point, to.on_b);
+    std::copy(from.on_b.barycentric.begin(), from.on_b.barycentric.end(), to.barycentric_b);
+}
+
+tf::depth_options glue::read(const treeform_depth_options* options) {
+    return read(chosen(options, treeform_depth_options_init));
+}
+tf::depth_options glue::read(const treeform_depth_options& o) {
+    tf::depth_options how;
+    how.directions = limit(o.directions);
+    how.effort = o.effort;
+    how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    how.progress = progress(o);
+
+    return how;
+}
+
+void treeform_depth_options_init(treeform_depth_options* options, size_t size) {
+    treeform_depth_options to{};
+    const tf::depth_options from;
+    to.directions = from.directions;
+    to.effort = from.effort;
+    to.vertices = static_cast<treeform_vertices>(from.vertices);
+    glue::init(options, size, to);
+}
+
+tf::deviation_options glue::read(const treeform_deviation_options* options) {
+    return read(chosen(options, treeform_deviation_options_init));
+}
+tf::deviation_options glue::read(const treeform_deviation_options& o) {
+    tf::deviation_options how;
+    if (!std::isnan(o.band_low) || !std::isnan(o.band_high)) how.band = {o.band_low, o.band_high};
+
+    how.bins = limit(o.bins);
+    how.both_ways = o.both_ways != 0;
+    how.progress = progress(o);
+
+    return how;
+}
+
+void treeform_deviation_options_init(treeform_deviation_options* options, size_t size) {
+    treeform_deviation_options to{};
+    const tf::deviation_options from;
+    using namespace glue;
+    to.band_low = not_known;
+    to.band_high = not_known;
+    to.bins = from.bins;
+    to.both_ways = from.both_ways;
+    glue::init(options, size, to);
+}
+
+void glue::fill(keeper&, const tf::deviation_result& from, treeform_deviation_result& to) {
+    to.distances = or_null(from.distances);
+    to.count = from.distances.size();
+    to.faces = or_null(from.faces);
+    to.is_signed = from.is_signed;
+    if (from.sides) {
+        to.sides[0] = from.sides->inside;
+        to.sides[1] = from.sides->on;
+        to.sides[2] = from.sides->outside;
+    }
+    to.mean = from.mean;
+    to.mean_absolute = from.mean_absolute;
+    to.rms = from.rms;
+    to.p50 = from.p50;
+    to.p95 = from.p95;
+    to.p99 = from.p99;
+    to.max = from.max;
+    to.worst = from.worst;
+    to.lowest = from.lowest;
+    to.highest = from.highest;
+    to.there_sampled = from.there.sampled;
+    to.there_at_most = from.there.at_most;
+    to.back_sampled = from.back ? from.back->sampled : not_known;
+    to.back_at_most = from.back ? from.back->at_most : not_known;
+    to.histogram_low = from.histogram.low;
+    to.histogram_high = from.histogram.high;
+    to.histogram = from.histogram.counts.data();
+    to.bins = from.histogram.counts.size();
+    if (from.band) to.below = from.band->below;
+    if (from.band) to.within = from.band->within;
+    if (from.band) to.above = from.band->above;
+}
+
+treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
+                                const double* move_a, const double* move_b, double* distance) {
+    return glue::guard([&] {
+        (void)glue::need(distance, "distance");
+        *distance = tf::distance(glue::ref(a, "a"), glue::ref(b, "b"),
+                                 tf::distance_options{glue::matrix(move_a), glue::matrix(move_b)});
+    });
+}
+
+treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
+                               const treeform_measure_options* options,
+                               treeform_relation** relation) {
+    return glue::guard([&] {
+        glue::start(relation);
+        return glue::give(tf::measure(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)),
+                          relation);
+    });
+}
+
+treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
+                              treeform_vertices vertices, treeform_standing* how) {
+    return glue::guard([&] {
+        (void)glue::need(how, "how");
+        *how = static_cast<treeform_standing>(
+            tf::relation(glue::ref(a, "a"), glue::ref(b, "b"),
+                         {.vertices = glue::choice<tf::vertex_identity>(vertices, 2, "vertices")})
+                .relation);
+    });
+}
+
+treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* count) {
+    return glue::guard([&] {
+        (void)glue::need(count, "count");
+        *count = tf::count_inside_out(glue::ref(mesh, "mesh"));
+    });
+}
+
+treeform_code treeform_deviation(const treeform_mesh* a, const treeform_mesh* const* fixed,
+                                 size_t fixed_count, const treeform_deviation_options* options,
+                                 treeform_deviation_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(tf::deviation(glue::ref(a, "a"), glue::refs(fixed, fixed_count, "fixed"),
+                                        glue::read(options)),
+                          result);
+    });
+}

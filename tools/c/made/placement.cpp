@@ -1,0 +1,226 @@
+// Made by tools/bindings of placement.h and the headers of C++: see its README.
+#include <tools/c/made/structs.hpp>
+
+namespace tf = treeform;
+
+static_assert(TREEFORM_END_CONTACT == static_cast<int>(tf::placement_end::contact));
+static_assert(TREEFORM_END_BED == static_cast<int>(tf::placement_end::bed));
+static_assert(TREEFORM_END_STAYS == static_cast<int>(tf::placement_end::stays));
+static_assert(TREEFORM_END_MOVED_APART == static_cast<int>(tf::placement_end::moved_apart));
+static_assert(TREEFORM_END_NOTHING_MET == static_cast<int>(tf::placement_end::nothing_met));
+static_assert(TREEFORM_END_TOO_FAR == static_cast<int>(tf::placement_end::too_far));
+static_assert(TREEFORM_END_STARTS_PENETRATING ==
+              static_cast<int>(tf::placement_end::starts_penetrating));
+static_assert(TREEFORM_END_STARTS_TOO_NEAR == static_cast<int>(tf::placement_end::starts_too_near));
+static_assert(TREEFORM_END_STARTS_TOUCHING == static_cast<int>(tf::placement_end::starts_touching));
+static_assert(TREEFORM_END_STARTS_BELOW_BED ==
+              static_cast<int>(tf::placement_end::starts_below_bed));
+static_assert(TREEFORM_END_NO_COORDINATES == static_cast<int>(tf::placement_end::no_coordinates));
+static_assert(TREEFORM_END_TOO_MANY_STEPS == static_cast<int>(tf::placement_end::too_many_steps));
+static_assert(TREEFORM_END_OUT_OF_RANGE == static_cast<int>(tf::placement_end::out_of_range));
+static_assert(TREEFORM_END_CANCELLED == static_cast<int>(tf::placement_end::cancelled));
+
+void treeform_place_options_init(treeform_place_options* options, size_t size) {
+    treeform_place_options to{};
+    using namespace glue;
+    to.clearance = tf::slide_options{}.clearance;
+    to.max_travel = not_known;
+    to.precision = static_cast<treeform_precision>(tf::slide_options{}.precision);
+    to.bed = not_known;
+    to.close_in = tf::slide_options{}.close_in;
+    to.limit = tf::slide_options{}.limit;
+    to.vertices = static_cast<treeform_vertices>(tf::slide_options{}.vertices);
+    to.normals = tf::separate_options{}.normals;
+    to.face_pairs = tf::separate_options{}.face_pairs;
+    to.effort = tf::separate_options{}.effort;
+    to.max_angle = tf::turn_options{}.max_angle;
+    to.tolerance = not_known;
+    to.max_steps = tf::turn_options{}.max_steps;
+    to.flip = tf::feature_mate_options{}.flip;
+    glue::init(options, size, to);
+}
+
+void glue::fill(keeper&, const tf::placement_contact& from, treeform_contact& to) {
+    copy(from.point, to.point);
+    copy(from.normal, to.normal);
+    to.moving = from.moving;
+    to.fixed_face = from.fixed_face.value_or(TREEFORM_NONE);
+    to.fixed = static_cast<std::uint32_t>(from.fixed);
+}
+
+void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to) {
+    to.certificate = &filled<treeform_certificate>(kept, from.certificate);
+    to.end = static_cast<treeform_placement_end>(from.end);
+    to.points = flat(from.points);
+    to.point_count = from.points.size();
+    copy(from.matrix, to.matrix);
+    copy(from.direction, to.direction);
+    to.travel = from.travel;
+    to.clearance = from.clearance;
+    to.bed = from.bed.value_or(not_known);
+    to.below_bed = from.below_bed;
+    to.on_bed = from.on_bed;
+    to.at_start = static_cast<treeform_standing>(from.at_start);
+    to.at_place = static_cast<treeform_standing>(from.at_place);
+    to.nearest_fixed =
+        from.nearest ? static_cast<std::uint32_t>(from.nearest->fixed) : TREEFORM_NONE;
+    if (from.nearest) to.nearest = &filled<treeform_relation>(kept, from.nearest->how);
+    to.contacts = list<treeform_contact>(kept, from.contacts);
+    to.contact_listed = from.contacts.size();
+    to.contact_count = from.contact_count;
+    to.effort = same<treeform_search_effort>(from.effort);
+    to.backed_off = from.statistics.backed_off;
+    to.fixed_culled = from.statistics.fixed_culled;
+    to.pairs_tested = from.statistics.pairs_tested;
+    to.message = kept.keep(from.message()).c_str();
+}
+
+void glue::fill(keeper&, const tf::impact& from, treeform_impact& to) {
+    to.end = static_cast<int32_t>(from.end);
+    to.time = from.time;
+    to.contacts = same<treeform_impact_contact>(from.contacts);
+    to.contact_listed = from.contacts.size();
+    to.contact_count = from.contact_count;
+    to.pairs_tested = from.pairs_tested;
+}
+
+void glue::fill(keeper&, const tf::approach& from, treeform_impact& to) {
+    to.end = static_cast<int32_t>(from.end);
+    to.time = from.time;
+    to.contacts = same<treeform_impact_contact>(from.contacts);
+    to.contact_listed = from.contacts.size();
+    to.contact_count = from.contact_count;
+    to.pairs_tested = from.pairs_tested;
+}
+
+static_assert(sizeof(treeform_impact_contact) == sizeof(tf::face_contact));
+static_assert(offsetof(treeform_impact_contact, face_a) == offsetof(tf::face_contact, face_a));
+static_assert(offsetof(treeform_impact_contact, face_b) == offsetof(tf::face_contact, face_b));
+static_assert(offsetof(treeform_impact_contact, point) == offsetof(tf::face_contact, point));
+
+tf::impact_options glue::read(const treeform_impact_options* options) {
+    return read(chosen(options, treeform_impact_options_init));
+}
+tf::impact_options glue::read(const treeform_impact_options& o) {
+    tf::impact_options how;
+    how.move_a = matrix(o.move_a);
+    how.move_b = matrix(o.move_b);
+    how.latest = o.latest;
+    how.limit = limit(o.limit);
+    how.progress = progress(o);
+
+    return how;
+}
+
+void treeform_impact_options_init(treeform_impact_options* options, size_t size) {
+    treeform_impact_options to{};
+    const tf::impact_options from;
+    to.latest = from.latest;
+    to.limit = from.limit;
+    glue::init(options, size, to);
+}
+
+treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                             size_t fixed_count, const double direction[3],
+                             const treeform_place_options* options,
+                             treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::slide(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                      glue::point(direction, "direction"),
+                      glue::read_as<tf::slide_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                            size_t fixed_count, const double* direction,
+                            const treeform_place_options* options, treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            fixed_count == 0
+                ? tf::drop(glue::ref(moving, "moving"), glue::drop_options_of(options, direction))
+                : tf::drop(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                           glue::drop_options_of(options, direction)),
+            placement);
+    });
+}
+
+treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                            size_t fixed_count, const treeform_place_options* options,
+                            treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::mate(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                     glue::read_as<tf::mate_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                                size_t fixed_count, const treeform_place_options* options,
+                                treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::separate(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                         glue::read_as<tf::separate_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                            size_t fixed_count, const double origin[3], const double direction[3],
+                            const treeform_place_options* options, treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::turn(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                     {glue::point(origin, "origin"), glue::point(direction, "direction")},
+                     glue::read_as<tf::turn_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                                     size_t fixed_count, const treeform_feature* of_moving,
+                                     const treeform_feature* of_fixed,
+                                     const treeform_place_options* options,
+                                     treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::mate_features(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                              glue::feature_of(of_moving, "of_moving"),
+                              glue::feature_of(of_fixed, "of_fixed"),
+                              glue::read_as<tf::feature_mate_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform_mesh* const* fixed,
+                                     size_t fixed_count, const treeform_place_options* options,
+                                     treeform_placement** placement) {
+    return glue::guard([&] {
+        glue::start(placement);
+        return glue::give(
+            tf::measure_among(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+                              glue::read_as<tf::measure_among_options>(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_time_of_impact(const treeform_mesh* a, const treeform_mesh* b,
+                                      const double motion[3],
+                                      const treeform_impact_options* options,
+                                      treeform_impact** impact) {
+    return glue::guard([&] {
+        glue::start(impact);
+        return glue::give(tf::time_of_impact(glue::ref(a, "a"), glue::ref(b, "b"),
+                                             glue::point(motion, "motion"), glue::read(options)),
+                          impact);
+    });
+}

@@ -1,0 +1,174 @@
+#pragma once
+/// \file
+/// Made by tools/bindings: structs of C filled from those of C++, and options read.
+
+#include <treeform/mesh/align.hpp>
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/cut.hpp>
+#include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/pack.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/raycast.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/section.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/mesh/weld_options.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/mesh/wrap.hpp>
+#include <treeform/mesh/write.hpp>
+
+#include <tools/c/glue.hpp>
+
+namespace glue {
+
+void fill(keeper& kept, const tf::certificate& from, treeform_certificate& to);
+[[nodiscard]] tf::rounding_options read(const treeform_rounding_options* options);
+[[nodiscard]] tf::rounding_options read(const treeform_rounding_options& o);
+void fill(keeper& kept, const tf::rounding_effects& from, treeform_rounding& to);
+void fill(keeper& kept, const tf::mass_properties& from, treeform_mass_properties& to);
+void fill(keeper& kept, const tf::topology_counts& from, treeform_topology& to);
+void fill(keeper& kept, const tf::mesh_defects& from, treeform_defects& to);
+void fill(keeper& kept, const tf::mesh_feature& from, treeform_feature& to);
+[[nodiscard]] tf::feature_options read(const treeform_feature_options* options);
+[[nodiscard]] tf::feature_options read(const treeform_feature_options& o);
+void fill(keeper& kept, const tf::self_intersection_result& from, treeform_pairs& to);
+void fill(keeper& kept, const tf::mesh_intersection_result& from, treeform_pairs& to);
+[[nodiscard]] tf::self_intersection_options read(
+    const treeform_self_intersections_options* options);
+[[nodiscard]] tf::self_intersection_options read(const treeform_self_intersections_options& o);
+void fill(keeper& kept, const tf::intersection_region& from, treeform_region& to);
+void fill(keeper& kept, const tf::intersection_regions& from, treeform_regions& to);
+[[nodiscard]] tf::mesh_intersection_options read(const treeform_intersections_options* options);
+[[nodiscard]] tf::mesh_intersection_options read(const treeform_intersections_options& o);
+void fill(keeper& kept, const tf::curve_path& from, treeform_path& to);
+void fill(keeper& kept, const tf::curve_network& from, treeform_paths& to);
+[[nodiscard]] tf::stream_search_options read(const treeform_search_file_options* options);
+[[nodiscard]] tf::stream_search_options read(const treeform_search_file_options& o);
+void fill(keeper& kept, const tf::stream_search_result& from, treeform_search_result& to);
+[[nodiscard]] tf::boolean_options read(const treeform_boolean_options* options);
+[[nodiscard]] tf::boolean_options read(const treeform_boolean_options& o);
+void fill(keeper& kept, const tf::operand_volumes& from, treeform_volumes& to);
+void fill(keeper& kept, const tf::boolean_result& from, treeform_boolean_result& to);
+[[nodiscard]] tf::resolve_options read(const treeform_resolve_options* options);
+[[nodiscard]] tf::resolve_options read(const treeform_resolve_options& o);
+void fill(keeper& kept, const tf::resolve_result& from, treeform_resolve_result& to);
+[[nodiscard]] tf::repair_options read(const treeform_repair_options* options);
+[[nodiscard]] tf::repair_options read(const treeform_repair_options& o);
+void fill(keeper& kept, const tf::repair_statistics& from, treeform_repair_statistics& to);
+void fill(keeper& kept, const tf::repair_result& from, treeform_repair_result& to);
+void fill(keeper& kept, const tf::repaired_file& from, treeform_repair_result& to);
+void fill(keeper& kept, const tf::solid_defects& from, treeform_solid_defects& to);
+[[nodiscard]] tf::wrap_options read(const treeform_wrap_options* options);
+[[nodiscard]] tf::wrap_options read(const treeform_wrap_options& o);
+void fill(keeper& kept, const tf::wrap_result& from, treeform_wrap_result& to);
+void fill(keeper& kept, const tf::section_result& from, treeform_section_result& to);
+[[nodiscard]] tf::cut_options read(const treeform_cut_options* options);
+[[nodiscard]] tf::cut_options read(const treeform_cut_options& o);
+void fill(keeper& kept, const tf::cut_piece& from, treeform_cut_piece& to);
+void fill(keeper& kept, const tf::cut_result& from, treeform_cut_result& to);
+void fill(keeper& kept, const tf::mesh_part& from, treeform_mesh_part& to);
+[[nodiscard]] tf::measure_options read(const treeform_measure_options* options);
+[[nodiscard]] tf::measure_options read(const treeform_measure_options& o);
+void fill(keeper& kept, const tf::mesh_measure& from, treeform_relation& to);
+[[nodiscard]] tf::depth_options read(const treeform_depth_options* options);
+[[nodiscard]] tf::depth_options read(const treeform_depth_options& o);
+[[nodiscard]] tf::deviation_options read(const treeform_deviation_options* options);
+[[nodiscard]] tf::deviation_options read(const treeform_deviation_options& o);
+void fill(keeper& kept, const tf::deviation_result& from, treeform_deviation_result& to);
+void fill(keeper& kept, const tf::weld_condition& from, treeform_weld_condition& to);
+[[nodiscard]] tf::weld_options read(const treeform_weld_options* options);
+[[nodiscard]] tf::weld_options read(const treeform_weld_options& o);
+void fill(keeper& kept, const tf::weld_result& from, treeform_weld_result& to);
+void fill(keeper& kept, const tf::file_weld_result& from, treeform_weld_result& to);
+void fill(keeper& kept, const tf::weld_stream_result& from, treeform_weld_stream_result& to);
+/// Those of the options that an operation has.
+template <class Options>
+[[nodiscard]] Options read_as(const treeform_place_options* options) {
+    const auto o = chosen(options, treeform_place_options_init);
+    Options how;
+    if constexpr (requires { how.clearance; }) how.clearance = o.clearance;
+    if constexpr (requires { how.max_travel; }) how.max_travel = given(o.max_travel);
+    if constexpr (requires { how.precision; })
+        how.precision = choice<tf::precision>(o.precision, 2, "precision");
+    if constexpr (requires { how.bed; }) how.bed = given(o.bed);
+    if constexpr (requires { how.close_in; }) how.close_in = o.close_in != 0;
+    if constexpr (requires { how.limit; }) how.limit = limit(o.limit);
+    if constexpr (requires { how.vertices; })
+        how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    if constexpr (requires { how.progress; }) how.progress = progress(o);
+    if constexpr (requires { how.normals; }) how.normals = limit(o.normals);
+    if constexpr (requires { how.face_pairs; }) how.face_pairs = limit(o.face_pairs);
+    if constexpr (requires { how.effort; }) how.effort = o.effort;
+    if constexpr (requires { how.max_angle; }) how.max_angle = o.max_angle;
+    if constexpr (requires { how.tolerance; }) how.tolerance = given(o.tolerance);
+    if constexpr (requires { how.max_steps; }) how.max_steps = limit(o.max_steps);
+    if constexpr (requires { how.flip; }) how.flip = o.flip != 0;
+    return how;
+}
+void fill(keeper& kept, const tf::placement_contact& from, treeform_contact& to);
+void fill(keeper& kept, const tf::placement& from, treeform_placement& to);
+void fill(keeper& kept, const tf::impact& from, treeform_impact& to);
+void fill(keeper& kept, const tf::approach& from, treeform_impact& to);
+[[nodiscard]] tf::impact_options read(const treeform_impact_options* options);
+[[nodiscard]] tf::impact_options read(const treeform_impact_options& o);
+[[nodiscard]] tf::lay_flat_options read(const treeform_lay_flat_options* options);
+[[nodiscard]] tf::lay_flat_options read(const treeform_lay_flat_options& o);
+void fill(keeper& kept, const tf::laid_flat& from, treeform_laid_flat& to);
+[[nodiscard]] tf::pack_options read(const treeform_pack_options* options);
+[[nodiscard]] tf::pack_options read(const treeform_pack_options& o);
+void fill(keeper& kept, const tf::packed_part& from, treeform_packed_part& to);
+void fill(keeper& kept, const tf::packing& from, treeform_packing& to);
+[[nodiscard]] tf::align_options read(const treeform_align_options* options);
+[[nodiscard]] tf::align_options read(const treeform_align_options& o);
+void fill(keeper& kept, const tf::align_result& from, treeform_align_result& to);
+[[nodiscard]] tf::clash_options read(const treeform_clash_options* options);
+[[nodiscard]] tf::clash_options read(const treeform_clash_options& o);
+void fill(keeper& kept, const tf::contact_region& from, treeform_contact_region& to);
+void fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& to);
+void fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to);
+[[nodiscard]] tf::pose_options read(const treeform_poses_options* options);
+[[nodiscard]] tf::pose_options read(const treeform_poses_options& o);
+void fill(keeper& kept, const tf::named_column& from, treeform_named_column& to);
+void fill(keeper& kept, const tf::io_warning& from, treeform_warning& to);
+void fill(keeper& kept, const tf::column& from, treeform_column& to);
+void fill(keeper& kept, const tf::element& from, treeform_rows& to);
+void fill(keeper& kept, const tf::part& from, treeform_named_faces& to);
+void fill(keeper& kept, const tf::mesh_file& from, treeform_file_view& to);
+[[nodiscard]] tf::read_options read(const treeform_read_options* options);
+[[nodiscard]] tf::read_options read(const treeform_read_options& o);
+[[nodiscard]] tf::write_options read(const treeform_write_options* options);
+[[nodiscard]] tf::write_options read(const treeform_write_options& o);
+void fill(keeper& kept, const tf::write_result& from, treeform_written& to);
+[[nodiscard]] tf::part_options read(const treeform_part_options* options);
+[[nodiscard]] tf::part_options read(const treeform_part_options& o);
+void fill(keeper& kept, const tf::usable_mesh& from, treeform_part& to);
+[[nodiscard]] tf::urdf_options read(const treeform_robot_options* options);
+[[nodiscard]] tf::urdf_options read(const treeform_robot_options& o);
+void fill(keeper& kept, const tf::urdf_joint& from, treeform_robot_joint& to);
+void fill(keeper& kept, const tf::urdf_mesh& from, treeform_robot_mesh& to);
+void fill(keeper& kept, const tf::urdf_robot& from, treeform_robot_view& to);
+void fill(keeper& kept, const std::vector<tf::mesh_feature>& from, treeform_features& to);
+void fill(keeper& kept, const std::vector<tf::mesh_part>& from, treeform_mesh_parts& to);
+void fill(keeper& kept, const std::vector<tf::curve_segment>& from, treeform_segments& to);
+void fill(keeper& kept, const std::vector<std::uint32_t>& from, treeform_indices& to);
+void fill(keeper& kept, const std::vector<double>& from, treeform_heights& to);
+void fill(keeper& kept, const std::vector<std::string>& from, treeform_strings& to);
+
+}  // namespace glue

@@ -1,0 +1,109 @@
+// Made by tools/bindings of weld.h and the headers of C++: see its README.
+#include <tools/c/made/structs.hpp>
+
+namespace tf = treeform;
+
+static_assert(TREEFORM_WELD_FIRST == static_cast<int>(tf::weld_rule::first));
+static_assert(TREEFORM_WELD_CHAIN == static_cast<int>(tf::weld_rule::chain));
+static_assert(TREEFORM_KEEP_FIRST == static_cast<int>(tf::weld_keep::first));
+static_assert(TREEFORM_KEEP_LAST == static_cast<int>(tf::weld_keep::last));
+static_assert(TREEFORM_KEEP_MEAN == static_cast<int>(tf::weld_keep::mean));
+static_assert(TREEFORM_KEEP_LOWEST == static_cast<int>(tf::weld_keep::lowest));
+static_assert(TREEFORM_KEEP_HIGHEST == static_cast<int>(tf::weld_keep::highest));
+static_assert(TREEFORM_ORDER_GIVEN == static_cast<int>(tf::weld_order::given));
+static_assert(TREEFORM_ORDER_LOWEST == static_cast<int>(tf::weld_order::lowest));
+static_assert(TREEFORM_ORDER_HIGHEST == static_cast<int>(tf::weld_order::highest));
+
+void glue::fill(keeper&, const tf::weld_condition& from, treeform_weld_condition& to) {
+    to.property = from.property.c_str();
+    to.tolerance = from.tolerance;
+}
+
+tf::weld_options glue::read(const treeform_weld_options* options) {
+    return read(chosen(options, treeform_weld_options_init));
+}
+tf::weld_options glue::read(const treeform_weld_options& o) {
+    tf::weld_options how;
+    how.tolerance = o.tolerance;
+    how.rule = choice<tf::weld_rule>(o.rule, 2, "rule");
+    how.label = array(o.label, o.label_count, "label");
+
+    if (o.may_merge)
+        how.may_merge = [call = o.may_merge, data = o.may_merge_data](
+                            std::uint32_t a, std::uint32_t b) { return call(a, b, data) != 0; };
+
+    how.same = conditions(o.same, o.same_count, "same");
+
+    how.keep_seams = o.keep_seams != 0;
+    how.across = texts(o.across, o.across_count, "across");
+
+    how.keep = choice<tf::weld_keep>(o.keep, 5, "keep");
+    how.keep_by = text(o.keep_by);
+    how.order = choice<tf::weld_order>(o.order, 3, "order");
+    how.order_by = text(o.order_by);
+    how.only_borders = o.only_borders != 0;
+    how.keep_manifold = o.keep_manifold != 0;
+    how.keep_degenerate = o.keep_degenerate != 0;
+    how.progress = progress(o);
+
+    return how;
+}
+
+void treeform_weld_options_init(treeform_weld_options* options, size_t size) {
+    treeform_weld_options to{};
+    const tf::weld_options from;
+    to.tolerance = from.tolerance;
+    to.rule = static_cast<treeform_weld_rule>(from.rule);
+    to.keep_seams = from.keep_seams;
+    to.keep = static_cast<treeform_weld_keep>(from.keep);
+    to.order = static_cast<treeform_weld_order>(from.order);
+    to.only_borders = from.only_borders;
+    to.keep_manifold = from.keep_manifold;
+    to.keep_degenerate = from.keep_degenerate;
+    glue::init(options, size, to);
+}
+
+void glue::fill(keeper&, const tf::weld_result& from, treeform_weld_result& to) {
+    to.mesh = arrays(from.mesh);
+    to.group_of_point = or_null(from.groups.group_of_point);
+    to.point_count = from.groups.group_of_point.size();
+    to.first_of_group = or_null(from.groups.first_of_group);
+    to.group_count = from.groups.first_of_group.size();
+    to.point_of_group = or_null(from.point_of_group);
+    to.face_of_new = or_null(from.face_of_new);
+    to.merged_groups = from.statistics.groups;
+    to.non_finite = from.statistics.non_finite;
+    to.collapsed = from.statistics.collapsed;
+    to.degenerate = from.statistics.degenerate;
+    to.max_displacement = from.statistics.max_displacement;
+    to.nonmanifold_before = from.statistics.nonmanifold_before;
+    to.nonmanifold_after = from.statistics.nonmanifold_after;
+    to.flipped = from.statistics.flipped;
+    to.left_alone = from.statistics.left_alone;
+}
+
+void glue::fill(keeper&, const tf::file_weld_result& from, treeform_weld_result& to) {
+    to.group_of_point = or_null(from.groups.group_of_point);
+    to.point_count = from.groups.group_of_point.size();
+    to.first_of_group = or_null(from.groups.first_of_group);
+    to.group_count = from.groups.first_of_group.size();
+    to.point_of_group = or_null(from.point_of_group);
+    to.face_of_new = or_null(from.face_of_new);
+    to.merged_groups = from.statistics.groups;
+    to.non_finite = from.statistics.non_finite;
+    to.collapsed = from.statistics.collapsed;
+    to.degenerate = from.statistics.degenerate;
+    to.max_displacement = from.statistics.max_displacement;
+    to.nonmanifold_before = from.statistics.nonmanifold_before;
+    to.nonmanifold_after = from.statistics.nonmanifold_after;
+    to.flipped = from.statistics.flipped;
+    to.left_alone = from.statistics.left_alone;
+}
+
+treeform_code treeform_count_nearly_equal(const treeform_mesh* mesh, double distance,
+                                          uint64_t* count) {
+    return glue::guard([&] {
+        (void)glue::need(count, "count");
+        *count = tf::count_nearly_equal(glue::view(mesh).points, distance);
+    });
+}

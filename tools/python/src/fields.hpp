@@ -1,0 +1,225 @@
+#pragma once
+/// \file
+/// Fields of options and results, between C++ and Python: what `made/` is written with.
+
+#include "arrays.hpp"
+#include "carrying.hpp"
+#include "file_data.hpp"
+#include "held_mesh.hpp"
+#include "made/words.hpp"
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld_options.hpp>
+
+#include <pybind11/stl.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace binding {
+
+// ---- options ----
+
+/// \throws py::type_error, which names the argument to those who called the package
+template <class T>
+T cast_of(py::handle value) {
+    try {
+        return value.cast<T>();
+    } catch (const py::cast_error&) {
+        throw py::type_error("incompatible constructor arguments");
+    }
+}
+
+template <class T>
+requires std::is_arithmetic_v<T>
+void take(const char*, py::handle value, T& to) {
+    if (!value.is_none() || std::is_floating_point_v<T>)
+        to = cast_of<T>(value);  // None of a count is the default
+    else if (std::is_same_v<T, bool>)
+        throw py::type_error("incompatible constructor arguments");
+}
+template <has_words Enum>
+void take(const char* name, py::handle value, Enum& to) {
+    to = choice<Enum>(name, words_of<Enum>::all, cast_of<std::string>(value));
+}
+inline void take(const char*, py::handle value, std::string& to) {
+    to = cast_of<std::string>(value);
+}
+inline void take(const char*, py::handle value, std::filesystem::path& to) {
+    to = cast_of<std::string>(value);
+}
+inline void take(const char*, py::handle value, tf::point3& to) {
+    to = point_of(cast_of<array_of<double>>(value));
+}
+inline void take(const char*, py::handle value, tf::transform<3>& to) {
+    to = transform_of(cast_of<array_of<double>>(value));
+}
+inline void take(const char*, py::handle value, std::array<double, 2>& to) {
+    to = cast_of<std::array<double, 2>>(value);
+}
+inline void take(const char*, py::handle value, std::vector<std::string>& to) {
+    to = cast_of<std::vector<std::string>>(value);
+}
+inline void take(const char*, py::handle value, std::vector<tf::weld_condition>& to) {
+    for (const auto& [name, within] : cast_of<std::vector<std::pair<std::string, double>>>(value))
+        to.push_back({name, within});
+}
+inline void take(const char* name, py::handle value, tf::pair_kinds& to) {
+    if (value.is_none()) return;
+    to = {};
+    for (const std::string& one : cast_of<std::vector<std::string>>(value))
+        to = to + choice<tf::pair_kind>(name, words_of<tf::pair_kind>::all, one);
+}
+
+template <class T>
+void take(const char* name, py::handle value, std::optional<T>& to) {
+    if (value.is_none()) return;
+    T made{};
+    take(name, value, made);
+    to = std::move(made);
+}
+
+/// Options of named values; `each_field` of `made/options.cpp` says what the fields are.
+template <class Options>
+Options options_of(const py::kwargs& named) {
+    Options how;
+    for (const auto& [key, value] : named) {
+        bool known = false;
+        const auto name = py::cast<std::string>(key);
+        each_field(how, [&, &given = value](const char* field, auto& to) {
+            if (name != field) return;
+            known = true;
+            take(field, given, to);
+        });
+        if (!known) throw py::type_error(name + ": there is no such option");
+    }
+    return how;
+}
+
+/// The class of options, with `names` of them and `defaults` of those that are numbers or words.
+template <class Options>
+void add_options_of(py::module_& module, const char* type) {
+    const py::object made = py::class_<Options>(module, type).def(py::init(&options_of<Options>));
+    py::list names;
+    py::dict defaults;
+    Options how;
+    each_field(how, [&](const char* name, auto& value) {
+        using field = std::remove_cvref_t<decltype(value)>;
+        names.append(name);
+        if constexpr (std::is_arithmetic_v<field> || std::is_same_v<field, std::string>)
+            defaults[name] = value;
+        else if constexpr (has_words<field>)
+            defaults[name] = word_of(value);
+    });
+    made.attr("names") = py::tuple(names);
+    made.attr("defaults") = defaults;
+}
+
+// ---- results ----
+
+/// The object of a class of the package, with these fields.
+inline py::object object_of(const char* module, const char* type, const py::dict& fields) {
+    return py::module_::import(module).attr(type)(**fields);
+}
+
+template <class T>
+requires std::is_arithmetic_v<T> py::object value_of(T number) { return py::cast(number); }
+inline py::object value_of(const std::string& text) { return py::cast(text); }
+inline py::object value_of(const tf::point3& p) { return as_array(p); }
+inline py::object value_of(const tf::transform<3>& map) { return as_array(map); }
+inline py::object value_of(const std::array<std::array<double, 3>, 3>& rows) {
+    return column(rows, [](const auto& row) { return row; });
+}
+inline py::object value_of(tf::certificate&& certificate) {
+    return py::cast(std::move(certificate));
+}
+template <has_words Enum>
+py::object value_of(Enum value) {
+    return py::cast(word_of(value));
+}
+template <class T>
+requires std::is_arithmetic_v<T> py::object value_of(std::vector<T>&& numbers) {
+    return as_array<T>(std::move(numbers));
+}
+inline py::object value_of(std::vector<tf::point3>&& points) { return as_array(std::move(points)); }
+inline py::object value_of(std::vector<tf::face>&& faces) { return as_array(std::move(faces)); }
+inline py::object value_of(std::vector<tf::operand_element>&& elements) {
+    return as_array<std::uint32_t>(std::move(elements));
+}
+/// Two corners, as rows.
+inline py::object value_of(const std::array<tf::point3, 2>& corners) {
+    return column(corners, [](const tf::point3& p) { return numbers(p); });
+}
+inline py::object value_of(const tf::box3& box) { return value_of(std::array{box.min, box.max}); }
+template <class T>
+py::object value_of(std::optional<T>&& value) {
+    return value ? value_of(std::move(*value)) : py::object(py::none());
+}
+
+/// Finds the functions of results, `made/results.cpp`.
+struct of_result {};
+
+/// The same with what the objects are made in: attributes of operands, the mesh that moves.
+template <class T, class... Context>
+py::object as_python(T&& value, const Context&... context) {
+    if constexpr (requires { object(of_result{}, std::forward<T>(value), context...); })
+        return object(of_result{}, std::forward<T>(value), context...);
+    else
+        return value_of(std::forward<T>(value));
+}
+template <class T, class... Context>
+py::object as_python(std::vector<T>&& values, const Context&... context) {
+    if constexpr (requires { value_of(std::move(values)); }) {
+        return value_of(std::move(values));
+    } else {
+        py::list made;
+        for (T& one : values) made.append(as_python(std::move(one), context...));
+        return made;
+    }
+}
+template <class T, class... Context>
+py::object as_python(std::optional<T>&& value, const Context&... context) {
+    return value ? as_python(std::move(*value), context...) : py::object(py::none());
+}
+
+/// How many there are of each word.
+template <class Enum, std::size_t N>
+py::dict counts_of(const std::array<std::uint64_t, N>& counts) {
+    py::dict made;
+    for (std::size_t i = 0; i < N; ++i) made[words_of<Enum>::all[i]] = counts[i];
+    return made;
+}
+
+/// A dictionary with one more.
+template <class T>
+py::dict with(py::dict made, const char* name, const T& value) {
+    made[name] = value;
+    return made;
+}
+
+/// `Mesh` of the package.
+py::object mesh_object(tf::mesh&& mesh, const py::object& certificate, const py::object& data);
+/// `Mesh` of a body that `matrix` has moved, with its attributes.
+py::object moved_mesh(std::vector<tf::point3>&& points, const held_mesh& body,
+                      const tf::transform<3>& matrix, const py::object& certificate);
+
+/// What results get of their operands.
+template <class Result>
+py::object data_of(const Result& from, const carrying& attributes) {
+    if constexpr (!requires { from.face_source; })
+        return py::none();
+    else if constexpr (requires { from.face_of_cut_vertex; })
+        return attributes.to(from.mesh,
+                             {from.face_source, from.vertex_source, from.face_of_cut_vertex});
+    else
+        return attributes.to(from.mesh, from.face_source, from.vertex_source);
+}
+
+}  // namespace binding

@@ -1,0 +1,307 @@
+// Made by tools/bindings of the headers of C++: see its README.
+#include "../bindings.hpp"
+#include "../job.hpp"
+#include "made.hpp"
+#include <treeform/treeform.hpp>
+
+namespace binding {
+namespace {
+
+py::object split(const held_meshes& meshes, tf::boolean_options options) {
+    const carrying attributes(meshes);
+    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::split(refs_of(meshes), options);
+                     }),
+                     attributes);
+}
+
+py::object layer_heights(const held_mesh& mesh, const array_of<double>& at,
+                         const array_of<double>& normal, double thickness) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::layer_heights(mesh.view().points, {point_of(at), point_of(normal)}, thickness);
+    }));
+}
+
+py::object components(const held_mesh& mesh, tf::components_options options) {
+    const carrying attributes({&mesh});
+    return as_python(
+        run([&](const tf::progress_callback&) { return tf::components(mesh.ref(), options); }),
+        attributes);
+}
+
+py::object submesh(const held_mesh& mesh, const ids_array& faces) {
+    const carrying attributes({&mesh});
+    return as_python(run([&](const tf::progress_callback&) {
+                         return tf::submesh(mesh.ref(), rows_of<std::uint32_t>(faces));
+                     }),
+                     attributes);
+}
+
+py::object moved_points(const held_mesh& mesh, const array_of<double>& matrix) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::transform_mesh({mesh.view().points, {}}, transform_of(matrix)).points;
+    }));
+}
+
+py::object mass_properties(const held_mesh& mesh) {
+    return as_python(
+        run([&](const tf::progress_callback&) { return tf::find_mass_properties(mesh.view()); }));
+}
+
+py::object resolve(const held_mesh& mesh, const std::string& mode, tf::resolve_options options) {
+    const carrying attributes({&mesh});
+    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    return as_python(
+        run([&](const tf::progress_callback& report) {
+            options.progress = report;
+            return tf::resolve_self_intersections(
+                mesh.ref(), choice<tf::resolve_mode>("mode", words_of<tf::resolve_mode>::all, mode),
+                options);
+        }),
+        attributes);
+}
+
+py::object repair(const held_mesh& mesh, tf::repair_options options) {
+    const carrying attributes({&mesh});
+    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::repair(mesh.ref(), options);
+                     }),
+                     attributes);
+}
+
+py::object wrap(const held_mesh& mesh, double size, tf::wrap_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::wrap(mesh.ref(), size, options);
+    }));
+}
+
+py::object convex_hull(const points_array& points) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        return tf::convex_hull(points_of(points), report);
+    }));
+}
+
+py::object rounded(const points_array& points, const std::string& precision) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::rounded(
+            points_of(points),
+            choice<tf::precision>("precision", words_of<tf::precision>::all, precision));
+    }));
+}
+
+py::object bounds(const held_mesh& mesh) {
+    return as_python(
+        run([&](const tf::progress_callback&) { return tf::bounding_box(mesh.view().points); }));
+}
+
+py::object signed_volume(const held_mesh& mesh) {
+    return as_python(
+        run([&](const tf::progress_callback&) { return tf::signed_volume(mesh.view()); }));
+}
+
+py::object surface_area(const held_mesh& mesh) {
+    return as_python(
+        run([&](const tf::progress_callback&) { return tf::surface_area(mesh.view()); }));
+}
+
+py::object find_defects(const held_mesh& mesh) {
+    return as_python(
+        run([&](const tf::progress_callback&) { return tf::find_defects(mesh.view()); }));
+}
+
+py::object count_topology(const held_mesh& mesh) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::count_topology(mesh.view().points.size(), mesh.view().faces);
+    }));
+}
+
+py::object face_components(const held_mesh& mesh) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::face_components(mesh.view().points.size(), mesh.view().faces);
+    }));
+}
+
+py::object count_inside_out(const held_mesh& mesh) {
+    return as_python(
+        run([&](const tf::progress_callback&) { return tf::count_inside_out(mesh.view()); }));
+}
+
+py::object find_features(const held_mesh& mesh, const std::string& kind,
+                         tf::feature_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::find_features(
+            mesh.view(), choice<tf::feature_kind>("kind", words_of<tf::feature_kind>::all, kind),
+            options);
+    }));
+}
+
+py::object find_solid_defects(const held_mesh& mesh) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        return tf::find_solid_defects(mesh.ref(), report);
+    }));
+}
+
+py::object self_intersections(const held_mesh& mesh, tf::self_intersection_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::self_intersections(mesh.ref(), options);
+    }));
+}
+
+py::object mesh_intersections(const held_mesh& a, const held_mesh& b,
+                              tf::mesh_intersection_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::mesh_intersections(a.ref(), b.ref(), options);
+    }));
+}
+
+py::object faces_in_box(const held_mesh& mesh, const array_of<double>& min,
+                        const array_of<double>& max) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::faces_in_box(mesh.view(), point_of(min), point_of(max));
+    }));
+}
+
+py::object count_nearly_equal(const points_array& points, double distance) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::count_nearly_equal(points_of(points), distance);
+    }));
+}
+
+py::object deviation(const held_mesh& a, const held_mesh& b, tf::deviation_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::deviation(a.prepared(), b.prepared(), options);
+    }));
+}
+
+py::object slide(const held_mesh& moving, const held_meshes& fixed,
+                 const array_of<double>& direction, tf::slide_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::slide(moving.ref(), refs_of(fixed), point_of(direction),
+                                          options);
+                     }),
+                     moving);
+}
+
+py::object drop(const held_mesh& moving, const held_meshes& fixed, tf::drop_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return fixed.empty() ? tf::drop(moving.ref(), options)
+                                              : tf::drop(moving.ref(), refs_of(fixed), options);
+                     }),
+                     moving);
+}
+
+py::object mate(const held_mesh& moving, const held_meshes& fixed, tf::mate_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::mate(moving.ref(), refs_of(fixed), options);
+                     }),
+                     moving);
+}
+
+py::object separate(const held_mesh& moving, const held_meshes& fixed,
+                    tf::separate_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::separate(moving.ref(), refs_of(fixed), options);
+                     }),
+                     moving);
+}
+
+py::object measure(const held_mesh& a, const held_mesh& b, tf::measure_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::measure(a.prepared(), b.prepared(), options);
+    }));
+}
+
+py::object penetration_depth(const held_mesh& a, const held_mesh& b, tf::depth_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::penetration_depth(a.prepared(), b.prepared(), options);
+    }));
+}
+
+py::object time_of_impact(const held_mesh& a, const held_mesh& b, const array_of<double>& motion,
+                          tf::impact_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::time_of_impact(a.prepared(), b.prepared(), point_of(motion), options);
+    }));
+}
+
+py::object lay_flat(const held_mesh& moving, tf::lay_flat_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::lay_flat(moving.prepared(), options);
+                     }),
+                     moving);
+}
+
+py::object align(const held_mesh& moving, const held_mesh& fixed, tf::align_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::align(moving.prepared(), fixed.prepared(), options);
+                     }),
+                     moving);
+}
+
+py::object closest_points(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
+                          const array_of<double>& move_b, double radius) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::closest_points(a.prepared(), b.prepared(),
+                                  {transform_of(move_a), transform_of(move_b), radius});
+    }));
+}
+
+}  // namespace
+
+void add_functions(py::module_& module) {
+    add_job(module, "split", &split);
+    add_job(module, "layer_heights", &layer_heights);
+    add_job(module, "components", &components);
+    add_job(module, "submesh", &submesh);
+    add_job(module, "moved_points", &moved_points);
+    add_job(module, "mass_properties", &mass_properties);
+    add_job(module, "resolve", &resolve);
+    add_job(module, "repair", &repair);
+    add_job(module, "wrap", &wrap, job_kind::long_work);
+    add_job(module, "convex_hull", &convex_hull);
+    add_job(module, "rounded", &rounded);
+    add_job(module, "bounds", &bounds);
+    add_job(module, "signed_volume", &signed_volume);
+    add_job(module, "surface_area", &surface_area);
+    add_job(module, "find_defects", &find_defects);
+    add_job(module, "count_topology", &count_topology);
+    add_job(module, "face_components", &face_components);
+    add_job(module, "count_inside_out", &count_inside_out);
+    add_job(module, "find_features", &find_features);
+    add_job(module, "find_solid_defects", &find_solid_defects);
+    add_job(module, "self_intersections", &self_intersections);
+    add_job(module, "mesh_intersections", &mesh_intersections);
+    add_job(module, "faces_in_box", &faces_in_box);
+    add_job(module, "count_nearly_equal", &count_nearly_equal);
+    add_job(module, "deviation", &deviation);
+    add_job(module, "slide", &slide);
+    add_job(module, "drop", &drop);
+    add_job(module, "mate", &mate);
+    add_job(module, "separate", &separate);
+    add_job(module, "measure", &measure);
+    add_job(module, "penetration_depth", &penetration_depth);
+    add_job(module, "time_of_impact", &time_of_impact);
+    add_job(module, "lay_flat", &lay_flat);
+    add_job(module, "align", &align);
+    add_job(module, "closest_points", &closest_points);
+}
+
+}  // namespace binding

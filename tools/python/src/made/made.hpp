@@ -1,0 +1,73 @@
+#pragma once
+/// \file
+/// Made by tools/bindings of the headers of C++.
+
+#include "../fields.hpp"
+#include <treeform/mesh/align.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/cut.hpp>
+#include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/pack.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+#include <treeform/mesh/weld.hpp>
+#include <treeform/mesh/weld_options.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+#include <treeform/mesh/wrap.hpp>
+#include <treeform/mesh/write.hpp>
+
+namespace binding {
+
+py::object object(of_result, tf::boolean_result&& from, const carrying& attributes);
+py::object object(of_result, tf::cut_piece&& from, const carrying& attributes);
+py::object object(of_result, tf::mesh_part&& from, const carrying& attributes);
+py::object object(of_result, tf::mass_properties&& from);
+py::object object(of_result, tf::resolve_result&& from, const carrying& attributes);
+py::object object(of_result, tf::repair_result&& from, const carrying& attributes);
+py::object object(of_result, tf::wrap_result&& from);
+py::object object(of_result, tf::convex_hull_result&& from);
+py::object object(of_result, tf::solid_defects&& from);
+py::object object(of_result, tf::mesh_defects&& from);
+py::object object(of_result, tf::topology_counts&& from);
+py::object object(of_result, tf::mesh_feature&& from);
+py::object object(of_result, tf::self_intersection_result&& from);
+py::object object(of_result, tf::mesh_intersection_result&& from);
+py::object object(of_result, tf::intersection_region&& from);
+py::object object(of_result, tf::stream_search_result&& from);
+py::object object(of_result, tf::write_result&& from);
+py::object object(of_result, tf::weld_result&& from, const file_data* data);
+py::object object(of_result, tf::weld_stream_result&& from);
+py::object object(of_result, tf::deviation_result&& from);
+py::object object(of_result, tf::closest_points_result&& from);
+py::object object(of_result, tf::search_effort&& from);
+py::object object(of_result, tf::mesh_measure&& from);
+py::object object(of_result, tf::placement&& from, const held_mesh& moving);
+py::object object(of_result, tf::impact&& from);
+py::object object(of_result, tf::penetration_depth_result&& from);
+py::object object(of_result, tf::laid_flat&& from, const held_mesh& moving);
+py::object object(of_result, tf::align_result&& from, const held_mesh& moving);
+py::object object(of_result, tf::packed_part&& from, const held_mesh& moving);
+py::object object(of_result, tf::packing&& from);
+py::object object(of_result, tf::part_clash&& from);
+py::object object(of_result, tf::pose_result&& from);
+py::object object(of_result, tf::clash_result&& from);
+
+py::dict counters(const tf::boolean_statistics& from);
+py::dict counters(const tf::resolve_statistics& from);
+py::dict counters(const tf::repair_statistics& from);
+py::dict counters(const tf::wrap_statistics& from);
+py::dict counters(const tf::weld_statistics& from);
+py::dict counters(const tf::weld_stream_counts& from);
+
+}  // namespace binding

@@ -1,0 +1,297 @@
+// Made by tools/bindings of the headers of C++: see its README.
+#include "made.hpp"
+
+namespace binding {
+
+template <class Visit>
+void each_field(tf::boolean_options& how, const Visit& visit) {
+    visit("inside", how.inside);
+    visit("precision", how.precision);
+    visit("max_displacement", how.max_displacement);
+    visit("keep_cuts", how.keep_cuts);
+    visit("simplify", how.simplify);
+    visit("volumes", how.volumes);
+    visit("min_volume", how.min_volume);
+    visit("gap", how.gap);
+}
+
+template <class Visit>
+void each_field(tf::cut_options& how, const Visit& visit) {
+    visit("precision", how.precision);
+    visit("max_displacement", how.max_displacement);
+    visit("caps", how.caps);
+}
+
+template <class Visit>
+void each_field(tf::components_options& how, const Visit& visit) {
+    visit("min_volume", how.min_volume);
+    visit("largest", how.largest);
+}
+
+template <class Visit>
+void each_field(tf::resolve_options& how, const Visit& visit) {
+    visit("inside", how.inside);
+    visit("precision", how.precision);
+    visit("max_displacement", how.max_displacement);
+    visit("keep_cuts", how.keep_cuts);
+    visit("touching", how.touching);
+    visit("max_loss", how.max_loss);
+}
+
+template <class Visit>
+void each_field(tf::repair_options& how, const Visit& visit) {
+    visit("join", how.join);
+    visit("orient", how.orient);
+    visit("fill", how.fill);
+    visit("resolve", how.resolve);
+    visit("detach", how.detach);
+    visit("gap", how.gap);
+    visit("largest_hole", how.largest_hole);
+    visit("strays", how.strays);
+    visit("inside", how.inside);
+    visit("max_loss", how.max_loss);
+    visit("sheet", how.sheet);
+    visit("precision", how.precision);
+    visit("max_displacement", how.max_displacement);
+    visit("keep_cuts", how.keep_cuts);
+}
+
+template <class Visit>
+void each_field(tf::wrap_options& how, const Visit& visit) {
+    visit("offset", how.offset);
+    visit("precision", how.precision);
+}
+
+template <class Visit>
+void each_field(tf::feature_options& how, const Visit& visit) {
+    visit("tolerance", how.tolerance);
+    visit("plane_angle", how.plane_angle);
+    visit("facet_angle", how.facet_angle);
+    visit("arc", how.arc);
+}
+
+template <class Visit>
+void each_field(tf::self_intersection_options& how, const Visit& visit) {
+    visit("vertices", how.vertices);
+    visit("first_only", how.first_only);
+    visit("kinds", how.kinds);
+    visit("limit", how.limit);
+}
+
+template <class Visit>
+void each_field(tf::mesh_intersection_options& how, const Visit& visit) {
+    visit("move_a", how.move_a);
+    visit("move_b", how.move_b);
+    visit("first_only", how.first_only);
+    visit("kinds", how.kinds);
+    visit("limit", how.limit);
+}
+
+template <class Visit>
+void each_field(tf::stream_search_options& how, const Visit& visit) {
+    visit("vertices", how.vertices);
+    visit("kinds", how.kinds);
+    visit("format", how.format);
+    visit("memory", how.memory);
+    visit("folder", how.folder);
+    visit("faces_per_tile", how.faces_per_tile);
+}
+
+template <class Visit>
+void each_field(tf::weld_options& how, const Visit& visit) {
+    visit("tolerance", how.tolerance);
+    visit("rule", how.rule);
+    visit("same", how.same);
+    visit("keep_seams", how.keep_seams);
+    visit("across", how.across);
+    visit("keep", how.keep);
+    visit("keep_by", how.keep_by);
+    visit("order", how.order);
+    visit("order_by", how.order_by);
+    visit("only_borders", how.only_borders);
+    visit("keep_manifold", how.keep_manifold);
+    visit("keep_degenerate", how.keep_degenerate);
+}
+
+template <class Visit>
+void each_field(tf::weld_stream_options& how, const Visit& visit) {
+    visit("tolerance", how.tolerance);
+    visit("relative", how.relative);
+    visit("rule", how.rule);
+    visit("same", how.same);
+    visit("keep", how.keep);
+    visit("keep_by", how.keep_by);
+    visit("order", how.order);
+    visit("order_by", how.order_by);
+    visit("keep_seams", how.keep_seams);
+    visit("across", how.across);
+    visit("keep_degenerate", how.keep_degenerate);
+    visit("as_las", how.as_las);
+    visit("memory", how.memory);
+    visit("folder", how.folder);
+    visit("points_per_tile", how.points_per_tile);
+}
+
+template <class Visit>
+void each_field(tf::slide_options& how, const Visit& visit) {
+    visit("clearance", how.clearance);
+    visit("max_travel", how.max_travel);
+    visit("precision", how.precision);
+    visit("bed", how.bed);
+}
+
+template <class Visit>
+void each_field(tf::drop_options& how, const Visit& visit) {
+    visit("clearance", how.clearance);
+    visit("max_travel", how.max_travel);
+    visit("precision", how.precision);
+    visit("bed", how.bed);
+    visit("direction", how.direction);
+}
+
+template <class Visit>
+void each_field(tf::mate_options& how, const Visit& visit) {
+    visit("clearance", how.clearance);
+    visit("max_travel", how.max_travel);
+    visit("precision", how.precision);
+}
+
+template <class Visit>
+void each_field(tf::separate_options& how, const Visit& visit) {
+    visit("clearance", how.clearance);
+    visit("max_travel", how.max_travel);
+    visit("precision", how.precision);
+    visit("effort", how.effort);
+}
+
+template <class Visit>
+void each_field(tf::turn_options& how, const Visit& visit) {
+    visit("clearance", how.clearance);
+    visit("max_angle", how.max_angle);
+    visit("tolerance", how.tolerance);
+    visit("precision", how.precision);
+}
+
+template <class Visit>
+void each_field(tf::feature_mate_options& how, const Visit& visit) {
+    visit("clearance", how.clearance);
+    visit("flip", how.flip);
+    visit("precision", how.precision);
+}
+
+template <class Visit>
+void each_field(tf::measure_options& how, const Visit& visit) {
+    visit("radius", how.radius);
+    visit("vertices", how.vertices);
+}
+
+template <class Visit>
+void each_field(tf::depth_options& how, const Visit& visit) {
+    visit("directions", how.directions);
+    visit("effort", how.effort);
+}
+
+template <class Visit>
+void each_field(tf::impact_options& how, const Visit& visit) {
+    visit("move_a", how.move_a);
+    visit("move_b", how.move_b);
+    visit("latest", how.latest);
+}
+
+template <class Visit>
+void each_field(tf::lay_flat_options& how, const Visit& visit) {
+    visit("choose", how.choose);
+    visit("toward", how.toward);
+    visit("keep_spin", how.keep_spin);
+    visit("tolerance", how.tolerance);
+    visit("bed", how.bed);
+    visit("overhang_angle", how.overhang_angle);
+    visit("precision", how.precision);
+}
+
+template <class Visit>
+void each_field(tf::align_options& how, const Visit& visit) {
+    visit("method", how.method);
+    visit("overlap", how.overlap);
+    visit("weights", how.weights);
+    visit("max_distance", how.max_distance);
+    visit("scale", how.scale);
+    visit("least_scale", how.least_scale);
+    visit("most_scale", how.most_scale);
+    visit("max_iterations", how.max_iterations);
+    visit("tolerance", how.tolerance);
+    visit("starts", how.starts);
+    visit("samples", how.samples);
+    visit("start", how.start);
+    visit("precision", how.precision);
+}
+
+template <class Visit>
+void each_field(tf::pack_options& how, const Visit& visit) {
+    visit("size", how.size);
+    visit("corner", how.corner);
+    visit("spacing", how.spacing);
+    visit("turns", how.turns);
+    visit("stack", how.stack);
+    visit("plates", how.plates);
+    visit("plate_step", how.plate_step);
+    visit("seed", how.seed);
+    visit("tries", how.tries);
+    visit("seconds", how.seconds);
+    visit("precision", how.precision);
+}
+
+template <class Visit>
+void each_field(tf::deviation_options& how, const Visit& visit) {
+    visit("band", how.band);
+    visit("bins", how.bins);
+    visit("both_ways", how.both_ways);
+}
+
+template <class Visit>
+void each_field(tf::clash_options& how, const Visit& visit) {
+    visit("clearance", how.clearance);
+    visit("volumes", how.volumes);
+    visit("depths", how.depths);
+    visit("limit", how.limit);
+    visit("vertices", how.vertices);
+}
+
+template <class Visit>
+void each_field(tf::pose_options& how, const Visit& visit) {
+    visit("clearance", how.clearance);
+    visit("first_only", how.first_only);
+    visit("vertices", how.vertices);
+}
+
+void add_options(py::module_& module) {
+    add_options_of<tf::boolean_options>(module, "BooleanOptions");
+    add_options_of<tf::cut_options>(module, "CutOptions");
+    add_options_of<tf::components_options>(module, "ComponentsOptions");
+    add_options_of<tf::resolve_options>(module, "ResolveOptions");
+    add_options_of<tf::repair_options>(module, "RepairOptions");
+    add_options_of<tf::wrap_options>(module, "WrapOptions");
+    add_options_of<tf::feature_options>(module, "FeatureOptions");
+    add_options_of<tf::self_intersection_options>(module, "SelfIntersectionOptions");
+    add_options_of<tf::mesh_intersection_options>(module, "MeshIntersectionOptions");
+    add_options_of<tf::stream_search_options>(module, "StreamSearchOptions");
+    add_options_of<tf::weld_options>(module, "WeldOptions");
+    add_options_of<tf::weld_stream_options>(module, "WeldStreamOptions");
+    add_options_of<tf::slide_options>(module, "SlideOptions");
+    add_options_of<tf::drop_options>(module, "DropOptions");
+    add_options_of<tf::mate_options>(module, "MateOptions");
+    add_options_of<tf::separate_options>(module, "SeparateOptions");
+    add_options_of<tf::turn_options>(module, "TurnOptions");
+    add_options_of<tf::feature_mate_options>(module, "FeatureMateOptions");
+    add_options_of<tf::measure_options>(module, "MeasureOptions");
+    add_options_of<tf::depth_options>(module, "DepthOptions");
+    add_options_of<tf::impact_options>(module, "ImpactOptions");
+    add_options_of<tf::lay_flat_options>(module, "LayFlatOptions");
+    add_options_of<tf::align_options>(module, "AlignOptions");
+    add_options_of<tf::pack_options>(module, "PackOptions");
+    add_options_of<tf::deviation_options>(module, "DeviationOptions");
+    add_options_of<tf::clash_options>(module, "ClashOptions");
+    add_options_of<tf::pose_options>(module, "PoseOptions");
+}
+
+}  // namespace binding

@@ -1,0 +1,215 @@
+// Made by tools/bindings of the headers of C++: see its README.
+#include "../parts.hpp"
+
+namespace binding {
+
+py::object object(of_result, tf::deviation_result&& from) {
+    py::dict made;
+    made["distances"] = as_python(std::move(from.distances));
+    made["faces"] = as_python(std::move(from.faces));
+    made["is_signed"] = as_python(std::move(from.is_signed));
+    made["side_counts"] =
+        from.sides
+            ? py::object(py::make_tuple(from.sides->inside, from.sides->on, from.sides->outside))
+            : py::none();
+    made["mean"] = as_python(std::move(from.mean));
+    made["mean_absolute"] = as_python(std::move(from.mean_absolute));
+    made["rms"] = as_python(std::move(from.rms));
+    made["p50"] = as_python(std::move(from.p50));
+    made["p95"] = as_python(std::move(from.p95));
+    made["p99"] = as_python(std::move(from.p99));
+    made["max"] = as_python(std::move(from.max));
+    made["worst"] = as_python(std::move(from.worst));
+    made["lowest"] = as_python(std::move(from.lowest));
+    made["highest"] = as_python(std::move(from.highest));
+    made["there"] = py::make_tuple(from.there.sampled, from.there.at_most);
+    made["back"] =
+        from.back ? py::object(py::make_tuple(from.back->sampled, from.back->at_most)) : py::none();
+    made["histogram_range"] = py::make_tuple(from.histogram.low, from.histogram.high);
+    made["histogram"] = as_python(std::move(from.histogram.counts));
+    made["band_counts"] =
+        from.band
+            ? py::object(py::make_tuple(from.band->below, from.band->within, from.band->above))
+            : py::none();
+    return object_of("treeform._nearness", "Deviation", made);
+}
+
+py::object object(of_result, tf::closest_points_result&& from) {
+    py::dict made;
+    made["face_a"] = as_python(std::move(from.face_a));
+    made["face_b"] = as_python(std::move(from.face_b));
+    made["distance"] = as_python(std::move(from.distance));
+    made["on_a"] = as_python(std::move(from.on_a));
+    made["on_b"] = as_python(std::move(from.on_b));
+    return object_of("treeform._assembly", "NearestPoints", made);
+}
+
+py::object object(of_result, tf::search_effort&& from) {
+    py::dict made;
+    made["pairs"] = as_python(std::move(from.pairs));
+    made["bound"] = as_python(std::move(from.bound));
+    made["cut"] = as_python(std::move(from.cut));
+    return object_of("treeform._placement", "SearchEffort", made);
+}
+
+py::object object(of_result, tf::mesh_measure&& from) {
+    py::dict made;
+    made["relation"] = as_python(std::move(from.relation.relation));
+    made["a_inside_b"] = as_python(std::move(from.relation.a_inside_b));
+    made["b_inside_a"] = as_python(std::move(from.relation.b_inside_a));
+    made["distance"] = as_python(std::move(from.distance));
+    made["surface_distance"] = as_python(std::move(from.surface_distance));
+    made["on_a"] = as_python(from.on_a.point);
+    made["face_a"] = py::cast(from.on_a.face);
+    made["on_b"] = as_python(from.on_b.point);
+    made["face_b"] = py::cast(from.on_b.face);
+    return object_of("treeform._placement", "Measure", made);
+}
+
+py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
+    const py::object certificate = py::cast(from.certificate);
+    py::dict made;
+    made["certificate"] = certificate;
+    made["end"] = as_python(std::move(from.end));
+    made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix,
+                              from.certificate ? certificate : py::none());
+    made["matrix"] = as_python(std::move(from.matrix));
+    made["direction"] = as_python(std::move(from.direction));
+    made["travel"] = as_python(std::move(from.travel));
+    made["at_start"] = as_python(std::move(from.at_start));
+    made["at_place"] = as_python(std::move(from.at_place));
+    made["nearest"] = from.nearest
+                          ? py::object(py::make_tuple(from.nearest->fixed,
+                                                      as_python(std::move(from.nearest->how))))
+                          : py::none();
+    made["contacts"] = contacts_of(from);
+    made["contact_count"] = as_python(std::move(from.contact_count));
+    made["effort"] = as_python(std::move(from.effort));
+    made["message"] = py::cast(from.message());
+    made["angle"] = py::cast(0.0);
+    made["tolerance"] = py::cast(0.0);
+    made["offset"] = py::cast(0.0);
+    return object_of("treeform._placement", "Placement", made);
+}
+
+py::object object(of_result, tf::impact&& from) {
+    py::dict made;
+    made["end"] = as_python(std::move(from.end));
+    made["time"] = as_python(std::move(from.time));
+    made["faces"] = column(from.contacts, [](const auto& one) {
+        return std::array{one.face_a, one.face_b};
+    });
+    made["points"] = column(from.contacts, [](const auto& one) { return numbers(one.point); });
+    return object_of("treeform._placement", "Impact", made);
+}
+
+py::object object(of_result, tf::penetration_depth_result&& from) {
+    py::dict made;
+    made["depth"] = as_python(std::move(from.depth));
+    made["move"] = as_python(std::move(from.move));
+    made["effort"] = as_python(std::move(from.effort));
+    return object_of("treeform._placement", "Depth", made);
+}
+
+py::object object(of_result, tf::laid_flat&& from, const held_mesh& moving) {
+    const py::object certificate = py::cast(from.certificate);
+    py::dict made;
+    made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix, certificate);
+    made["matrix"] = as_python(std::move(from.matrix));
+    made["areas"] = column(from.sides, [](const auto& one) { return one.area; });
+    made["normals"] = column(from.sides, [](const auto& one) { return numbers(one.normal); });
+    made["tip_angles"] = column(from.stability, [](const auto& one) { return one.tip_angle; });
+    made["overhangs"] = column(from.stability, [](const auto& one) { return one.overhang; });
+    made["center_of_mass"] = as_python(std::move(from.center_of_mass));
+    made["mass"] = as_python(std::move(from.mass));
+    made["chosen"] = as_python(std::move(from.chosen));
+    made["on_bed"] = as_python(std::move(from.on_bed));
+    made["certificate"] = certificate;
+    made["message"] = py::cast(from.message());
+    return object_of("treeform._placement", "LaidFlat", made);
+}
+
+py::object object(of_result, tf::align_result&& from, const held_mesh& moving) {
+    py::dict made;
+    made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix, py::none());
+    made["matrix"] = as_python(std::move(from.matrix));
+    made["scale"] = as_python(std::move(from.scale));
+    made["rms"] = as_python(std::move(from.rms));
+    made["rms_at_start"] = as_python(std::move(from.rms_at_start));
+    made["overlap"] = as_python(std::move(from.overlap));
+    made["inliers"] = as_python(std::move(from.inliers));
+    made["correlation"] = as_python(std::move(from.correlation));
+    made["uncertainty"] = as_python(std::move(from.uncertainty));
+    made["end"] = as_python(std::move(from.end));
+    made["converged"] = as_python(std::move(from.converged));
+    made["iterations"] = as_python(std::move(from.iterations));
+    made["start"] = as_python(std::move(from.start));
+    made["undetermined"] = py::cast(from.undetermined());
+    made["message"] = py::cast(from.message());
+    return object_of("treeform._placement", "Alignment", made);
+}
+
+py::object object(of_result, tf::packed_part&& from, const held_mesh& moving) {
+    py::dict made;
+    made["placed"] = as_python(std::move(from.placed));
+    made["plate"] = as_python(std::move(from.plate));
+    made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix, py::none());
+    made["matrix"] = as_python(std::move(from.matrix));
+    return object_of("treeform._placement", "PackedPart", made);
+}
+
+py::object object(of_result, tf::packing&& from) {
+    py::dict made;
+    made["parts"] = py::list();
+    made["not_placed"] = as_python(std::move(from.not_placed));
+    made["plates_used"] = as_python(std::move(from.plates_used));
+    made["tries"] = as_python(std::move(from.tries));
+    made["density"] = as_python(std::move(from.density));
+    made["message"] = py::cast(from.message());
+    return object_of("treeform._placement", "Packing", made);
+}
+
+py::object object(of_result, tf::part_clash&& from) {
+    py::dict made;
+    made["a"] = as_python(std::move(from.a));
+    made["b"] = as_python(std::move(from.b));
+    made["how"] = as_python(std::move(from.how));
+    made["a_inside_b"] = as_python(std::move(from.a_inside_b));
+    made["b_inside_a"] = as_python(std::move(from.b_inside_a));
+    made["distance"] = as_python(std::move(from.distance));
+    made["nearest"] = as_python(std::move(from.nearest));
+    made["face_pairs"] = as_python(std::move(from.face_pairs));
+    made["regions"] = regions_of(from);
+    made["volume"] = as_python(std::move(from.volume));
+    made["depth"] = as_python(std::move(from.depth));
+    made["move"] = as_python(std::move(from.move));
+    made["depth_effort"] = as_python(std::move(from.depth_effort));
+    return object_of("treeform._assembly", "PartClash", made);
+}
+
+py::object object(of_result, tf::pose_result&& from) {
+    py::dict made;
+    made["pose"] =
+        column_of_poses(from, [](std::uint32_t pose, const tf::pose_clash&) { return pose; });
+    made["parts"] = column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) {
+        return std::array{one.a, one.b};
+    });
+    made["how"] = column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) {
+        return static_cast<std::uint8_t>(one.how);
+    });
+    made["distance"] = column_of_poses(
+        from, [](std::uint32_t, const tf::pose_clash& one) { return one.distance; });
+    made["clashing"] = as_python(std::move(from.clashing));
+    return object_of("treeform._assembly", "PoseClashes", made);
+}
+
+py::object object(of_result, tf::clash_result&& from) {
+    py::dict made;
+    made["pairs"] = as_python(std::move(from.pairs));
+    made["counts"] = counts_of<tf::standing>(from.counts);
+    made["boxes_apart"] = as_python(std::move(from.boxes_apart));
+    made["clashes"] = as_python(std::move(from.clashes));
+    return object_of("treeform._assembly", "ClashResult", made);
+}
+
+}  // namespace binding

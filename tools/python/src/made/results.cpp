@@ -1,0 +1,335 @@
+// Made by tools/bindings of the headers of C++: see its README.
+#include "../parts.hpp"
+
+namespace binding {
+
+py::object object(of_result, tf::boolean_result&& from, const carrying& attributes) {
+    const py::object certificate = py::cast(from.certificate);
+    const py::object data = data_of(from, attributes);
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
+    made["face_source"] = as_python(std::move(from.face_source));
+    made["vertex_source"] = as_python(std::move(from.vertex_source));
+    made["certificate"] = certificate;
+    made["volumes"] = volumes_of(from);
+    made["statistics"] =
+        with(with(counters(from.statistics), "vanished_components", from.vanished_components),
+             "vanished_reach", from.vanished_reach);
+    return object_of("treeform._booleans", "BooleanResult", made);
+}
+
+py::object object(of_result, tf::cut_piece&& from, const carrying& attributes) {
+    const py::object certificate = py::cast(from.certificate);
+    const py::object data = data_of(from, attributes);
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
+    made["face_source"] = as_python(std::move(from.face_source));
+    made["vertex_source"] = as_python(std::move(from.vertex_source));
+    made["cap"] = as_python(std::move(from.cap));
+    made["certificate"] = certificate;
+    return object_of("treeform._cuts", "CutPiece", made);
+}
+
+py::object object(of_result, tf::mesh_part&& from, const carrying& attributes) {
+    const py::object certificate = py::none();
+    const py::object data = data_of(from, attributes);
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
+    made["face_source"] = as_python(std::move(from.face_source));
+    made["vertex_source"] = as_python(std::move(from.vertex_source));
+    made["volume"] = as_python(std::move(from.volume));
+    made["area"] = as_python(std::move(from.area));
+    return object_of("treeform._cuts", "MeshPart", made);
+}
+
+py::object object(of_result, tf::mass_properties&& from) {
+    py::dict made;
+    made["volume"] = as_python(std::move(from.volume));
+    made["center"] = as_python(std::move(from.center));
+    made["inertia"] = as_python(std::move(from.inertia));
+    return object_of("treeform._cuts", "MassProperties", made);
+}
+
+py::object object(of_result, tf::resolve_result&& from, const carrying& attributes) {
+    const py::object certificate = py::cast(from.certificate);
+    const py::object data = data_of(from, attributes);
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
+    made["face_source"] = as_python(std::move(from.face_source));
+    made["vertex_source"] = as_python(std::move(from.vertex_source));
+    made["certificate"] = certificate;
+    made["statistics"] =
+        with(counters(from.statistics), "vanished_components", from.vanished_components);
+    return object_of("treeform._repair", "ResolveResult", made);
+}
+
+py::object object(of_result, tf::repair_result&& from, const carrying& attributes) {
+    const py::object certificate = py::cast(from.certificate);
+    const py::object data = data_of(from, attributes);
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
+    made["face_source"] = as_python(std::move(from.face_source));
+    made["vertex_source"] = as_python(std::move(from.vertex_source));
+    made["is_left"] = as_python(std::move(from.is_left)).attr("view")("bool");
+    made["certificate"] = certificate;
+    made["steps"] = counters(from.statistics);
+    return object_of("treeform._repair", "RepairResult", made);
+}
+
+py::object object(of_result, tf::wrap_result&& from) {
+    const py::object certificate = py::cast(from.certificate);
+    const py::object data = py::none();
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
+    made["certificate"] = certificate;
+    made["statistics"] = counters(from.statistics);
+    return object_of("treeform._repair", "WrapResult", made);
+}
+
+py::object object(of_result, tf::convex_hull_result&& from) {
+    py::dict made;
+    made["dimension"] = as_python(std::move(from.dimension));
+    made["faces"] = as_python(std::move(from.faces));
+    made["first_face"] = column(from.sides, [](const auto& one) { return one.first_face; });
+    made["areas"] = column(from.sides, [](const auto& one) { return one.area; });
+    made["normals"] = column(from.sides, [](const auto& one) { return numbers(one.normal); });
+    return object_of("treeform._repair", "ConvexHull", made);
+}
+
+py::object object(of_result, tf::solid_defects&& from) {
+    py::dict made;
+    made["nonfinite_vertices"] = as_python(std::move(from.nonfinite_vertices));
+    made["unusable_faces"] = as_python(std::move(from.unusable_faces));
+    made["without_faces"] = as_python(std::move(from.without_faces));
+    made["tetrahedra"] = as_python(std::move(from.tetrahedra));
+    made["degenerate"] = as_python(std::move(from.degenerate));
+    made["repeated"] = as_python(std::move(from.repeated));
+    made["open_edges"] = as_python(std::move(from.open_edges));
+    made["nonmanifold_edges"] = as_python(std::move(from.nonmanifold_edges));
+    made["misoriented_edges"] = as_python(std::move(from.misoriented_edges));
+    made["nonmanifold_vertices"] = as_python(std::move(from.nonmanifold_vertices));
+    made["meeting_pairs"] = as_python(std::move(from.meeting_pairs));
+    made["inverted"] = as_python(std::move(from.inverted));
+    made["wrongly_nested"] = as_python(std::move(from.wrongly_nested));
+    made["message"] = py::cast(from.message());
+    return object_of("treeform._properties", "SolidDefects", made);
+}
+
+py::object object(of_result, tf::mesh_defects&& from) {
+    py::dict made;
+    made["nonfinite_points"] = as_python(std::move(from.nonfinite_points));
+    made["nonfinite_faces"] = as_python(std::move(from.nonfinite_faces));
+    made["degenerate_faces"] = as_python(std::move(from.degenerate_faces));
+    made["out_of_range_faces"] = as_python(std::move(from.out_of_range_faces));
+    return object_of("treeform._properties", "MeshDefects", made);
+}
+
+py::object object(of_result, tf::topology_counts&& from) {
+    py::dict made;
+    made["edges"] = as_python(std::move(from.edges));
+    made["boundary_edges"] = as_python(std::move(from.boundary_edges));
+    made["nonmanifold_edges"] = as_python(std::move(from.nonmanifold_edges));
+    made["misoriented_edges"] = as_python(std::move(from.misoriented_edges));
+    made["nonmanifold_points"] = as_python(std::move(from.nonmanifold_points));
+    made["components_by_point"] = as_python(std::move(from.components_by_point));
+    made["components_by_edge"] = as_python(std::move(from.components_by_edge));
+    made["points_used"] = as_python(std::move(from.points_used));
+    made["faces"] = as_python(std::move(from.faces));
+    made["repeated_corner_faces"] = as_python(std::move(from.repeated_corner_faces));
+    made["duplicate_faces"] = as_python(std::move(from.duplicate_faces));
+    made["closed"] = as_python(std::move(from.closed));
+    return object_of("treeform._properties", "Topology", made);
+}
+
+py::object object(of_result, tf::mesh_feature&& from) {
+    py::dict made;
+    made["kind"] = as_python(std::move(from.kind));
+    made["origin"] = as_python(std::move(from.origin));
+    made["direction"] = as_python(std::move(from.direction));
+    made["radius"] = as_python(std::move(from.radius));
+    made["hollow"] = as_python(std::move(from.hollow));
+    made["area"] = as_python(std::move(from.area));
+    made["deviation"] = as_python(std::move(from.deviation));
+    made["faces"] = as_python(std::move(from.faces));
+    return object_of("treeform._properties", "Feature", made);
+}
+
+py::object object(of_result, tf::self_intersection_result&& from) {
+    py::dict made;
+    made["pairs"] = column(from.pairs, [](const auto& one) { return std::array{one.a, one.b}; });
+    made["kinds"] =
+        column(from.pairs, [](const auto& one) { return static_cast<std::uint8_t>(one.kind); });
+    made["counts"] = counts_of<tf::pair_kind>(from.counts);
+    return object_of("treeform._intersections", "FacePairs", made);
+}
+
+py::object object(of_result, tf::mesh_intersection_result&& from) {
+    py::dict made;
+    made["pairs"] = column(from.pairs, [](const auto& one) { return std::array{one.a, one.b}; });
+    made["kinds"] =
+        column(from.pairs, [](const auto& one) { return static_cast<std::uint8_t>(one.kind); });
+    made["counts"] = counts_of<tf::pair_kind>(from.counts);
+    return object_of("treeform._intersections", "FacePairs", made);
+}
+
+py::object object(of_result, tf::intersection_region&& from) {
+    py::dict made;
+    made["faces"] = as_python(std::move(from.faces));
+    made["bounds"] = as_python(std::array{from.min, from.max});
+    made["pairs"] = as_python(std::move(from.pairs));
+    return object_of("treeform._intersections", "Region", made);
+}
+
+py::object object(of_result, tf::stream_search_result&& from) {
+    py::dict made;
+    made["face_in_file"] = faces_in_file(from.part);
+    made["mesh"] = mesh_object(std::move(from.part.mesh), py::none(), py::none());
+    made["dropped"] = py::cast(from.part.dropped);
+    made["pairs"] = column(from.found.pairs, [](const auto& one) {
+        return std::array{one.a, one.b};
+    });
+    made["kinds"] = column(from.found.pairs,
+                           [](const auto& one) { return static_cast<std::uint8_t>(one.kind); });
+    made["counts"] = counts_of<tf::pair_kind>(from.found.counts);
+    made["stored_faces"] = as_python(std::move(from.stored_faces));
+    made["tiles"] = as_python(std::move(from.tiles));
+    return object_of("treeform._intersections", "FilePairs", made);
+}
+
+py::object object(of_result, tf::write_result&& from) {
+    py::dict made;
+    made["format"] = as_python(std::move(from.format));
+    made["precision"] = as_python(std::move(from.written_as));
+    made["max_displacement"] = as_python(std::move(from.max_displacement));
+    made["warnings"] = texts_of(from.warnings);
+    return object_of("treeform._files", "Written", made);
+}
+
+py::object object(of_result, tf::weld_result&& from, const file_data* data) {
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), py::none(),
+                               with_attributes(data, std::move(from.attributes)));
+    made["index"] = as_python(std::move(from.groups.group_of_point));
+    made["source"] = as_python(std::move(from.point_of_group));
+    made["face_source"] = as_python(std::move(from.face_of_new));
+    made["statistics"] = counters(from.statistics);
+    return object_of("treeform._weld", "WeldResult", made);
+}
+
+py::object object(of_result, tf::weld_stream_result&& from) {
+    py::dict made;
+    made["points"] = py::cast(from.survey.points);
+    made["tolerance"] = py::cast(from.survey.tolerance);
+    made["non_finite"] = py::cast(from.survey.non_finite);
+    made["tiles"] = py::cast(from.survey.tiles);
+    made["continued"] = py::cast(from.survey.continued);
+    made["kept"] = as_python(std::move(from.counts.kept));
+    made["groups"] = as_python(std::move(from.counts.groups));
+    made["max_displacement"] = py::cast(from.counts.max_displacement + from.survey.las_moved);
+    made["faces"] = py::cast(from.counts.faces);
+    made["statistics"] = counters(from.counts);
+    made["warnings"] = warnings_of(from);
+    return object_of("treeform._weld", "WeldStreamResult", made);
+}
+
+py::dict counters(const tf::boolean_statistics& from) {
+    py::dict made;
+    made["pairs"] = from.pairs;
+    made["cut_faces"] = from.cut_faces;
+    made["degenerate"] = from.degenerate;
+    made["skipped_faces"] = from.skipped_faces;
+    made["covered"] = from.covered;
+    made["exact_faces"] = from.exact_faces;
+    made["split_vertices"] = from.split_vertices;
+    made["slivers"] = from.slivers;
+    made["rounding_rounds"] = from.rounding_rounds;
+    made["small_parts"] = from.small_parts;
+    made["small_volume"] = from.small_volume;
+    made["filled_faces"] = from.filled_faces;
+    return made;
+}
+
+py::dict counters(const tf::resolve_statistics& from) {
+    py::dict made;
+    made["removed"] = from.removed;
+    made["covered"] = from.covered;
+    made["filled"] = from.filled;
+    made["left_open"] = from.left_open;
+    made["exact_faces"] = from.exact_faces;
+    made["split_vertices"] = from.split_vertices;
+    return made;
+}
+
+py::dict counters(const tf::repair_statistics& from) {
+    py::dict made;
+    made["tetrahedra"] = from.tetrahedra;
+    made["degenerate"] = from.degenerate;
+    made["repeated"] = from.repeated;
+    made["closed_edges"] = from.closed_edges;
+    made["split_edges"] = from.split_edges;
+    made["gap"] = from.gap;
+    made["widest"] = from.widest;
+    made["flipped"] = from.flipped;
+    made["turned"] = from.turned;
+    made["strays"] = from.strays;
+    made["holes"] = from.holes;
+    made["hole_edges"] = from.hole_edges;
+    made["filled"] = from.filled;
+    made["sheets"] = from.sheets;
+    made["open_edges"] = from.open_edges;
+    made["resolved"] = from.resolved;
+    made["pairs"] = from.pairs;
+    made["labeled_cells"] = from.labeled_cells;
+    made["dropped_area"] = from.dropped_area;
+    made["turned_area"] = from.turned_area;
+    made["removed"] = from.removed;
+    made["split_vertices"] = from.split_vertices;
+    made["detached"] = from.detached;
+    made["touching"] = from.touching;
+    made["vanished_components"] = from.vanished_components;
+    made["dropped_shells"] = from.dropped_shells;
+    made["volume_before"] = from.volume_before;
+    made["volume_after"] = from.volume_after;
+    made["area_before"] = from.area_before;
+    made["area_after"] = from.area_after;
+    made["area_lost"] = from.area_lost;
+    return made;
+}
+
+py::dict counters(const tf::wrap_statistics& from) {
+    py::dict made;
+    made["size"] = from.size;
+    made["offset"] = from.offset;
+    made["area"] = from.area;
+    made["points"] = from.points;
+    made["tetrahedra"] = from.tetrahedra;
+    made["filled"] = from.filled;
+    return made;
+}
+
+py::dict counters(const tf::weld_statistics& from) {
+    py::dict made;
+    made["groups"] = from.groups;
+    made["non_finite"] = from.non_finite;
+    made["collapsed"] = from.collapsed;
+    made["degenerate"] = from.degenerate;
+    made["max_displacement"] = from.max_displacement;
+    made["nonmanifold_before"] = from.nonmanifold_before;
+    made["nonmanifold_after"] = from.nonmanifold_after;
+    made["flipped"] = from.flipped;
+    made["left_alone"] = from.left_alone;
+    return made;
+}
+
+py::dict counters(const tf::weld_stream_counts& from) {
+    py::dict made;
+    made["triangles"] = from.triangles;
+    made["collapsed"] = from.collapsed;
+    made["degenerate"] = from.degenerate;
+    made["nonmanifold_before"] = from.nonmanifold_before;
+    made["nonmanifold_after"] = from.nonmanifold_after;
+    made["flipped"] = from.flipped;
+    return made;
+}
+
+}  // namespace binding

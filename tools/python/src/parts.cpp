@@ -1,0 +1,81 @@
+#include "parts.hpp"
+
+#include <treeform/tree/transform.hpp>
+
+#include <string>
+
+namespace binding {
+
+py::object volumes_of(const tf::boolean_result& from) {
+    const auto& v = from.volumes;
+    return v ? py::object(py::make_tuple(v->first, v->second, v->either, v->both)) : py::none();
+}
+
+py::object contacts_of(const tf::placement& at) {
+    using contact = tf::placement_contact;
+    constexpr std::uint32_t no_face = tf::operand_element::none;
+    py::dict made;
+    made["points"] = column(at.contacts, [](const contact& c) { return numbers(c.point); });
+    made["normals"] = column(at.contacts, [](const contact& c) { return numbers(c.normal); });
+    made["moving"] = column(at.contacts, [](const contact& c) { return c.moving; });
+    made["fixed_face"] =
+        column(at.contacts, [=](const contact& c) { return c.fixed_face.value_or(no_face); });
+    made["fixed"] =
+        column(at.contacts, [](const contact& c) { return static_cast<std::uint32_t>(c.fixed); });
+    return object_of("treeform._placement", "Contacts", made);
+}
+
+py::list regions_of(tf::part_clash& from) {
+    py::list regions;
+    for (tf::contact_region& region : from.regions)
+        regions.append(py::make_tuple(value_of(region.box), region.face_pairs,
+                                      as_array(std::move(region.faces_a)),
+                                      as_array(std::move(region.faces_b))));
+    return regions;
+}
+
+py::list texts_of(const std::vector<tf::io_warning>& warnings) {
+    py::list texts;
+    for (const tf::io_warning& one : warnings) texts.append(one.text);
+    return texts;
+}
+
+py::array faces_in_file(const tf::usable_mesh& part) {
+    std::vector<std::uint32_t> numbers(part.mesh.faces.size());
+    for (std::uint32_t f = 0; f < numbers.size(); ++f) numbers[f] = part.face_in_file(f);
+    return as_array(std::move(numbers));
+}
+
+py::object with_attributes(const file_data* data, tf::attributes&& attributes) {
+    if (data == nullptr) return py::none();
+    file_data kept = *data;
+    kept.own().attributes = std::move(attributes);
+    return py::cast(std::move(kept));
+}
+
+py::list warnings_of(const tf::weld_stream_result& from) {
+    py::list warnings = texts_of(from.survey.warnings);
+    for (const auto* const written : {&from.written.welded, &from.written.removed})
+        if (*written)
+            for (const py::handle text : texts_of((*written)->warnings)) warnings.append(text);
+    return warnings;
+}
+
+py::object mesh_object(tf::mesh&& mesh, const py::object& certificate, const py::object& data) {
+    return py::module_::import("treeform._mesh")
+        .attr("Mesh")
+        .attr("_of")(as_array(std::move(mesh.points)), as_array(std::move(mesh.faces)), certificate,
+                     data);
+}
+
+py::object moved_mesh(std::vector<tf::point3>&& points, const held_mesh& body,
+                      const tf::transform<3>& matrix, const py::object& certificate) {
+    const py::tuple turned = turned_over(body, matrix);
+    const py::object there =
+        points.empty() ? py::object(body.points()) : as_array(std::move(points));
+    return py::module_::import("treeform._mesh")
+        .attr("Mesh")
+        .attr("_of")(there, turned[0], certificate, turned[1]);
+}
+
+}  // namespace binding
