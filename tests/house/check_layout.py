@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 HEADER_LINES = 250    # of a public header
-PUBLIC_HEADERS = 66
+PUBLIC_HEADERS = 67
 FILE_LINES = 500
 FUNCTION_LINES = 60   # from the opening brace to the closing one
 TOOL_LINES = 900      # of C++ in the folder of a tool: what more it needs belongs in the library
@@ -22,7 +22,7 @@ MORE_TOOL_LINES = {"tf-weld": 1700, "tf-selfintersect": 1150, "tf-boolean": 1125
 
 # Rooms of libmesh, top down; an include points down this list, and not across a line of it.
 FLOORS = [
-    ["stream", "carry", "wrap"],
+    ["stream", "carry", "wrap", "offset"],
     ["assembly"],
     ["repair", "cut"],
     ["boolean"],
