@@ -13,6 +13,8 @@ namespace treeform::detail::offset {
 namespace {
 
 constexpr double most_cells = 0x1p22;
+constexpr double sure_cells = 0x1p12;      ///< from so many on, a level has four times as many
+constexpr double sure_share = 64.0;        ///< times the most: it need not be tried
 constexpr int most_levels = 19;            ///< so that corners have 20 bits
 constexpr double half_diagonal = 0.86603;  ///< of a cube of edge 1, and a little more
 
@@ -118,8 +120,10 @@ cell_grid cells_at(const prepared_mesh& mesh, double distance, wanted_side side,
         now = near_level(std::move(now), mesh, distance, grid);
         if (side != wanted_side::any) drop_wrong_side(now, side);
         const auto count = static_cast<double>(now.cells.size());
-        if (count > (left > 0 ? 0.5 : 1.0) * most_cells)
-            refuse_step(step, std::ldexp(count, 2 * left));
+        const double expected = std::ldexp(count, 2 * left);
+        if ((count > sure_cells && expected > sure_share * most_cells) ||
+            count > (left > 0 ? 0.5 : 1.0) * most_cells)
+            refuse_step(step, expected);
         if (!progress.reach(0.3 * std::ldexp(1.0, -2 * left))) return {};
     }
     grid.cells = std::move(now.cells);
