@@ -13,6 +13,7 @@
 #include <support/solid_checks.hpp>
 #include <support/solids.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -20,6 +21,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -40,16 +42,21 @@ tf::mesh checked(const tf::offset_result& made) {
 
 /// Points of the faces are within the bounds that were measured.
 void check_bounds(const tf::offset_result& made, const tf::mesh& of) {
+    std::vector<tf::point3> places = made.mesh.points;
     for (const tf::face& f : made.mesh.faces) {
-        tf::point3 middle{};
+        tf::point3& middle = places.emplace_back();
         for (const std::uint32_t v : f)
             for (std::size_t k = 0; k < 3; ++k) middle[k] += made.mesh.points[v][k] / 3;
-        for (const tf::point3& p : {middle, made.mesh.points[f[0]]}) {
-            const double distance = tf::closest_point(of, p)->distance;
-            CHECK(distance >= made.statistics.least * (1 - 1e-12));
-            CHECK(distance <= made.statistics.greatest * (1 + 1e-12));
-        }
     }
+    double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+    for (const auto& near : tf::closest_point(of, places)) {
+        least = std::min(least, near->distance);
+        greatest = std::max(greatest, near->distance);
+    }
+    CHECK(least >= made.statistics.least * (1 - 1e-12));
+    CHECK(greatest <= made.statistics.greatest * (1 + 1e-12));
+    // Each bound is near to what is there.
+    CHECK(greatest >= made.statistics.greatest - 0.5 * made.statistics.resolution);
 }
 
 /// An n x n height map over the unit square.
