@@ -21,6 +21,7 @@
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/point_location.hpp>

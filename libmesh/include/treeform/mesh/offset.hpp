@@ -1,0 +1,111 @@
+#pragma once
+/// \file
+/// Surfaces at a distance: solids grown, shrunk and hollowed; open surfaces given a thickness.
+///
+///     tf::offset_result shell = tf::hollow(solid, 2.0);
+
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace treeform {
+
+struct offset_options {
+    /// Edge of the cells that the surface is made in, in the mesh's length unit: at most half of
+    /// the distance. Every point of space whose distance differs from the one asked for by more
+    /// than twice this is on the right side of the surface. Details that are smaller may be lost.
+    /// Where it is not given, half of the distance, and no more than a 128th of the diagonal.
+    std::optional<double> resolution{};
+    /// Precision of the coordinates returned. float32 values are stored as doubles.
+    treeform::precision precision = treeform::precision::float64;
+    progress_callback progress{};
+};
+
+/// What it took, and what was measured.
+struct offset_statistics {
+    double distance = 0.0;    ///< that was asked for, without its sign
+    double resolution = 0.0;  ///< that was used
+    /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh that
+    /// it is the offset of: all are in [least, greatest]. Found by branch and bound; each is within
+    /// a sixteenth of the resolution of what is there. 0 where there is no surface.
+    double least = 0.0;
+    double greatest = 0.0;
+    std::uint64_t cells = 0;  ///< that the surface may pass through
+};
+
+/// The mesh, and what was checked.
+struct TREEFORM_API offset_result {
+    treeform::mesh mesh;
+    /// Status ok says, checked on the coordinates above: a closed manifold, outward, no two faces
+    /// of which meet beyond common corners and edges. `open_input`: no solid was given, and `open`
+    /// says where. `vanished`: nothing is left, as the solid is nowhere that thick.
+    treeform::certificate certificate{};
+    offset_statistics statistics{};
+
+    /// The mesh.
+    /// \throws not_certified_error unless the certificate's status is ok
+    [[nodiscard]] const treeform::mesh& value() const&;
+    [[nodiscard]] treeform::mesh value() &&;
+};
+
+/// The solid grown by `distance`, or shrunk where it is negative: all points inside or no further
+/// from the surface than that; all points inside and no less far.
+///
+/// Outward, convex edges and corners become round; inward, they stay sharp in truth, but are cut
+/// off by no more than a cell, as are all sharp edges of the result. The mesh has to bound a solid,
+/// as an operand of `boolean`; where it meets itself, it is the solid that it winds around. What is
+/// inside is decided exactly; vertices are at the distance to a thousandth of a cell or so.
+///
+/// \throws std::invalid_argument as `boolean`; for a distance that is 0 or not finite; for a
+///         resolution that is not positive, more than half of the distance, finer than coordinates
+///         of the precision tell apart, or so fine that there would be more than 2^22 cells: the
+///         message names one that would do
+/// \cost   O(A log F) for A cells, some area / resolution^2 times 3; 600 bytes a cell
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API offset_result offset(const mesh_ref& mesh, double distance,
+                                                const offset_options& options = {});
+
+/// A hole through the wall of a hollow solid.
+struct drain {
+    point3 at{};            ///< the point of the surface that is nearest to this is drilled
+    double diameter = 0.0;  ///< a regular prism of 32 sides, whose corners are on this circle
+};
+
+/// The solid without what is further inside than `wall`: its surface stays bit for bit, around
+/// cavities. Each drain runs through the wall along the shortest way to a cavity. `statistics` are
+/// those of the cavities. `vanished` where there is none.
+///
+/// \throws std::invalid_argument as `offset`, for a wall that is not positive, and for a drain that
+///         is not finite or whose diameter is not positive
+/// \cost   as `offset` and `subtract`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API offset_result hollow(const mesh_ref& mesh, double wall,
+                                                std::span<const drain> drains = {},
+                                                const offset_options& options = {});
+
+/// Where a thickness goes; the front is where faces are counter-clockwise.
+enum class thick_side : std::uint8_t { both, front, back };
+
+/// A solid around a surface, which may be anything: all points no further from it than half of
+/// `thickness`. Its rim is round.
+///
+/// With `front` and `back` the surface is first moved to that side by half of the thickness, each
+/// vertex so that planes of faces around it move that far, on average: exact where it is flat,
+/// rounded where it bends. Sharp folds move by no more than twice that. `statistics` are of the
+/// surface as moved. Faces have to agree in their orientation.
+///
+/// \throws std::invalid_argument as `offset`, with half of the thickness as the distance; for a
+///         mesh without faces, or, of one side, naming a face that disagrees with its neighbor
+/// \cost   as `offset`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API offset_result thicken(const mesh_ref& mesh, double thickness,
+                                                 thick_side side = thick_side::both,
+                                                 const offset_options& options = {});
+
+}  // namespace treeform

@@ -1,0 +1,217 @@
+/// \file
+/// Solids grown, shrunk, hollowed, and surfaces made thick: certified, at their distance, on the right
+/// side, in volumes that are known.
+
+#include <treeform/mesh/cut.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/offset.hpp>
+#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/tf.hpp>
+
+#include <doctest/doctest.h>
+#include <support/solid_checks.hpp>
+#include <support/solids.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// What holds of every surface at a distance.
+tf::mesh checked(const tf::offset_result& made) {
+    REQUIRE(made.certificate);
+    CHECK(test::is_clean_solid(made.mesh));
+    const tf::offset_statistics& s = made.statistics;
+    CHECK(s.least <= s.distance * 1.0001);
+    CHECK(s.greatest >= s.distance * 0.9999);
+    CHECK(s.least >= s.distance - 2 * s.resolution);
+    CHECK(s.greatest <= s.distance + 2 * s.resolution);
+    return made.mesh;
+}
+
+/// Points of the faces are within the bounds that were measured.
+void check_bounds(const tf::offset_result& made, const tf::mesh& of) {
+    std::vector<tf::point3> places = made.mesh.points;
+    for (const tf::face& f : made.mesh.faces) {
+        tf::point3& middle = places.emplace_back();
+        for (const std::uint32_t v : f)
+            for (std::size_t k = 0; k < 3; ++k) middle[k] += made.mesh.points[v][k] / 3;
+    }
+    double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+    for (const auto& near : tf::closest_point(of, places)) {
+        least = std::min(least, near->distance);
+        greatest = std::max(greatest, near->distance);
+    }
+    CHECK(least >= made.statistics.least * (1 - 1e-12));
+    CHECK(greatest <= made.statistics.greatest * (1 + 1e-12));
+    // Each bound is near to what is there.
+    CHECK(greatest >= made.statistics.greatest - 0.5 * made.statistics.resolution);
+}
+
+/// An n x n height map over the unit square.
+tf::mesh height_map(std::uint32_t n, double height) {
+    tf::mesh mesh;
+    const double step = 1.0 / n;
+    for (std::uint32_t j = 0; j <= n; ++j)
+        for (std::uint32_t i = 0; i <= n; ++i)
+            mesh.points.push_back({i * step, j * step, height * std::sin(6.0 * i * step)});
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t a = j * (n + 1) + i, c = a + n + 1;
+            mesh.faces.push_back({a, a + 1, c + 1});
+            mesh.faces.push_back({a, c + 1, c});
+        }
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a cube grows by prisms, quarters of cylinders and a ball, and shrinks to a cube") {
+    const tf::mesh cube = test::box(1, 1, 1);
+    const double d = 0.2;
+    const auto grown = tf::offset(cube, d, {.resolution = 0.04});
+    checked(grown);
+    check_bounds(grown, cube);
+    CHECK(tf::signed_volume(grown.mesh) ==
+          doctest::Approx(1 + 6 * d + 3 * pi * d * d + 4 * pi * d * d * d / 3).epsilon(0.005));
+    const auto shrunk = tf::offset(cube, -d, {.resolution = 0.04});
+    checked(shrunk);
+    check_bounds(shrunk, cube);
+    CHECK(tf::signed_volume(shrunk.mesh) == doctest::Approx(0.216).epsilon(0.01));
+    CHECK(tf::contains(grown.mesh, {1.15, 0.5, 0.5}));
+    CHECK(!tf::contains(shrunk.mesh, {0.9, 0.5, 0.5}));
+}
+
+TEST_CASE("a finer resolution is nearer to the distance on a ball") {
+    const tf::mesh ball = test::ball(4, 1.0);
+    double before = 1.0;
+    for (const double resolution : {0.1, 0.05, 0.025}) {
+        const auto made = tf::offset(ball, 0.25, {.resolution = resolution});
+        checked(made);
+        const double error = made.statistics.greatest - made.statistics.least;
+        CHECK(error < before);
+        before = error;
+    }
+    CHECK(before < 0.01);
+}
+
+TEST_CASE(
+    "a solid inside out, one that overlaps itself and a cavity count as what they wind around") {
+    tf::mesh out = test::box(1, 1, 1);
+    for (tf::face& f : out.faces) std::swap(f[1], f[2]);
+    CHECK(tf::signed_volume(checked(tf::offset(out, 0.1))) > 1.0);
+    tf::mesh moved = test::box(1, 1, 1);
+    for (tf::point3& p : moved.points) p.x += 0.5;
+    const std::vector<tf::mesh> two{test::box(1, 1, 1), moved};
+    const tf::mesh within = checked(tf::offset(tf::concatenate(two), -0.2, {.resolution = 0.05}));
+    CHECK(tf::signed_volume(within) == doctest::Approx(1.1 * 0.6 * 0.6).epsilon(0.02));
+    const tf::mesh shell = checked(
+        tf::offset(tf::hollow(test::box(1, 1, 1), 0.2).value(), -0.05, {.resolution = 0.02}));
+    CHECK(tf::signed_volume(shell) ==
+          doctest::Approx(0.729 - (0.216 + 6 * 0.36 * 0.05 + 3 * 0.6 * pi * 0.0025)).epsilon(0.02));
+}
+
+TEST_CASE("a hollow cube keeps its surface, and drains lead into it") {
+    const tf::mesh cube = test::box(10, 10, 10);
+    const auto closed = tf::hollow(cube, 1, {}, {.resolution = 0.25});
+    REQUIRE(closed.certificate);
+    CHECK(test::is_clean_solid(closed.mesh));
+    CHECK(tf::signed_volume(closed.mesh) == doctest::Approx(1000 - 512).epsilon(0.01));
+    for (std::size_t v = 0; v < 8; ++v) CHECK(closed.mesh.points[v] == cube.points[v]);
+    const std::array<tf::drain, 2> drains{{{{5, 5, 10}, 2}, {{5, 5, -3}, 1}}};
+    const auto drained = tf::hollow(cube, 1, drains, {.resolution = 0.25});
+    REQUIRE(drained.certificate);
+    CHECK(test::is_clean_solid(drained.mesh));
+    CHECK(tf::count_topology(drained.mesh.points.size(), drained.mesh.faces).components_by_point ==
+          1);
+    CHECK(tf::signed_volume(drained.mesh) ==
+          doctest::Approx(tf::signed_volume(closed.mesh) - pi - pi / 4).epsilon(0.002));
+    CHECK(!tf::contains(drained.mesh, {5, 5, 0.5}));
+}
+
+TEST_CASE("what is nowhere so thick vanishes, and an open surface bounds no solid") {
+    const tf::mesh cube = test::box(1, 1, 1);
+    CHECK(tf::offset(cube, -0.6).certificate.status == tf::status::vanished);
+    CHECK(tf::hollow(cube, 0.6).certificate.status == tf::status::vanished);
+    tf::mesh open = cube;
+    open.faces.pop_back();
+    for (const double d : {0.1, -0.1})
+        CHECK(tf::offset(open, d).certificate.status == tf::status::open_input);
+    CHECK_THROWS_AS((void)tf::hollow(open, 0.1).value(), tf::not_certified_error);
+}
+
+TEST_CASE("a plate becomes a slab with a round rim, on either side or both") {
+    const tf::mesh plate = height_map(4, 0.0);
+    const double t = 0.1, r = t / 2;
+    const double volume = t + 4 * pi * r * r / 2 + 4 * pi * r * r * r / 3;
+    for (const auto& [side, middle] :
+         {std::pair{tf::thick_side::both, 0.0}, std::pair{tf::thick_side::front, r},
+          std::pair{tf::thick_side::back, -r}}) {
+        const auto made = tf::thicken(plate, t, side, {.resolution = 0.0125});
+        checked(made);
+        CHECK(tf::signed_volume(made.mesh) == doctest::Approx(volume).epsilon(0.01));
+        const tf::box3 box = *tf::bounding_box(made.mesh.points);
+        CHECK(box.max.z == doctest::Approx(middle + r).epsilon(0.01));
+        CHECK(box.min.z == doctest::Approx(middle - r).epsilon(0.01));
+    }
+}
+
+TEST_CASE("a height map, one face and a closed surface are made thick") {
+    const tf::mesh map = height_map(20, 0.2);
+    const auto made = tf::thicken(map, 0.05);
+    checked(made);
+    check_bounds(made, map);
+    checked(tf::thicken(tf::mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, 0.2));
+    const tf::mesh shell = checked(tf::thicken(test::box(1, 1, 1), 0.1, {}, {.resolution = 0.02}));
+    CHECK(tf::count_topology(shell.points.size(), shell.faces).components_by_point == 2);
+}
+
+TEST_CASE("float32 is certified in its coordinates, and the same twice") {
+    const tf::offset_options options{.resolution = 0.05, .precision = tf::precision::float32};
+    const auto made = tf::offset(test::ball(2, 1.0), 0.3, options);
+    checked(made);
+    for (const tf::point3& p : made.mesh.points)
+        CHECK(static_cast<double>(static_cast<float>(p.x)) == p.x);
+    CHECK(tf::offset(test::ball(2, 1.0), 0.3, options).mesh == made.mesh);
+}
+
+TEST_CASE("what makes no sense is refused, with what would do") {
+    const tf::mesh cube = test::box(1, 1, 1);
+    const double inf = std::numeric_limits<double>::infinity();
+    for (const double d : {0.0, inf, std::nan("")})
+        CHECK_THROWS_AS((void)tf::offset(cube, d), std::invalid_argument);
+    for (const double r : {0.0, -1.0, 0.06, 1e-13, inf})
+        CHECK_THROWS_AS((void)tf::offset(cube, 0.1, {.resolution = r}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::hollow(cube, -0.1), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::hollow(cube, 0.1, std::array{tf::drain{{0, 0, 0}, 0.0}}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::thicken(tf::mesh{}, 0.1), std::invalid_argument);
+    tf::mesh turned = height_map(1, 0.0);
+    std::swap(turned.faces[0][1], turned.faces[0][2]);
+    CHECK_THROWS_AS((void)tf::thicken(turned, 0.1, tf::thick_side::front), std::invalid_argument);
+    CHECK(tf::thicken(turned, 0.1).certificate);
+    try {
+        (void)tf::offset(cube, 0.1, {.resolution = 1e-5});
+        CHECK(false);
+    } catch (const std::invalid_argument& error) {
+        CHECK(std::string(error.what()).find("would do") != std::string::npos);
+    }
+}
+
+TEST_CASE("it stops when it is told to") {
+    const auto made =
+        tf::offset(test::ball(3, 1.0), 0.2, {.progress = [](double) { return false; }});
+    CHECK(made.certificate.status == tf::status::cancelled);
+    CHECK(made.mesh.faces.empty());
+}
