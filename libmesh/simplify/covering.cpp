@@ -86,15 +86,14 @@ covering cover(const triangle3& t, std::span<const triangle3> by, double distanc
         }
         if (*std::ranges::max_element(nearest) > distance * distance) return {};
         const point3 middle = middle_of(piece);
-        const triangle3& at = *std::ranges::min_element(by, {}, [&](const triangle3& b) {
-            return closest_point(b, middle).squared_distance;
-        });
+        const triangle3& at = *std::ranges::min_element(
+            by, {}, [&](const triangle3& b) { return closest_point(b, middle).squared_distance; });
         const point3 normal = base::cross(base::minus(at[1], at[0]), base::minus(at[2], at[0]));
         polygon inside = piece;
         bool is_cut = false;
         for (std::size_t i = 0; i < 3 && !inside.empty(); ++i) {
-            auto parts = halves_of(inside, at[i],
-                                   base::cross(base::minus(at[(i + 1) % 3], at[i]), normal));
+            auto parts =
+                halves_of(inside, at[i], base::cross(base::minus(at[(i + 1) % 3], at[i]), normal));
             is_cut = is_cut || (!parts[0].empty() && !parts[1].empty() && parts[0] != parts[1]);
             if (parts[0] == parts[1]) continue;
             if (!parts[1].empty()) left.push_back(std::move(parts[1]));

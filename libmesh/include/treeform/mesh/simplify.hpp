@@ -35,9 +35,9 @@ struct simplify_result {
     std::uint64_t refused_by_turning = 0;   ///< or turn a face about, or leave it no area
     std::uint64_t refused_by_distance = 0;
     std::uint64_t refused_by_contact = 0;  ///< or make faces meet
-    double there_at_most = 0.0;  ///< no point of the input is further from the result
-    double back_at_most = 0.0;   ///< and no point of the result from the input
-    bool cancelled = false;      ///< `progress` asked to stop: nothing else is set
+    double there_at_most = 0.0;            ///< no point of the input is further from the result
+    double back_at_most = 0.0;             ///< and no point of the result from the input
+    bool cancelled = false;                ///< `progress` asked to stop: nothing else is set
 };
 
 /// The mesh with fewer faces: edges are collapsed, those first that change the surface least.
