@@ -101,8 +101,8 @@ class simplifying {
             faces_.push_back(corners);
             source_.push_back(f);
         }
-        slack_ = proof_error * scale_;
-        limit_ = std::max(0.0, distance - slack_);
+        slack_ = proof_error * (scale_ + distance);
+        limit_ = distance - slack_;
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
             given_.push_back(base::triangle_of(points_, faces_[f]));
             near_given_.push_back({f});
@@ -244,7 +244,7 @@ class simplifying {
     }
 
     void line_up(std::uint32_t p, std::uint32_t q) {
-        if (locked_[p] != 0 && locked_[q] != 0) return;
+        if (limit_ <= 0.0 || (locked_[p] != 0 && locked_[q] != 0)) return;
         const point3 way = base::minus(points_[p], points_[q]);
         const double short_first = 1e-9 * base::dot(way, way) * base::dot(way, way);
         next_.push({places(p, q).front().first + short_first, std::min(p, q), std::max(p, q),
