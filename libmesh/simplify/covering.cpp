@@ -57,11 +57,23 @@ constexpr int most_pieces = 96;  ///< a triangle that needs more is not proven
     return halves_of(piece, base::scaled(base::plus(p, q), 0.5), base::minus(q, p));
 }
 
+/// Whether a triangle may be within the distance of a piece: their boxes are, along each axis.
+[[nodiscard]] bool may_be_near(const triangle3& t, const polygon& piece, double distance) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double low = piece[0][axis], high = low;
+        for (const point3& p : piece) low = std::min(low, p[axis]), high = std::max(high, p[axis]);
+        const auto [least, most] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
+        if (least - high > distance || low - most > distance) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 covering cover(const triangle3& t, std::span<const triangle3> by, double distance) {
     covering result;
     std::vector<polygon> left{{t[0], t[1], t[2]}};
+    std::vector<std::size_t> near;
     double worst = 0.0;
     for (int pieces = 0; !left.empty(); ++pieces) {
         if (pieces >= most_pieces) return {};
@@ -70,7 +82,10 @@ covering cover(const triangle3& t, std::span<const triangle3> by, double distanc
         std::vector<double> nearest(piece.size(), std::numeric_limits<double>::infinity());
         double best = nearest[0];
         std::size_t whole = 0;
+        near.clear();
         for (std::size_t i = 0; i < by.size(); ++i) {
+            if (!may_be_near(by[i], piece, distance)) continue;
+            near.push_back(i);
             double furthest = 0.0;
             for (std::size_t k = 0; k < piece.size(); ++k) {
                 const double d = closest_point(by[i], piece[k]).squared_distance;
@@ -86,8 +101,9 @@ covering cover(const triangle3& t, std::span<const triangle3> by, double distanc
         }
         if (*std::ranges::max_element(nearest) > distance * distance) return {};
         const point3 middle = middle_of(piece);
-        const triangle3& at = *std::ranges::min_element(
-            by, {}, [&](const triangle3& b) { return closest_point(b, middle).squared_distance; });
+        const triangle3& at = by[*std::ranges::min_element(near, {}, [&](std::size_t i) {
+            return closest_point(by[i], middle).squared_distance;
+        })];
         const point3 normal = base::cross(base::minus(at[1], at[0]), base::minus(at[2], at[0]));
         polygon inside = piece;
         bool is_cut = false;
