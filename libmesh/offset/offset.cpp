@@ -69,7 +69,7 @@ mesh used_part(mesh_view given) {
 
 double resolution_for(mesh_view mesh, double distance, const offset_options& options) {
     const box3 box = *bounding_box(mesh.points);
-    const double size = diagonal(box);
+    const double size = box.diagonal();
     if (!(size + distance < 0x1p150)) refuse("lengths of 2^150 and more are not taken");
     const double step =
         options.resolution.value_or(std::min(most_share * distance, size / usual_cells));
@@ -98,7 +98,7 @@ void certify(offset_result& result, progress_callback progress) {
     known.boundary_edges = found.open_edges;
     known.misoriented_edges = found.misoriented_edges;
     if (found.any()) known.status = status::not_certified;
-    if (found.cancelled) known.status = status::cancelled;
+    if (found.status == status::cancelled) known.status = status::cancelled;
 }
 
 /// What is at the distance on the side. `outward`: what is nearer is behind it.

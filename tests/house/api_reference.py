@@ -20,7 +20,8 @@ GROUPS = {
     "meeting": ("Which faces meet?", "mesh",
                 "self_intersections intersections curves triangle predicates"),
     "solids": ("How do I make, mend and combine solids?", "mesh",
-               "boolean boolean_expression solid section cut offset repair wrap certificate rounding"),
+               "boolean boolean_expression solid section cut offset simplify repair wrap certificate "
+               "rounding"),
     "welding": ("How do I merge points?", "mesh", "weld weld_options weld_stream"),
     "asking": ("What is inside, nearest, or hit by a ray?", "mesh",
                "point_location distance raycast measure deviation"),

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 HEADER_LINES = 250    # of a public header
-PUBLIC_HEADERS = 67
+PUBLIC_HEADERS = 68
 FILE_LINES = 500
 FUNCTION_LINES = 60   # from the opening brace to the closing one
 MEMBERS = 15          # data members of a class
@@ -28,7 +28,7 @@ MORE_MEMBERS = {
 
 # Rooms of libmesh, top down; an include points down this list, and not across a line of it.
 FLOORS = [
-    ["stream", "carry", "wrap", "offset"],
+    ["stream", "carry", "wrap", "offset", "simplify"],
     ["assembly"],
     ["repair", "cut"],
     ["boolean"],

@@ -36,6 +36,7 @@
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/simplify.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/solid.hpp>
 #include <treeform/mesh/time_of_impact.hpp>

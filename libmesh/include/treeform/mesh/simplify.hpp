@@ -1,0 +1,74 @@
+#pragma once
+/// \file
+/// Fewer faces for a surface, within a distance that is proven both ways.
+///
+///     tf::simplify_result fewer = tf::simplify(scan, 0.05);
+
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/parallel.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace treeform {
+
+struct simplify_options {
+    /// Precision of points that are new. float32 values are stored as doubles.
+    treeform::precision precision = treeform::precision::float64;
+    std::size_t target_faces = 0;  ///< stop at so many faces
+    /// Edges whose faces turn by more degrees stay as they are; 180: none.
+    double feature_angle = 180.0;
+    /// [F] or empty: edges between faces of different groups stay as they are.
+    std::span<const std::uint32_t> face_groups{};
+    progress_callback progress{};
+};
+
+struct simplify_result {
+    treeform::mesh mesh;
+    std::vector<std::uint32_t> face_source;  ///< [F] the face of the input that each was
+    std::uint64_t collapses = 0;
+    std::uint64_t refused_by_topology = 0;  ///< edges tried whose collapse would change it
+    std::uint64_t refused_by_turning = 0;   ///< or turn a face about, or leave it no area
+    std::uint64_t refused_by_distance = 0;
+    std::uint64_t refused_by_contact = 0;  ///< or make faces meet
+    double there_at_most = 0.0;            ///< no point of the input is further from the result
+    double back_at_most = 0.0;             ///< and no point of the result from the input
+    /// Status ok: the result was looked at, and of what `find_solid_defects` counts nothing is more
+    /// than it was. So a solid is one still. Else `not_certified`, or `cancelled`.
+    treeform::certificate certificate{};
+
+    /// The mesh.
+    /// \throws not_certified_error unless the certificate's status is ok
+    [[nodiscard]] const treeform::mesh& value() const {
+        if (!certificate) throw not_certified_error(certificate);
+        return mesh;
+    }
+};
+
+/// The mesh with fewer faces: edges are collapsed, those first that change the surface least.
+///
+/// Both surfaces are within `max_distance` of each other: each face is proven so, none is sampled.
+/// No two faces are made to meet, exactly, on the coordinates returned; where faces of the input
+/// meet, they are left to do so. A distance below what doubles can prove, some 2^-47 of the largest
+/// coordinate, collapses nothing. Borders, edges of one face or more than two or of faces that do not
+/// run both ways, edges of features and groups, and vertices whose faces are no fan stay as they are.
+/// A closed, oriented manifold stays one. What lies inside of what is looked at in the end alone: the
+/// certificate says if that has changed.
+///
+/// Corners with equal coordinates are one vertex; faces with two equal corners go.
+///
+/// \throws std::invalid_argument for a distance that is negative or not finite, another number of
+///         groups than of faces, or a face with a corner that is out of range or not finite
+/// \cost   about a millisecond a collapse: O(n log n) for n collapses, with lists of the faces that
+///         each new one is near; and `find_solid_defects` before and after
+/// \same   on any number of threads
+/// \source Garland and Heckbert, Surface Simplification Using Quadric Error Metrics, SIGGRAPH 1997
+[[nodiscard]] TREEFORM_API simplify_result simplify(const mesh_ref& mesh, double max_distance,
+                                                    const simplify_options& options = {});
+
+}  // namespace treeform
