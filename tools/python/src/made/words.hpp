@@ -11,6 +11,7 @@
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -150,6 +151,10 @@ struct words_of<tf::status> {
     static constexpr words<10> all{"ok",           "open_input",    "sheet",    "excessive_loss",
                                    "not_manifold", "not_certified", "vanished", "out_of_range",
                                    "no_place",     "cancelled"};
+};
+template <>
+struct words_of<tf::thick_side> {
+    static constexpr words<3> all{"both", "front", "back"};
 };
 template <>
 struct words_of<tf::thickness_by> {
