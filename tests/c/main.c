@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
     test_meshes();
     test_properties();
     test_cuts();
+    test_shapes();
     test_files();
     test_attributes();
     test_intersections();

@@ -30,6 +30,7 @@ void test_base(void);
 void test_meshes(void);
 void test_properties(void);
 void test_cuts(void);
+void test_shapes(void);
 void test_files(void);
 void test_attributes(void);
 void test_intersections(void);

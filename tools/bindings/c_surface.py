@@ -33,6 +33,8 @@ ENUMS = {
                                          "out_of_iterations": "ALIGN_OUT_OF_ITERATIONS",
                                          "doubtful": "ALIGN_DOUBTFUL",
                                          "nothing_to_align": "ALIGN_NOTHING"}),
+    "thick_side": ("treeform_thick_side", "THICK_"),
+    "thickness_by": ("treeform_thickness_by", "THICKNESS_BY_"),
     "weld_rule": ("treeform_weld_rule", "WELD_"),
     "weld_keep": ("treeform_weld_keep", "KEEP_"),
     "weld_order": ("treeform_weld_order", "ORDER_"),
@@ -116,6 +118,19 @@ BOUND = [
     Bound("cut_piece", kind="part"),
     Bound("cut_result", counts={"pieces": "count"}),
     Bound("mesh_part", kind="part"),
+    # shapes.h
+    Bound("drain", kind="same"),
+    Bound("offset_options"),
+    Bound("offset_result"),
+    Bound("simplify_options"),
+    Bound("simplify_result"),
+    Bound("thickness_options"),
+    Bound("thickness_result"),
+    Bound("oriented_box", custom={"axes": [Member(
+        "double axes[3][3]", "of length 1, right-handed, rounded: along the longest side, the next, "
+        "the shortest", "std::memcpy(to.axes, from.axes.data(), sizeof to.axes);")]}),
+    Bound("isoline", kind="same"),
+    Bound("isolines_result"),
     # nearness.h
     Bound("mesh_hit", "hit", "same"),
     Bound("measure_options"),
@@ -400,6 +415,17 @@ CALLS = {
     "treeform_components": "tf::components($mesh, {.min_volume = min_volume, "
                            ".largest = largest != 0 ? largest : SIZE_MAX})",
     "treeform_transform_mesh": "tf::transform_mesh($mesh, $matrix)",
+    # shapes.h
+    "treeform_offset": "tf::offset($mesh, distance, $options)",
+    "treeform_hollow":
+        "tf::hollow($mesh, wall, glue::same_as<tf::drain>($drains), $options)",
+    "treeform_thicken": "tf::thicken($mesh, thickness, $side, $options)",
+    "treeform_simplify": "tf::simplify($mesh, max_distance, $options)",
+    "treeform_wall_thickness": "tf::wall_thickness($mesh, $options)",
+    "treeform_find_oriented_box": "tf::find_oriented_box(glue::view(mesh).points)",
+    "treeform_isolines": "tf::isolines($mesh, glue::array(values, glue::view(mesh).points.size(), \"values\"), $levels, {$progress})",
+    "treeform_cut_along":
+        "tf::cut_along($mesh, glue::array(values, glue::view(mesh).points.size(), \"values\"), $levels, $options)",
     # nearness.h
     "treeform_distance": "tf::distance($a, $b, tf::distance_options{$move_a, $move_b})",
     "treeform_measure": "tf::measure($a, $b, $options)",

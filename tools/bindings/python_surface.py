@@ -52,6 +52,19 @@ RESULTS = [
                "attributes.",
            docs={"mesh": "The part."}),
     Result("mass_properties", "MassProperties", "_cuts"),
+    # _shapes
+    Result("offset_result", "OffsetResult", "_shapes", "MadeMesh",
+           doc="A solid at a distance from a mesh, around it or hollow.",
+           inherited="mesh certificate", docs={"statistics": "What it took, and was measured."}),
+    Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh",
+           doc="A mesh with fewer faces.", inherited="mesh certificate"),
+    Result("thickness_result", "Thickness", "_shapes"),
+    Result("oriented_box", "OrientedBox", "_shapes", custom={"axes": [Attribute(
+        "axes", "Floats", "(3, 3) of length 1, right-handed: along the longest side, the next, the "
+        "shortest.",
+        "as_array<double>(std::vector<tf::point3>(from.axes.begin(), from.axes.end()))")]}),
+    Result("isoline", "Isoline", "_shapes"),
+    Result("isolines_result", "Isolines", "_shapes"),
     # _repair
     Result("resolve_result", "ResolveResult", "_repair", "MadeMesh", context="attributes",
            doc="A mesh without self-intersections.", inherited="mesh certificate",
@@ -305,13 +318,14 @@ RESULTS = [
 
 #: Counters as dictionaries, and what is not among them.
 COUNTERS = {"boolean_statistics": "", "resolve_statistics": "", "repair_statistics": "",
-            "wrap_statistics": "", "weld_statistics": "",
+            "wrap_statistics": "", "offset_statistics": "", "weld_statistics": "",
             "weld_stream_counts": "kept groups max_displacement faces"}
 
 #: Options by name: structs, and the fields that Python gives in another way, or not at all.
 OPTIONS = {
     "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
+    "offset_options": "", "simplify_options": "face_groups", "thickness_options": "",
     "feature_options": "", "self_intersection_options": "component_of_face between within",
     "mesh_intersection_options": "", "stream_search_options": "box team",
     "weld_options": "label may_merge search", "weld_stream_options": "team shared las_scale las_offset",
@@ -339,6 +353,24 @@ FUNCTIONS = [
              "tf::transform_mesh({mesh.view().points, {}}, $matrix).points"),
     Function("mass_properties(mesh: Mesh) -> Optional[MassProperties]",
              "tf::find_mass_properties(mesh.view())"),
+    # _shapes
+    Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
+             "tf::offset($mesh, distance, options)", kind="long_work"),
+    Function("hollow(mesh: Mesh, wall: float, drains: Numbers, options: offset_options) "
+             "-> OffsetResult",
+             "tf::hollow($mesh, wall, rows_of<tf::drain>(drains), options)", kind="long_work"),
+    Function("thicken(mesh: Mesh, thickness: float, side: thick_side, options: offset_options) "
+             "-> OffsetResult",
+             "tf::thicken($mesh, thickness, $side, options)", kind="long_work"),
+    Function("simplify(mesh: Mesh, max_distance: float, options: simplify_options) "
+             "-> SimplifyResult",
+             "tf::simplify($mesh, max_distance, options)", kind="long_work"),
+    Function("wall_thickness(mesh: Mesh, options: thickness_options) -> Thickness",
+             "tf::wall_thickness($mesh, options)"),
+    Function("oriented_box(points: Points) -> Optional[OrientedBox]",
+             "tf::find_oriented_box($points)"),
+    Function("isolines(mesh: Mesh, values: Numbers, levels: Numbers) -> Isolines",
+             "tf::isolines($mesh, $values, $levels, {report})"),
     # _repair
     Function("resolve(mesh: Mesh, mode: resolve_mode, options: resolve_options) -> ResolveResult",
              "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh"),

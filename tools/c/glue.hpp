@@ -176,6 +176,10 @@ template <class T>
 [[nodiscard]] tf::oriented_plane plane(const treeform_plane* plane);
 /// Without any, the plane itself.
 [[nodiscard]] std::vector<double> heights(const double* heights, std::size_t count);
+template <class T, class C>  // of the same bytes
+[[nodiscard]] std::span<const T> same_as(std::span<const C> all) {
+    return {reinterpret_cast<const T*>(all.data()), all.size()};
+}
 /// Pairs of faces of a mesh, all of them there.
 [[nodiscard]] std::vector<tf::face_pair> pairs_of(std::size_t face_count,
                                                   const treeform_face_pair* pairs,

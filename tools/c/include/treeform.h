@@ -14,6 +14,7 @@
 #include <treeform/c/nearness.h>
 #include <treeform/c/placement.h>
 #include <treeform/c/properties.h>
+#include <treeform/c/shapes.h>
 #include <treeform/c/solids.h>
 #include <treeform/c/streams.h>
 #include <treeform/c/trees.h>

@@ -17,6 +17,7 @@
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -26,6 +27,7 @@
 #include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/simplify.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -84,6 +86,17 @@ void fill(keeper& kept, const tf::section_result& from, treeform_section_result&
 void fill(keeper& kept, const tf::cut_piece& from, treeform_cut_piece& to);
 void fill(keeper& kept, const tf::cut_result& from, treeform_cut_result& to);
 void fill(keeper& kept, const tf::mesh_part& from, treeform_mesh_part& to);
+[[nodiscard]] tf::offset_options read(const treeform_offset_options* options);
+[[nodiscard]] tf::offset_options read(const treeform_offset_options& o);
+void fill(keeper& kept, const tf::offset_result& from, treeform_offset_result& to);
+[[nodiscard]] tf::simplify_options read(const treeform_simplify_options* options);
+[[nodiscard]] tf::simplify_options read(const treeform_simplify_options& o);
+void fill(keeper& kept, const tf::simplify_result& from, treeform_simplify_result& to);
+[[nodiscard]] tf::thickness_options read(const treeform_thickness_options* options);
+[[nodiscard]] tf::thickness_options read(const treeform_thickness_options& o);
+void fill(keeper& kept, const tf::thickness_result& from, treeform_thickness_result& to);
+void fill(keeper& kept, const tf::oriented_box& from, treeform_oriented_box& to);
+void fill(keeper& kept, const tf::isolines_result& from, treeform_isolines_result& to);
 [[nodiscard]] tf::measure_options read(const treeform_measure_options* options);
 [[nodiscard]] tf::measure_options read(const treeform_measure_options& o);
 void fill(keeper& kept, const tf::mesh_measure& from, treeform_relation& to);

@@ -96,6 +96,14 @@ py::tuple cut_to_fit(const held_mesh& mesh, const std::array<double, 3>& size,
     });
 }
 
+py::tuple cut_along(const held_mesh& mesh, const array_of<double>& values,
+                    const array_of<double>& levels, const tf::cut_options& options) {
+    const std::span<const double> at = rows_of<double>(values), all = rows_of<double>(levels);
+    return pieces_of(mesh, options, [&](const tf::cut_options& how) {
+        return tf::cut_along(mesh.ref(), at, all, how);
+    });
+}
+
 /// Points, faces, and the attributes of those that have some.
 py::tuple concatenate(const held_meshes& meshes) {
     const carrying attributes(meshes);
@@ -118,6 +126,7 @@ void add_cuts(py::module_& module) {
     module.def("write_section", &write_section);
     module.def("cut", &cut);
     module.def("cut_to_fit", &cut_to_fit);
+    module.def("cut_along", &cut_along);
     module.def("concatenate", &concatenate);
 }
 

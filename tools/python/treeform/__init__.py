@@ -19,8 +19,8 @@ from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, i
                         symmetric_difference, union)
 from ._core import Certificate
 from ._cuts import (CutPiece, MassProperties, MeshPart, Section, SectionLoop, components,
-                    concatenate, cut, cut_to_fit, layer_heights, mass_properties, section,
-                    submesh, transformed)
+                    concatenate, cut, cut_along, cut_to_fit, layer_heights, mass_properties,
+                    section, submesh, transformed)
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
                       NotSolidError)
 from ._files import Written, read, write
@@ -43,6 +43,8 @@ from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, WrapRes
                       find_rounding_defects, join_equal_points, repair,
                       resolve_self_intersections, rounded, wrap)
 from ._robots import Joint, Robot, read_urdf
+from ._shapes import (Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness,
+                      hollow, isolines, offset, oriented_box, simplify, thicken, wall_thickness)
 from ._show import Picture, View, plot, show
 from ._threads import thread_count, threads
 from ._trees import BoxTree, Neighbors, PointTree
@@ -54,24 +56,27 @@ __version__: str = _core.version()
 __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
            "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
            "ConvexHull", "CutPiece", "Depth", "Deviation", "Error", "FacePairs", "Feature",
-           "FileError", "FilePairs", "Impact", "Joint", "KINDS", "LaidFlat", "MadeMesh",
-           "MassProperties", "Measure", "Mesh", "MeshDefects", "MeshLike", "MeshPart", "NONE",
-           "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError", "PackedPart",
-           "Packing", "PartClash", "Picture", "Placement", "PointTree", "PoseClashes", "RayHits",
-           "Region", "RepairResult", "ResolveResult", "Robot", "STANDINGS", "SearchEffort",
-           "Section", "SectionLoop", "SolidDefects", "StreamSearch", "StreamWeld", "Topology",
-           "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "align", "boolean",
-           "check_poses", "check_solid", "clash", "clip", "closest_point", "closest_points",
-           "components", "concatenate", "contains", "convex_hull", "count_inside_out",
-           "count_nearly_equal", "count_topology", "cut", "cut_to_fit", "deviation", "difference",
-           "distance", "drop", "face_components", "faces_in_box", "find_defects", "find_features",
-           "find_rounding_defects", "find_solid_defects", "from_meshio", "from_open3d",
-           "from_pyvista", "from_trimesh", "from_vtk", "intersection", "intersection_curves",
-           "intersection_regions", "intersects", "join_equal_points", "lay_flat", "layer_heights",
-           "locate", "mass_properties", "mate", "mate_features", "measure", "mesh_intersections",
-           "pack", "penetration_depth", "plot", "raycast", "raycast_all", "raycast_any", "read",
-           "read_urdf", "repair", "resolve_self_intersections", "rounded", "section",
-           "self_intersections", "self_intersections_of_file", "separate", "show",
-           "signed_distance", "slide", "split", "submesh", "symmetric_difference", "thread_count",
-           "threads", "time_of_impact", "transformed", "turn", "union", "weld", "weld_stream",
-           "winding_number", "wrap", "write", "__version__"]
+           "FileError", "FilePairs", "Impact", "Isoline", "Isolines", "Joint", "KINDS",
+           "LaidFlat", "MadeMesh", "MassProperties", "Measure", "Mesh", "MeshDefects", "MeshLike",
+           "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
+           "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash", "Picture",
+           "Placement", "PointTree", "PoseClashes", "RayHits", "Region", "RepairResult",
+           "ResolveResult", "Robot", "STANDINGS", "SearchEffort", "Section", "SectionLoop",
+           "SimplifyResult", "SolidDefects", "StreamSearch", "StreamWeld", "Thickness",
+           "Topology", "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "align",
+           "boolean", "check_poses", "check_solid", "clash", "clip", "closest_point",
+           "closest_points", "components", "concatenate", "contains", "convex_hull",
+           "count_inside_out", "count_nearly_equal", "count_topology", "cut", "cut_along",
+           "cut_to_fit", "deviation", "difference", "distance", "drop", "face_components",
+           "faces_in_box", "find_defects", "find_features", "find_rounding_defects",
+           "find_solid_defects", "from_meshio", "from_open3d", "from_pyvista", "from_trimesh",
+           "from_vtk", "hollow", "intersection", "intersection_curves", "intersection_regions",
+           "intersects", "isolines", "join_equal_points", "lay_flat", "layer_heights", "locate",
+           "mass_properties", "mate", "mate_features", "measure", "mesh_intersections", "offset",
+           "oriented_box", "pack", "penetration_depth", "plot", "raycast", "raycast_all",
+           "raycast_any", "read", "read_urdf", "repair", "resolve_self_intersections", "rounded",
+           "section", "self_intersections", "self_intersections_of_file", "separate", "show",
+           "signed_distance", "simplify", "slide", "split", "submesh", "symmetric_difference",
+           "thicken", "thread_count", "threads", "time_of_impact", "transformed", "turn", "union",
+           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write",
+           "__version__"]

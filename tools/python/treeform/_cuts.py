@@ -19,7 +19,7 @@ from ._repair import MadeMesh
 from ._results import Result
 
 __all__ = ["CutPiece", "MassProperties", "MeshPart", "Section", "SectionLoop", "components",
-           "concatenate", "cut", "cut_to_fit", "layer_heights", "mass_properties", "section",
+           "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights", "mass_properties", "section",
            "submesh", "transformed"]
 
 
@@ -222,6 +222,28 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, caps: bool = True, precision:
     how = options(_core.CutOptions, locals())
     return _checked(_core.cut_to_fit(held(mesh), _arrays.vector(size, "size"), how,
                                      progress=progress), check)
+
+
+def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bool = True,
+              progress: Progress = None) -> list[CutPiece]:
+    """A mesh cut along its isolines: pieces with values below, between and from the levels on, from
+    the lowest up, open where they were cut. Levels that repeat count once.
+
+    values: (V,) of the vertices, linear in each face. levels: (K,).
+
+    Raises NotCertifiedError where faces meet in the pieces, as those of the mesh do or rounding
+    makes them.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> low, high = treeform.cut_along(cube, cube.vertices[:, 2], [0.25])
+    >>> round(low.mesh.area, 12), round(high.mesh.area, 12)
+    (2.0, 4.0)
+    """
+    how = _core.CutOptions()
+    return _checked(_core.cut_along(held(mesh), _arrays.floats(values, "values"),
+                                    np.atleast_1d(_arrays.floats(levels, "levels")), how,
+                                    progress=progress), check)
 
 
 # made of results:

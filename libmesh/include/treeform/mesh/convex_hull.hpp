@@ -73,7 +73,7 @@ struct convex_hull_result {
 
 /// A box turned in any way.
 struct oriented_box {
-    point3 center{};
+    point3 center{};  ///< of the box
     /// Of length 1, right-handed, rounded: along the longest side, the next, the shortest.
     std::array<point3, 3> axes{point3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     point3 size{};  ///< along these

@@ -172,16 +172,18 @@ enum class thickness_by : std::uint8_t {
     sphere  ///< the diameter of the largest ball within that touches its center
 };
 
+/// How to measure thickness.
 struct thickness_options {
     thickness_by by = thickness_by::ray;
     progress_callback progress{};
 };
 
+/// The thickness at each face, and the least.
 struct thickness_result {
     /// [F] Infinite where nothing is behind a face, or it has no area.
     std::vector<double> of_face{};
-    double least = std::numeric_limits<double>::infinity();
-    std::uint32_t thinnest = 0;                      ///< the lowest face with that
+    double least = std::numeric_limits<double>::infinity();  ///< of all faces
+    std::uint32_t thinnest = 0;                              ///< the lowest face with that
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
 };
 

@@ -16,6 +16,7 @@
 
 namespace treeform {
 
+/// How to make a surface at a distance.
 struct offset_options {
     /// Edge of the cells that the surface is made in, in the mesh's length unit: at most half of
     /// the distance. Every point of space whose distance differs from the one asked for by more

@@ -127,17 +127,17 @@ struct section_options {
 
 /// A line on a mesh along which a value has a level.
 struct isoline {
-    double level = 0.0;
+    double level = 0.0;           ///< of the value, along it
     std::size_t first_point = 0;  ///< its points follow one another; the first is not repeated
-    std::size_t point_count = 0;
-    bool closed = true;    ///< otherwise it ends where the mesh does
+    std::size_t point_count = 0;  ///< of its points
+    bool closed = true;           ///< otherwise it ends where the mesh does
     bool oriented = true;  ///< the faces along it agree: seen from outside, higher is to its left
-    double length = 0.0;
+    double length = 0.0;   ///< of its sides
 };
 
 /// Lines of all levels, in the order of the levels as given.
 struct isolines_result {
-    std::vector<isoline> lines{};
+    std::vector<isoline> lines{};  ///< one after the other
     std::vector<point3> points{};  ///< on edges of the mesh, rounded
     std::vector<std::uint32_t>
         faces{};  ///< [points] the face that the side from each point on lies in

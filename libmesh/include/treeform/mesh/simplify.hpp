@@ -17,6 +17,7 @@
 
 namespace treeform {
 
+/// How to leave faces out.
 struct simplify_options {
     /// Precision of points that are new. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
@@ -28,16 +29,17 @@ struct simplify_options {
     progress_callback progress{};
 };
 
+/// The mesh with fewer faces, and what was proven and checked.
 struct simplify_result {
     treeform::mesh mesh;
     std::vector<std::uint32_t> face_source;  ///< [F] the face of the input that each was
-    std::uint64_t collapses = 0;
-    std::uint64_t refused_by_topology = 0;  ///< edges tried whose collapse would change it
-    std::uint64_t refused_by_turning = 0;   ///< or turn a face about, or leave it no area
-    std::uint64_t refused_by_distance = 0;
-    std::uint64_t refused_by_contact = 0;  ///< or make faces meet
-    double there_at_most = 0.0;            ///< no point of the input is further from the result
-    double back_at_most = 0.0;             ///< and no point of the result from the input
+    std::uint64_t collapses = 0;             ///< edges that became a vertex
+    std::uint64_t refused_by_topology = 0;   ///< edges tried whose collapse would change it
+    std::uint64_t refused_by_turning = 0;    ///< edges whose collapse would turn a face about
+    std::uint64_t refused_by_distance = 0;   ///< edges whose collapse was not proven near
+    std::uint64_t refused_by_contact = 0;    ///< edges whose collapse would make faces meet
+    double there_at_most = 0.0;              ///< no point of the input is further from the result
+    double back_at_most = 0.0;               ///< no point of the result is further from the input
     /// Status ok: the result was looked at, and of what `find_solid_defects` counts nothing is more
     /// than it was. So a solid is one still. Else `not_certified`, or `cancelled`.
     treeform::certificate certificate{};

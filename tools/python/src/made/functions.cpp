@@ -50,6 +50,57 @@ py::object mass_properties(const held_mesh& mesh) {
         run([&](const tf::progress_callback&) { return tf::find_mass_properties(mesh.view()); }));
 }
 
+py::object offset(const held_mesh& mesh, double distance, tf::offset_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::offset(mesh.ref(), distance, options);
+    }));
+}
+
+py::object hollow(const held_mesh& mesh, double wall, const array_of<double>& drains,
+                  tf::offset_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::hollow(mesh.ref(), wall, rows_of<tf::drain>(drains), options);
+    }));
+}
+
+py::object thicken(const held_mesh& mesh, double thickness, const std::string& side,
+                   tf::offset_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::thicken(mesh.ref(), thickness,
+                           choice<tf::thick_side>("side", words_of<tf::thick_side>::all, side),
+                           options);
+    }));
+}
+
+py::object simplify(const held_mesh& mesh, double max_distance, tf::simplify_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::simplify(mesh.ref(), max_distance, options);
+    }));
+}
+
+py::object wall_thickness(const held_mesh& mesh, tf::thickness_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return tf::wall_thickness(mesh.ref(), options);
+    }));
+}
+
+py::object oriented_box(const points_array& points) {
+    return as_python(run(
+        [&](const tf::progress_callback&) { return tf::find_oriented_box(points_of(points)); }));
+}
+
+py::object isolines(const held_mesh& mesh, const array_of<double>& values,
+                    const array_of<double>& levels) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        return tf::isolines(mesh.ref(), rows_of<double>(values), rows_of<double>(levels), {report});
+    }));
+}
+
 py::object resolve(const held_mesh& mesh, const std::string& mode, tf::resolve_options options) {
     const carrying attributes({&mesh});
     options.keep_cuts = options.keep_cuts || attributes.mixes();
@@ -273,6 +324,13 @@ void add_functions(py::module_& module) {
     add_job(module, "submesh", &submesh);
     add_job(module, "moved_points", &moved_points);
     add_job(module, "mass_properties", &mass_properties);
+    add_job(module, "offset", &offset, job_kind::long_work);
+    add_job(module, "hollow", &hollow, job_kind::long_work);
+    add_job(module, "thicken", &thicken, job_kind::long_work);
+    add_job(module, "simplify", &simplify, job_kind::long_work);
+    add_job(module, "wall_thickness", &wall_thickness);
+    add_job(module, "oriented_box", &oriented_box);
+    add_job(module, "isolines", &isolines);
     add_job(module, "resolve", &resolve);
     add_job(module, "repair", &repair);
     add_job(module, "wrap", &wrap, job_kind::long_work);

@@ -14,11 +14,14 @@
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/simplify.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -33,6 +36,12 @@ py::object object(of_result, tf::boolean_result&& from, const carrying& attribut
 py::object object(of_result, tf::cut_piece&& from, const carrying& attributes);
 py::object object(of_result, tf::mesh_part&& from, const carrying& attributes);
 py::object object(of_result, tf::mass_properties&& from);
+py::object object(of_result, tf::offset_result&& from);
+py::object object(of_result, tf::simplify_result&& from);
+py::object object(of_result, tf::thickness_result&& from);
+py::object object(of_result, tf::oriented_box&& from);
+py::object object(of_result, tf::isoline&& from);
+py::object object(of_result, tf::isolines_result&& from);
 py::object object(of_result, tf::resolve_result&& from, const carrying& attributes);
 py::object object(of_result, tf::repair_result&& from, const carrying& attributes);
 py::object object(of_result, tf::wrap_result&& from);
@@ -67,6 +76,7 @@ py::dict counters(const tf::boolean_statistics& from);
 py::dict counters(const tf::resolve_statistics& from);
 py::dict counters(const tf::repair_statistics& from);
 py::dict counters(const tf::wrap_statistics& from);
+py::dict counters(const tf::offset_statistics& from);
 py::dict counters(const tf::weld_statistics& from);
 py::dict counters(const tf::weld_stream_counts& from);
 

@@ -63,6 +63,24 @@ void each_field(tf::wrap_options& how, const Visit& visit) {
 }
 
 template <class Visit>
+void each_field(tf::offset_options& how, const Visit& visit) {
+    visit("resolution", how.resolution);
+    visit("precision", how.precision);
+}
+
+template <class Visit>
+void each_field(tf::simplify_options& how, const Visit& visit) {
+    visit("precision", how.precision);
+    visit("target_faces", how.target_faces);
+    visit("feature_angle", how.feature_angle);
+}
+
+template <class Visit>
+void each_field(tf::thickness_options& how, const Visit& visit) {
+    visit("by", how.by);
+}
+
+template <class Visit>
 void each_field(tf::feature_options& how, const Visit& visit) {
     visit("tolerance", how.tolerance);
     visit("plane_angle", how.plane_angle);
@@ -271,6 +289,9 @@ void add_options(py::module_& module) {
     add_options_of<tf::resolve_options>(module, "ResolveOptions");
     add_options_of<tf::repair_options>(module, "RepairOptions");
     add_options_of<tf::wrap_options>(module, "WrapOptions");
+    add_options_of<tf::offset_options>(module, "OffsetOptions");
+    add_options_of<tf::simplify_options>(module, "SimplifyOptions");
+    add_options_of<tf::thickness_options>(module, "ThicknessOptions");
     add_options_of<tf::feature_options>(module, "FeatureOptions");
     add_options_of<tf::self_intersection_options>(module, "SelfIntersectionOptions");
     add_options_of<tf::mesh_intersection_options>(module, "MeshIntersectionOptions");

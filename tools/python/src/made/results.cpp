@@ -50,6 +50,68 @@ py::object object(of_result, tf::mass_properties&& from) {
     return object_of("treeform._cuts", "MassProperties", made);
 }
 
+py::object object(of_result, tf::offset_result&& from) {
+    const py::object certificate = py::cast(from.certificate);
+    const py::object data = py::none();
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
+    made["certificate"] = certificate;
+    made["statistics"] = counters(from.statistics);
+    return object_of("treeform._shapes", "OffsetResult", made);
+}
+
+py::object object(of_result, tf::simplify_result&& from) {
+    const py::object certificate = py::cast(from.certificate);
+    const py::object data = py::none();
+    py::dict made;
+    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
+    made["face_source"] = as_python(std::move(from.face_source));
+    made["collapses"] = as_python(std::move(from.collapses));
+    made["refused_by_topology"] = as_python(std::move(from.refused_by_topology));
+    made["refused_by_turning"] = as_python(std::move(from.refused_by_turning));
+    made["refused_by_distance"] = as_python(std::move(from.refused_by_distance));
+    made["refused_by_contact"] = as_python(std::move(from.refused_by_contact));
+    made["there_at_most"] = as_python(std::move(from.there_at_most));
+    made["back_at_most"] = as_python(std::move(from.back_at_most));
+    made["certificate"] = certificate;
+    return object_of("treeform._shapes", "SimplifyResult", made);
+}
+
+py::object object(of_result, tf::thickness_result&& from) {
+    py::dict made;
+    made["of_face"] = as_python(std::move(from.of_face));
+    made["least"] = as_python(std::move(from.least));
+    made["thinnest"] = as_python(std::move(from.thinnest));
+    return object_of("treeform._shapes", "Thickness", made);
+}
+
+py::object object(of_result, tf::oriented_box&& from) {
+    py::dict made;
+    made["center"] = as_python(std::move(from.center));
+    made["axes"] = as_array<double>(std::vector<tf::point3>(from.axes.begin(), from.axes.end()));
+    made["size"] = as_python(std::move(from.size));
+    return object_of("treeform._shapes", "OrientedBox", made);
+}
+
+py::object object(of_result, tf::isoline&& from) {
+    py::dict made;
+    made["level"] = as_python(std::move(from.level));
+    made["first_point"] = as_python(std::move(from.first_point));
+    made["point_count"] = as_python(std::move(from.point_count));
+    made["closed"] = as_python(std::move(from.closed));
+    made["oriented"] = as_python(std::move(from.oriented));
+    made["length"] = as_python(std::move(from.length));
+    return object_of("treeform._shapes", "Isoline", made);
+}
+
+py::object object(of_result, tf::isolines_result&& from) {
+    py::dict made;
+    made["lines"] = as_python(std::move(from.lines));
+    made["points"] = as_python(std::move(from.points));
+    made["faces"] = as_python(std::move(from.faces));
+    return object_of("treeform._shapes", "Isolines", made);
+}
+
 py::object object(of_result, tf::resolve_result&& from, const carrying& attributes) {
     const py::object certificate = py::cast(from.certificate);
     const py::object data = data_of(from, attributes);
@@ -304,6 +366,16 @@ py::dict counters(const tf::wrap_statistics& from) {
     made["points"] = from.points;
     made["tetrahedra"] = from.tetrahedra;
     made["filled"] = from.filled;
+    return made;
+}
+
+py::dict counters(const tf::offset_statistics& from) {
+    py::dict made;
+    made["distance"] = from.distance;
+    made["resolution"] = from.resolution;
+    made["least"] = from.least;
+    made["greatest"] = from.greatest;
+    made["cells"] = from.cells;
     return made;
 }
 
