@@ -34,6 +34,27 @@ class Cut(ToolTest):
         self.assertIn("nothing is there", run.err)
         self.assertFalse(os.path.exists(self.path("no.stl")))
 
+    def test_shapes_are_solids_within_distances(self):
+        part = self.put_box()
+        for words, least, greatest in ((("offset", "--distance", "0.4"), 39, 41),
+                                       (("offset", "--distance", "-0.25"), 6, 6.2),
+                                       (("hollow", "--wall", "0.25", "--drain", "2,2,0,0.5"), 9, 10),
+                                       (("thicken", "--thickness", "0.4"), 16, 22)):
+            entry = self.report(*words, "--resolution", "0.1", part, "-f", "-o", "out.stl",
+                                status=0)["files"][0]
+            self.assertTrue(entry["pieces"][0]["certified"])
+            self.assertTrue(least < entry["pieces"][0]["volume"] < greatest, msg=words)
+            self.assertLess(entry["distances"]["least"], abs(float(words[2])) + 1e-9)
+            done = subprocess.run([MEND, "--check", "out.stl"], cwd=self.folder,
+                                  capture_output=True)
+            self.assertEqual(done.returncode, 0, msg=done.stdout)
+        entry = self.report("simplify", "--distance", "0.01", part, "-f", "-o", "out.stl",
+                            status=0)["files"][0]
+        self.assertEqual(entry["pieces"][0]["faces"], 12)
+        self.assertLessEqual(entry["distances"]["greatest"], 0.01)
+        self.run_tool("hollow", part, "-f", "-o", "out.stl", status=2)
+        self.run_tool("hollow", "--wall", "-1", part, "-f", "-o", "out.stl", status=2)
+
     def test_sections_are_written_in_four_formats(self):
         part = self.put_box()
         for name, start in (("s.svg", "<svg"), ("s.dxf", "0\nSECTION"), ("s.obj", "v "),

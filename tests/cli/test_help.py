@@ -11,17 +11,21 @@ MODES = {"place": {"drop": "drop", "lay": "lay", "slide": "slide", "mate": "mate
                    "clear": "separate", "arrange": "pack", "fit": "align", "measure": "measure",
                    "clash": "clash", "check": "check"},
          "boolean": {mode: mode for mode in ("union", "intersection", "difference", "xor", "split")},
-         "cut": {mode: mode for mode in ("half", "section", "pieces", "parts", "info")}}
+         "cut": {mode: mode for mode in ("half", "section", "pieces", "parts", "info", "simplify",
+                                         "offset", "hollow", "thicken")}}
 # What a mode needs beside the option that is tried, so that only this is refused.
 NEEDED = {"half": ["--height", "1"], "section": ["--height", "1"], "pieces": ["--height", "1"],
-          "arrange": ["--size", "9,9"], "check": ["--poses", "poses"]}
+          "arrange": ["--size", "9,9"], "check": ["--poses", "poses"],
+          "simplify": ["--distance", "1"], "offset": ["--distance", "1"],
+          "hollow": ["--wall", "1"], "thicken": ["--thickness", "1"]}
 FIXED = ("slide", "mate", "turn", "clear", "fit", "measure")
 VALUES = {"X,Y,Z": "0,0,-1", "X,Y[,Z]": "9,9", "DIST": "1", "SEC": "1", "DEG": "45", "N": "1",
           "F": "0.5", "LO,HI": "0,1", "Z": "0", "FILE": "f.ply", "FILE:N": "a.obj:1", "U": "mm",
           "SIZE": "none", "DIR": "dir", "TEXT": "text", "A:B": "a:b", "RULE": "odd", "P": "p",
           "FACE|X,Y,Z": "1", "KIND": "plane", "EXT": "ply", "SET": "90", "EXPR": "a+b",
           "N:FILE": "1:m", "SHARE": "1%", "WHEN": "never", "V,...": "iso,top", "WxH": "90x60",
-          "V": "1", "H,...": "1", "T": "1", "HALF": "below"}
+          "V": "1", "H,...": "1", "T": "1", "HALF": "below", "D": "1", "W": "1", "R": "0.1",
+          "SIDE": "both", "X,Y,Z,D": "0,0,0,1"}
 WORDS = {"--precision": "float", "--png": "p.png", "--weights": "equal", "--metric": "plane"}
 # Options that are refused without others, or beside -o.
 WITH = {"--pick": ["--feature", "plane"], "--pick-fixed": ["--feature", "plane"],
@@ -98,7 +102,7 @@ class Help(ToolTest):
         needed = [] if name in NEEDED.get(mode, []) else list(NEEDED.get(mode, []))
         if tool == "cut" and name in PLANES:
             needed = []
-        if tool == "cut" and name in ("--output-dir", "--in-place", "--suffix"):
+        if mode == "half" and name in ("--output-dir", "--in-place", "--suffix"):
             needed += ["--keep", "below"]
         if mode in FIXED and name != "--fixed":
             needed += ["--fixed", "none.obj"]

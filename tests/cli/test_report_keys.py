@@ -243,6 +243,8 @@ class Reports(PlaceTest):
                 (["section", "slit.obj", "nan.obj", "--height", "0.5,2", "-n"], 0),
                 (["parts", "part.obj", "-o", "parts.obj"], 0),
                 (["parts", "slit.obj", "-n"], 0),
+                (["simplify", "part.obj", "--distance", "0.01", "-o", "few.stl"], 0),
+                (["offset", "part.obj", "--distance", "0.4", "--resolution", "0.1", "-n"], 0),
                 (["info", "part.obj", "flat.obj", "huge.obj", "missing.obj"], 3)]:
             yield arguments, status
 

@@ -47,7 +47,12 @@ TAKES = {
     "separate": {"moving": NEAR, "fixed": CUBE}, "signed_distance": AT,
     "slide": {**ONTO, "direction": [0, 0, -1]}, "time_of_impact": {**TWO, "motion": [0, 0, -1]},
     "turn": {"moving": FAR, "fixed": CUBE, "axis": [0, 0, 1]}, "weld": {"mesh_or_points": CUBE},
-    "winding_number": AT, "wrap": {"mesh": CUBE, "size": 0.5}}
+    "winding_number": AT, "wrap": {"mesh": CUBE, "size": 0.5},
+    "cut_along": {"mesh": CUBE, "values": CUBE.vertices[:, 2], "levels": [0.5]},
+    "isolines": {"mesh": CUBE, "values": CUBE.vertices[:, 2], "levels": [0.5]},
+    "offset": {"mesh": CUBE, "distance": 0.5}, "hollow": {"mesh": CUBE, "wall": 0.25},
+    "thicken": {"mesh": CUBE, "thickness": 0.5}, "oriented_box": {"points": POINTS},
+    "simplify": {"mesh": CUBE, "max_distance": 0.1}, "wall_thickness": ONE}
 ELSEWHERE = {"BoxTree", "PointTree", "Attributes", "Mesh", "StreamSearch", "StreamWeld", "plot",
              "show", "thread_count", "threads", "difference", "intersection", "union", "split",
              "symmetric_difference", "from_meshio", "from_open3d", "from_pyvista", "from_trimesh",

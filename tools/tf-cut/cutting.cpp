@@ -26,6 +26,10 @@ std::string size_in_words(const tf::box3& box) {
            brief(box.max.z - box.min.z);
 }
 
+bool has_caps(const cut_settings& s) {
+    return s.mode == cut_mode::half || s.mode == cut_mode::pieces;
+}
+
 const char* word_for(const cut_settings& s, std::size_t count) {
     if (s.mode == cut_mode::parts) return count == 1 ? " part" : " parts";
     return count == 1 ? " piece" : " pieces";
@@ -60,7 +64,7 @@ void warn_of_missing(job& work, const cut_settings& s, const usable_input& input
                   nothing + (parts ? "no part is so large" : "the faces enclose nothing"));
     } else if (made == 0) {
         work.warn("no-pieces", nothing + heights_in_words(s, input));
-    } else if (s.mode != cut_mode::parts && !s.bed && !half_kept) {
+    } else if (has_caps(s) && !s.bed && !half_kept) {
         const std::size_t asked = std::set<double>(s.heights.begin(), s.heights.end()).size() + 1;
         if (made < asked)
             work.warn("no-cut", counted(asked - made, "piece is", "pieces are") +
@@ -92,7 +96,8 @@ void enter_blank_report(job& work, const cut_settings& s, const usable_input& in
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};
-    for (const char* key : {"layers", "pieces", "info", "output"}) entry[key] = nullptr;
+    for (const char* key : {"layers", "pieces", "distances", "info", "output"})
+        entry[key] = nullptr;
 }
 
 void say_section(job& work, const cut_settings& s, const usable_input& input,
@@ -142,7 +147,7 @@ void say_pieces(job& work, const cut_settings& s, const usable_input& input,
                                                  piece.cap, tf::operand_element::none));
         list.push_back({{"vertices", piece.mesh.points.size()},
                         {"faces", piece.mesh.faces.size()},
-                        {"cap_faces", or_null(s.mode != cut_mode::parts, caps)},
+                        {"cap_faces", or_null(has_caps(s), caps)},
                         {"volume", or_null(piece.volume.has_value(), piece.volume.value_or(0.0))},
                         {"area", piece.area},
                         {"certified",

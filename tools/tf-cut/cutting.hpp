@@ -9,6 +9,7 @@
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/tf.hpp>
 
@@ -22,11 +23,32 @@
 
 namespace tools {
 
-enum class cut_mode : std::uint8_t { half, section, pieces, parts, info };
-inline constexpr std::array<const char*, 5> cut_modes{"half", "section", "pieces", "parts", "info"};
+enum class cut_mode : std::uint8_t {
+    half,
+    section,
+    pieces,
+    parts,
+    info,
+    simplify,
+    offset,
+    hollow,
+    thicken
+};
+inline constexpr std::array<const char*, 9> cut_modes{
+    "half", "section", "pieces", "parts", "info", "simplify", "offset", "hollow", "thicken"};
+inline constexpr std::array<const char*, 3> thick_sides{"both", "front", "back"};
 
 enum class kept_half : std::uint8_t { both, below, above };
 inline constexpr std::array<const char*, 3> kept_halves{"both", "below", "above"};
+
+/// Of `simplify`, `offset`, `hollow` and `thicken`.
+struct shape_settings {
+    double distance = 0.0;
+    std::optional<double> resolution{};
+    std::vector<tf::drain> drains{};
+    tf::thick_side side = tf::thick_side::both;
+    std::uint64_t fewest_faces = 0;
+};
 
 struct cut_settings {
     std::string mode_text{};
@@ -40,7 +62,8 @@ struct cut_settings {
     tools::change_limits limits{};
     double min_volume = 0.0;
     std::uint64_t largest = 0;  ///< 0: all
-    std::string caps{};         ///< name of the property with the plane of each cap; or none
+    shape_settings shape{};
+    std::string caps{};  ///< name of the property with the plane of each cap; or none
     std::filesystem::path output{};
 };
 
@@ -70,6 +93,10 @@ void say_section(job& work, const cut_settings& s, const usable_input& input,
 void say_pieces(job& work, const cut_settings& s, const usable_input& input,
                 const std::vector<cut_off>& pieces);
 void say_info(job& work, const usable_input& input);
+
+/// What `simplify`, `offset`, `hollow` and `thicken` make; enters the distances.
+cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
+                 tf::precision precision);
 
 /// Writes pieces, each to a file of its own, or all to one. \throws failure
 void write_pieces(job& work, const cut_settings& s, const usable_input& input,

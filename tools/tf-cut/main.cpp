@@ -37,6 +37,41 @@ std::vector<std::string> both(std::vector<std::string> a, const std::vector<std:
     return a;
 }
 
+void add_shape_modes(command_line& line) {
+    const std::vector<std::string> without = both(of_planes, {"--max-move"});
+    line.mode({.names = "simplify",
+               .text = "fewer faces, both surfaces within a distance, proven",
+               .usage = "simplify --distance D [OPTIONS] INPUT...",
+               .more = "Faces that meet stay as they are, and none are made to. Takes about a\n"
+                       "millisecond a face.\n\nExamples:\n"
+                       "  $ tf-cut simplify data/sphere.ply --distance 0.01 -o fewer.ply\n"
+                       "  data/sphere.ply: 1 piece: 464 faces, volume 4.1282\n",
+               .without = without});
+    line.mode({.names = "offset",
+               .text = "the solid grown by a distance, or shrunk by -D",
+               .usage = "offset --distance D [OPTIONS] INPUT...",
+               .more = "Reports between which distances all of the result is.\n\nExamples:\n"
+                       "  $ tf-cut offset data/cube.stl --distance 0.25 --resolution 0.1 -o "
+                       "grown.stl\n"
+                       "  data/cube.stl: 1 piece: 9,000 faces, volume 3.1403\n",
+               .without = without});
+    line.mode({.names = "hollow",
+               .text = "the solid with cavities, its surface as it is",
+               .usage = "hollow --wall W [OPTIONS] INPUT...",
+               .more = "Holes are drilled by --drain.\n\nExamples:\n"
+                       "  $ tf-cut hollow data/cube.stl --wall 0.1 --resolution 0.05 -o shell.stl\n"
+                       "  data/cube.stl: 1 piece: 11,916 faces, volume 0.493755\n",
+               .without = without});
+    line.mode({.names = "thicken",
+               .text = "a solid around a surface, which may be open",
+               .usage = "thicken --thickness T [OPTIONS] INPUT...",
+               .more = "Its rim is round.\n\nExamples:\n"
+                       "  $ tf-cut thicken data/cube.stl --thickness 0.2 --resolution 0.05 -o "
+                       "solid.stl\n"
+                       "  data/cube.stl: 1 piece: 36,744 faces, volume 1.18758\n",
+               .without = without});
+}
+
 void add_modes(command_line& line) {
     line.group("Modes");
     line.mode({.names = "half",
@@ -79,6 +114,34 @@ void add_modes(command_line& line) {
                    "center (0.5, 0.5, 0.5)\n",
                .without = both(both(both(of_planes, of_meshes), of_one),
                                {"--output", "--dry-run", "--max-move"})});
+    add_shape_modes(line);
+}
+
+void add_distances(command_line& line, tools::shape_settings& s) {
+    line.group("Distances");
+    line.option({"--distance", "D",
+                 "simplify, offset: how far apart both surfaces may be;\n"
+                 "how far the solid grows, or shrinks below 0"},
+                [&s](std::string_view v) { s.distance = tools::parse_number("--distance", v); });
+    line.option({"--wall", "W", "hollow: how thick the wall is"},
+                [&s](std::string_view v) { s.distance = tools::parse_number("--wall", v); });
+    line.option({"--thickness", "T", "thicken: how thick the solid is"},
+                [&s](std::string_view v) { s.distance = tools::parse_number("--thickness", v); });
+    line.option(
+        {"--resolution", "R",
+         "offset, hollow, thicken: edge of the cells that the\n"
+         "surface is made in, at most half of the distance"},
+        [&s](std::string_view v) { s.resolution = tools::parse_number("--resolution", v); });
+    line.option(s.side, {"--side", "SIDE", "thicken: both | front | back", "both"},
+                tools::thick_sides);
+    line.option({"--drain", "X,Y,Z,D",
+                 "hollow: a hole of this diameter at the nearest point;\n"
+                 "may be repeated"},
+                [&s](std::string_view v) {
+                    const auto n = tools::parse_numbers("--drain", v, 4);
+                    s.drains.push_back({{n[0], n[1], n[2]}, n[3]});
+                });
+    line.option(s.fewest_faces, {"--faces", "N", "simplify: stop at so many faces", "0"});
 }
 
 void add_options(command_line& line, cut_settings& s) {
@@ -106,6 +169,7 @@ void add_options(command_line& line, cut_settings& s) {
                     s.bed = {size[0], size[1],
                              count == 2 ? std::numeric_limits<double>::infinity() : size[2]};
                 });
+    add_distances(line, s.shape);
     line.group("Options");
     line.option(s.keep, {"--keep", "HALF", "half: both | below | above", "both"},
                 tools::kept_halves);
@@ -174,9 +238,22 @@ void check_mode(const command_line& line, cut_settings& s) {
     only("--layers", {section});
     only("--bed", {pieces});
     only("--keep", {half});
-    for (const char* name : {"--output", "--dry-run"}) only(name, {half, section, pieces, parts});
-    for (const std::string& name : of_meshes) only(name.c_str(), {half, pieces, parts});
-    for (const std::string& name : of_one) only(name.c_str(), {half});
+    for (const char* name : {"--output", "--dry-run"})
+        only(name, {half, section, pieces, parts, simplify, offset, hollow, thicken});
+    for (const std::string& name : of_meshes)
+        only(name.c_str(), {half, pieces, parts, simplify, offset, hollow, thicken});
+    for (const std::string& name : of_one)
+        only(name.c_str(), {half, simplify, offset, hollow, thicken});
+    only("--distance", {simplify, offset});
+    only("--resolution", {offset, hollow, thicken});
+    only("--faces", {simplify});
+    for (const char* name : {"--wall", "--drain"}) only(name, {hollow});
+    for (const char* name : {"--thickness", "--side"}) only(name, {thicken});
+    const auto needs = [&](cut_mode mode, const char* name) {
+        if (s.mode == mode && !line.given(name)) refuse(s.mode_text + ": give " + name);
+    };
+    needs(simplify, "--distance"), needs(offset, "--distance");
+    needs(hollow, "--wall"), needs(thicken, "--thickness");
     const bool placed = line.given("--at") || line.given("--height");
     if (s.mode == half && !placed) refuse("half: where? give --height or --at");
     if (s.mode == half && s.heights.size() > 1) refuse("half: one --height; pieces takes several");
@@ -204,7 +281,8 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
     } else {
         options.output = s.output;
         tools::check_common_options(line, options);
-        const bool single = s.mode == cut_mode::half && s.keep != tools::kept_half::both;
+        const bool single = (s.mode == cut_mode::half && s.keep != tools::kept_half::both) ||
+                            s.mode > cut_mode::info;
         if (!single) {
             if (!options.output_dir.empty() || options.in_place)
                 refuse("--output-dir and --in-place need --keep below or above");
@@ -293,24 +371,45 @@ std::vector<cut_off> pieces_of(tf::cut_result&& made, const cut_settings& s) {
     return pieces;
 }
 
-tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settings& s) {
-    const auto timing = work.time("cut");
+/// Of the coordinates written.
+tf::precision precision_of(tools::job& work, const usable_input& input) {
     std::optional<tools::written_form> form;
     if (const auto output = tools::mesh_output(work.options, work.path))
         form = tools::form_of(work, input.file, *output);
     const tf::mesh_file* const files = &input.file;
+    return tools::written_precision(work.options, form, {&files, 1});
+}
+
+const char* option_of(cut_mode mode) {
+    return mode == cut_mode::hollow    ? "--wall"
+           : mode == cut_mode::thicken ? "--thickness"
+                                       : "--distance";
+}
+
+tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settings& s) {
+    const auto timing = work.time("cut");
     const tf::carry_source source = input.source();
-    const tf::cut_options options{
-        .precision = tools::written_precision(work.options, form, {&files, 1}),
-        .caps = !s.open,
-        .keep_cuts = tf::carry_sources(source).merging_mixes_values(),
-        .progress = work.progress("cut")};
+    const tf::cut_options options{.precision = precision_of(work, input),
+                                  .caps = !s.open,
+                                  .keep_cuts = tf::carry_sources(source).merging_mixes_values(),
+                                  .progress = work.progress("cut")};
     tf::cut_result made = suitable(s.bed ? "--bed" : "--height", [&] {
         return s.bed ? tf::cut_to_fit(input.file.mesh, *s.bed, options)
                      : tf::cut(input.file.mesh, s.plane, s.heights, options);
     });
     work.call_ended(made.certificate.status == tf::status::cancelled);
     return made;
+}
+
+exit_status not_made(tools::job& work, const usable_input& input, const tf::certificate& why) {
+    work.out.result(work.name + ": not made: " + tools::message_of(why, [&](std::uint32_t f) {
+                        return input.source().stored_face(f);
+                    }));
+    if (why.status == tf::status::open_input)
+        work.warn("no-solid",
+                  "the input bounds no solid; tf-repair makes one of it, and thicken takes any "
+                  "surface");
+    return tools::found;
 }
 
 exit_status look_at(tools::job& work, const cut_settings& s) {
@@ -327,6 +426,11 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
     if (s.mode == cut_mode::parts) {
         const auto timing = work.time("cut");
         pieces = parts_of(input, s);
+    } else if (s.mode > cut_mode::info) {
+        pieces.push_back(suitable(option_of(s.mode), [&] {
+            return tools::shape_of(work, s, input, precision_of(work, input));
+        }));
+        if (!pieces[0].certificate) return not_made(work, input, pieces[0].certificate);
     } else {
         tf::cut_result made = cut(work, input, s);
         if (!made.certificate) {

@@ -1,0 +1,57 @@
+"""Offsets, fewer faces, thickness, boxes, isolines."""
+
+import numpy as np
+import pytest
+
+import treeform as tf
+from support import CUBE, SHEET, SPHERES
+
+
+def test_solids_are_grown_shrunk_and_hollowed():
+    grown = tf.offset(CUBE, 0.25, resolution=0.1)
+    assert grown.certificate and grown.mesh.is_solid and 2.9 < grown.mesh.volume < 3.2
+    assert 0.2 < grown.statistics["least"] <= grown.statistics["greatest"] < 0.3
+    assert tf.offset(CUBE, -0.25, resolution=0.1).mesh.volume == pytest.approx(0.125, rel=0.1)
+    shell = tf.hollow(CUBE, 0.1, resolution=0.05)
+    drained = tf.hollow(CUBE, 0.1, drains=[[0.5, 0.5, 0, 0.2]], resolution=0.05)
+    assert shell.mesh.is_solid and drained.mesh.is_solid
+    assert drained.mesh.volume < shell.mesh.volume < 0.5
+    with pytest.raises(tf.NotSolidError):
+        tf.offset(SHEET, 0.1)
+    with pytest.raises(ValueError, match="rows|shape|4"):
+        tf.hollow(CUBE, 0.1, drains=[[0.5, 0.5, 0]])
+
+
+def test_a_surface_is_made_thick():
+    for side in ("both", "front", "back"):
+        assert tf.thicken(SHEET, 0.2, side=side).mesh.is_solid
+    with pytest.raises(ValueError, match="side"):
+        tf.thicken(SHEET, 0.2, side="left")
+
+
+def test_fewer_faces_stay_within_the_distance():
+    fewer = tf.simplify(SPHERES, 0.05)
+    assert fewer.certificate and fewer.mesh.face_count < SPHERES.face_count
+    assert max(fewer.there_at_most, fewer.back_at_most) <= 0.05
+    assert len(fewer.face_source) == fewer.mesh.face_count
+    assert tf.deviation(SPHERES, fewer.mesh).max <= 0.05
+    assert tf.simplify(SPHERES, 0.5, target_faces=600).mesh.face_count >= 598
+
+
+def test_walls_and_boxes_are_measured():
+    assert tf.wall_thickness(CUBE).of_face.tolist() == [1.0] * 12
+    assert tf.wall_thickness(CUBE, by="sphere").least <= 1.0
+    box = tf.oriented_box([[0, 0, 0], [3, 4, 0], [1.5, 2, 0]])
+    assert box.size == pytest.approx([5, 0, 0]) and box.center == pytest.approx([1.5, 2, 0])
+    assert tf.oriented_box(np.zeros((0, 3))) is None
+
+
+def test_lines_and_pieces_follow_values():
+    values = CUBE.vertices[:, 2]
+    lines = tf.isolines(CUBE, values, [0.25, 2])
+    assert len(lines.lines) == 1 and lines.lines[0].closed
+    assert set(lines.points_of(0)[:, 2]) == {0.25}
+    low, high = tf.cut_along(CUBE, values, [0.25])
+    assert low.mesh.area == pytest.approx(2) and high.mesh.area == pytest.approx(4)
+    with pytest.raises(ValueError, match="values"):
+        tf.isolines(CUBE, values[:3], [0.5])
