@@ -14,6 +14,7 @@ from ._nearness import Deviation
 from ._placement import Alignment, Depth, Impact, LaidFlat, Measure, Packing, Placement
 from ._properties import Feature, MeshDefects, SolidDefects, Topology
 from ._repair import ConvexHull, RepairResult, ResolveResult, WrapResult
+from ._shapes import Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness
 from ._weld import WeldResult, WeldStreamResult
 
 Floats = NDArray[np.float64]
