@@ -118,12 +118,15 @@ void for_chunks(std::size_t count, std::size_t grain,
         if (chunks == 1) run(0);
         return;
     }
+    // In a context that is bound, a nested loop would end early, and without an exception, when
+    // another chunk of the loop around it throws; what stands after it would read what is not there.
+    tbb::task_group_context own(tbb::task_group_context::isolated);
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
             for (std::size_t chunk = range.begin(); chunk < range.end(); ++chunk) run(chunk);
         },
-        tbb::simple_partitioner{});
+        tbb::simple_partitioner{}, own);
 }
 
 struct once::state {

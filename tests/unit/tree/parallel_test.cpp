@@ -29,6 +29,22 @@ TEST_CASE("for_chunks: an exception reaches the caller") {
                     std::runtime_error);
 }
 
+TEST_CASE("for_chunks: a nested loop that returns has run all its chunks, whoever else throws") {
+    std::atomic<int> short_loops{0};
+    for (int round = 0; round < 200; ++round)
+        CHECK_THROWS_AS(
+            tf::for_chunks(8, 1,
+                           [&](std::size_t i, std::size_t, std::size_t) {
+                               if (i == 5) throw std::runtime_error("5");
+                               std::atomic<std::size_t> ran{0};
+                               tf::for_chunks(
+                                   2000, 1, [&](std::size_t, std::size_t, std::size_t) { ++ran; });
+                               if (ran != 2000) ++short_loops;
+                           }),
+            std::runtime_error);
+    CHECK(short_loops == 0);
+}
+
 TEST_CASE("thread_scope: lowers the number of threads while it lives") {
     const unsigned before = tf::thread_count();
     {
