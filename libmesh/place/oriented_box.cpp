@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 
 #include <algorithm>
@@ -10,14 +11,11 @@
 namespace treeform {
 namespace {
 
-double inner_product(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-point3 outer_product(const point3& a, const point3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+using detail::base::cross;
+using detail::base::dot;
 
 point3 of_length_one(const point3& v) {
-    const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double most = detail::base::largest_of(v);
     if (!(most > 0.0)) return {1.0, 0.0, 0.0};
     const point3 near{v.x / most, v.y / most, v.z / most};
     const double length = std::hypot(near.x, near.y, near.z);
@@ -31,7 +29,7 @@ point3 across(const point3& n) {
         if (std::abs(n[k]) < std::abs(n[least])) least = k;
     point3 e{};
     e[least] = 1.0;
-    return of_length_one(outer_product(n, e));
+    return of_length_one(cross(n, e));
 }
 
 /// Corners of a polygon in the plane, counter-clockwise: of the convex hull of `points`, as doubles
@@ -63,7 +61,7 @@ oriented_box box_along(std::span<const point3> points, const std::array<point3, 
     for (std::size_t k = 0; k < 3; ++k) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const point3& p : points) {
-            const double at = inner_product(axes[k], p);
+            const double at = dot(axes[k], p);
             low = std::min(low, at);
             high = std::max(high, at);
         }
@@ -80,10 +78,10 @@ double rim_of(const oriented_box& box) {
 
 /// The direction, in the plane across n, of a side of the least rectangle.
 point3 best_side(std::span<const point3> points, const point3& n) {
-    const point3 u = across(n), v = outer_product(n, u);
+    const point3 u = across(n), v = cross(n, u);
     std::vector<point2> flat;
     flat.reserve(points.size());
-    for (const point3& p : points) flat.push_back({inner_product(u, p), inner_product(v, p)});
+    for (const point3& p : points) flat.push_back({dot(u, p), dot(v, p)});
     const std::vector<point2> rim = outline_of(std::move(flat));
     if (rim.size() < 2) return u;
     double least = std::numeric_limits<double>::infinity();
@@ -125,7 +123,7 @@ oriented_box in_order(oriented_box box) {
         result.axes[k] = box.axes[order[k]];
         result.size[k] = box.size[order[k]];
     }
-    result.axes[2] = outer_product(result.axes[0], result.axes[1]);
+    result.axes[2] = cross(result.axes[0], result.axes[1]);
     return result;
 }
 
@@ -156,7 +154,7 @@ std::optional<oriented_box> find_oriented_box(points_view points) {
         const point3 x = of_length_one(
             {high->x / 2 - low->x / 2, high->y / 2 - low->y / 2, high->z / 2 - low->z / 2});
         const point3 y = across(x);
-        return in_order(box_along(points, {x, y, outer_product(x, y)}));
+        return in_order(box_along(points, {x, y, cross(x, y)}));
     }
     const std::vector<point3> corners = hull.mesh(points).points;
     std::vector<std::size_t> sides(hull.sides.size());
@@ -174,7 +172,7 @@ std::optional<oriented_box> find_oriented_box(points_view points) {
         for (std::size_t i = begin; i < end; ++i) {
             const point3& n = hull.sides[sides[i]].normal;
             const point3 x = best_side(corners, n);
-            boxes[i] = box_along(corners, {x, of_length_one(outer_product(n, x)), n});
+            boxes[i] = box_along(corners, {x, of_length_one(cross(n, x)), n});
         }
     });
     const auto best = std::ranges::min_element(

@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -12,14 +13,16 @@
 namespace treeform {
 namespace {
 
+using detail::base::cross;
+using detail::base::dot;
+using detail::base::minus;
+
 constexpr double endless_wall = std::numeric_limits<double>::infinity();
 
 /// The normal of a face, at length 1; 0 where it has none.
 point3 outward(mesh_view mesh, std::uint32_t f) {
-    const auto [a, b, c] = mesh.faces[f];
-    const point3 &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c];
-    const point3 u{q.x - p.x, q.y - p.y, q.z - p.z}, v{r.x - p.x, r.y - p.y, r.z - p.z};
-    const point3 n{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+    const auto [p, q, r] = detail::base::triangle_of(mesh, f);
+    const point3 n = cross(minus(q, p), minus(r, p));
     const double length = std::hypot(n.x, n.y, n.z);
     if (!(length > 0.0) || !std::isfinite(length)) return {};
     return {n.x / length, n.y / length, n.z / length};
@@ -32,13 +35,11 @@ point3 middle(mesh_view mesh, std::uint32_t f) {
     return sum;
 }
 
-double dot_of(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
 /// From the middle of a face to the first other one that the ray leaves through.
 double along_ray(mesh_view mesh, std::uint32_t f, const point3& inward,
                  std::span<const mesh_hit> hits) {
     for (const mesh_hit& hit : hits)
-        if (hit.face != f && !hit.coplanar && dot_of(outward(mesh, hit.face), inward) > 0.0)
+        if (hit.face != f && !hit.coplanar && dot(outward(mesh, hit.face), inward) > 0.0)
             return hit.t;
     return endless_wall;
 }
@@ -48,13 +49,13 @@ double ball_at(const prepared_mesh& mesh, const point3& p, const point3& n, doub
     constexpr int most_steps = 64;
     double radius = diameter / 2;
     for (int step = 0; step < most_steps; ++step) {
-        const point3 center{p.x - radius * n.x, p.y - radius * n.y, p.z - radius * n.z};
+        const point3 center = minus(p, detail::base::scaled(n, radius));
         const auto near = closest_point(mesh, center);
         if (!near || near->distance >= radius * (1.0 - 0x1p-21)) break;
         const point3& q = near->point;
-        const point3 d{p.x - q.x, p.y - q.y, p.z - q.z};
-        const double across = dot_of(n, d);
-        const double smaller = dot_of(d, d) / (2 * across);
+        const point3 d = minus(p, q);
+        const double across = dot(n, d);
+        const double smaller = dot(d, d) / (2 * across);
         if (!(across > 0.0) || !(smaller < radius)) break;
         radius = smaller;
     }

@@ -27,7 +27,7 @@ class usable_input {
     std::size_t dropped_ = 0;
 };
 
-/// Inputs as `carry` takes them: with the faces that the operation saw. A file all of whose faces it
+/// Inputs as `carry_sources` takes them: with the faces that the operation saw. A file all of whose faces it
 /// saw is not copied.
 class carry_inputs {
   public:

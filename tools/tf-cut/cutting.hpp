@@ -43,7 +43,7 @@ inline constexpr std::array<const char*, 3> kept_halves{"both", "below", "above"
 
 /// Of `simplify`, `offset`, `hollow` and `thicken`.
 struct shape_settings {
-    double distance = 0.0;
+    tools::distance distance{};  ///< that of `offset` may be below 0
     std::optional<double> resolution{};
     std::vector<tf::drain> drains{};
     tf::thick_side side = tf::thick_side::both;

@@ -122,11 +122,17 @@ void add_distances(command_line& line, tools::shape_settings& s) {
     line.option({"--distance", "D",
                  "simplify, offset: how far apart both surfaces may be;\n"
                  "how far the solid grows, or shrinks below 0"},
-                [&s](std::string_view v) { s.distance = tools::parse_number("--distance", v); });
+                [&s](std::string_view v) {
+                    const bool shrinks = v.starts_with('-');
+                    s.distance = tools::parse_distance("--distance", v.substr(shrinks ? 1 : 0));
+                    if (!shrinks) return;
+                    s.distance.value = -s.distance.value;
+                    s.distance.given.insert(0, "-");
+                });
     line.option({"--wall", "W", "hollow: how thick the wall is"},
-                [&s](std::string_view v) { s.distance = tools::parse_number("--wall", v); });
+                [&s](std::string_view v) { s.distance = tools::parse_distance("--wall", v); });
     line.option({"--thickness", "T", "thicken: how thick the solid is"},
-                [&s](std::string_view v) { s.distance = tools::parse_number("--thickness", v); });
+                [&s](std::string_view v) { s.distance = tools::parse_distance("--thickness", v); });
     line.option(
         {"--resolution", "R",
          "offset, hollow, thicken: edge of the cells that the\n"
@@ -222,6 +228,12 @@ const char* const epilogue =
     "  piece could not be certified; 2 usage; 3 input; 4 output; 5 stopped (memory,\n"
     "  timeout, signal); 70 bug. Of several inputs, the highest.\n";
 
+const char* option_of(cut_mode mode) {
+    return mode == cut_mode::hollow    ? "--wall"
+           : mode == cut_mode::thicken ? "--thickness"
+                                       : "--distance";
+}
+
 void check_mode(const command_line& line, cut_settings& s) {
     const auto at = std::ranges::find(tools::cut_modes, s.mode_text);
     if (at == tools::cut_modes.end())
@@ -252,8 +264,7 @@ void check_mode(const command_line& line, cut_settings& s) {
     const auto needs = [&](cut_mode mode, const char* name) {
         if (s.mode == mode && !line.given(name)) refuse(s.mode_text + ": give " + name);
     };
-    needs(simplify, "--distance"), needs(offset, "--distance");
-    needs(hollow, "--wall"), needs(thicken, "--thickness");
+    for (const cut_mode mode : {simplify, offset, hollow, thicken}) needs(mode, option_of(mode));
     const bool placed = line.given("--at") || line.given("--height");
     if (s.mode == half && !placed) refuse("half: where? give --height or --at");
     if (s.mode == half && s.heights.size() > 1) refuse("half: one --height; pieces takes several");
@@ -378,12 +389,6 @@ tf::precision precision_of(tools::job& work, const usable_input& input) {
         form = tools::form_of(work, input.file, *output);
     const tf::mesh_file* const files = &input.file;
     return tools::written_precision(work.options, form, {&files, 1});
-}
-
-const char* option_of(cut_mode mode) {
-    return mode == cut_mode::hollow    ? "--wall"
-           : mode == cut_mode::thicken ? "--thickness"
-                                       : "--distance";
 }
 
 tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settings& s) {

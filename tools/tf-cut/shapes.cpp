@@ -21,8 +21,10 @@ cut_off as_piece(tf::mesh&& mesh, tf::certificate&& known) {
     return piece;
 }
 
-json distances_entry(const cut_settings& s, double resolution, double least, double greatest) {
-    return {{"given", s.shape.distance},
+json distances_entry(const cut_settings& s, double used, double resolution, double least,
+                     double greatest) {
+    return {{"given", s.shape.distance.given},
+            {"used", used},
             {"resolution", or_null(resolution > 0.0, resolution)},
             {"least", least},
             {"greatest", greatest}};
@@ -34,26 +36,27 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
                  tf::precision precision) {
     const auto timing = work.time("cut");
     const tf::mesh& mesh = input.file.mesh;
+    const double distance = s.shape.distance.used(diagonal_of(input));
     if (s.mode == cut_mode::simplify) {
-        tf::simplify_result made = tf::simplify(mesh, s.shape.distance,
+        tf::simplify_result made = tf::simplify(mesh, distance,
                                                 {.precision = precision,
                                                  .target_faces = s.shape.fewest_faces,
                                                  .progress = work.progress("simplify")});
         work.call_ended(made.certificate.status == tf::status::cancelled);
         work.entry["distances"] =
-            distances_entry(s, 0.0, 0.0, std::max(made.there_at_most, made.back_at_most));
+            distances_entry(s, distance, 0.0, 0.0, std::max(made.there_at_most, made.back_at_most));
         return as_piece(std::move(made.mesh), std::move(made.certificate));
     }
     const tf::offset_options options{.resolution = s.shape.resolution,
                                      .precision = precision,
                                      .progress = work.progress(s.mode_text)};
-    tf::offset_result made =
-        s.mode == cut_mode::offset   ? tf::offset(mesh, s.shape.distance, options)
-        : s.mode == cut_mode::hollow ? tf::hollow(mesh, s.shape.distance, s.shape.drains, options)
-                                     : tf::thicken(mesh, s.shape.distance, s.shape.side, options);
+    tf::offset_result made = s.mode == cut_mode::offset ? tf::offset(mesh, distance, options)
+                             : s.mode == cut_mode::hollow
+                                 ? tf::hollow(mesh, distance, s.shape.drains, options)
+                                 : tf::thicken(mesh, distance, s.shape.side, options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
-    work.entry["distances"] = distances_entry(s, made.statistics.resolution, made.statistics.least,
-                                              made.statistics.greatest);
+    work.entry["distances"] = distances_entry(s, distance, made.statistics.resolution,
+                                              made.statistics.least, made.statistics.greatest);
     return as_piece(std::move(made.mesh), std::move(made.certificate));
 }
 

@@ -31,7 +31,7 @@ struct cut_options {
     /// Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface.
     bool caps = true;
     /// Of a mesh that meets itself, as in `boolean_options`: where merging would mix values
-    /// (`merging_mixes_values`), faces that were cut are to stay apart.
+    /// (`carry_sources::merging_mixes_values`), faces that were cut are to stay apart.
     bool keep_cuts = false;
     progress_callback progress{};
 };
@@ -65,7 +65,8 @@ struct cut_result {
     treeform::certificate certificate{};
 };
 
-/// The mesh below, between and above planes at `heights` above `plane` (`parallel_plane`).
+/// The mesh below, between and above planes at `heights` above `plane`
+/// (`oriented_plane::parallel`).
 ///
 /// Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face
 /// that lies in a plane belongs to the side that its solid is on. What the solid has in the plane
@@ -73,7 +74,7 @@ struct cut_result {
 /// piece is checked as results of `boolean` are. Caps between axes stay flat and alike when
 /// rounded; others may bend by a step of the precision.
 ///
-/// `carry` gives pieces the attributes of a file, by their sources.
+/// `carry_sources` gives pieces the attributes of a file, by their sources.
 ///
 /// The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has
 /// parts that are inside out or hidden in others, it is first made the solid that it winds around,
@@ -94,9 +95,9 @@ struct cut_result {
 }
 
 /// Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
-/// each axis as there can be, and equally far apart, to rounding. A size that is infinite is not cut along.
-/// Pieces are those with faces, by x, then y, then z; numbers of planes count across x first, then
-/// y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
+/// each axis as there can be, and equally far apart, to rounding. A size that is infinite is not cut
+/// along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x first,
+/// then y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
 ///
 /// \throws std::invalid_argument as `cut`, for a size that is not positive, or where there would be
 ///         more than 2^16 planes across an axis, or might be more than 2^20 pieces

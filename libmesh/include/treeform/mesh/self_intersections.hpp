@@ -162,7 +162,7 @@ struct stream_search_options {
     pair_kinds kinds = pair_kinds::all;
     std::optional<box3> box{};       ///< only faces that meet it
     std::string format{};            ///< of the input, as for `read`
-    std::uint64_t memory = 0;        ///< bytes that the process may take; 0: `default_memory`
+    std::uint64_t memory = 0;        ///< bytes to take; 0: three quarters of the machine's
     std::filesystem::path folder{};  ///< for the tiles; empty: the input's name and ".search-tiles"
     std::uint64_t faces_per_tile = 0;  ///< at most about this many; 0: as the memory allows
     process_team team{};               ///< not for `stream_search`

@@ -106,7 +106,7 @@ typedef struct treeform_cut_options {
     /// infinite
     double max_displacement;
     /// Of a mesh that meets itself, as in `treeform_boolean_options`: where merging would mix
-    /// values (`merging_mixes_values`), faces that were cut are to stay apart.
+    /// values (`carry_sources::merging_mixes_values`), faces that were cut are to stay apart.
     int32_t keep_cuts;
     treeform_progress progress;
     void* progress_data;

@@ -227,7 +227,7 @@ typedef struct treeform_search_file_options {
     uint32_t kinds;
     const treeform_box* box;  ///< only faces that meet it; or null
     const char* format;       ///< of the input, as for `treeform_read`
-    uint64_t memory;          ///< bytes that the process may take; 0: `treeform_default_memory`
+    uint64_t memory;          ///< bytes to take; 0: three quarters of the machine's
     const char* folder;       ///< for the tiles; empty: the input's name and ".search-tiles"
     uint64_t faces_per_tile;  ///< at most about this many; 0: as the memory allows
     treeform_progress progress;
