@@ -29,9 +29,9 @@ struct level {
     std::vector<known> sides{};
 };
 
-[[noreturn]] void refuse_step(double step, double expected) {
+[[noreturn]] void refuse_step(const char* function, double step, double expected) {
     throw std::invalid_argument(
-        "treeform::offset: the resolution " + base::brief(step) +
+        "treeform::" + std::string(function) + ": the resolution " + base::brief(step) +
         " is too fine: the surface would pass through more than 2^22 cells; " +
         base::brief(1.1 * step * std::sqrt(std::max(expected / most_cells, 1.0))) + " would do");
 }
@@ -96,8 +96,8 @@ point3 cell_grid::point(lattice_key at, double shift) const {
     return {along(0, at >> 40 & mask), along(1, at >> 20 & mask), along(2, at & mask)};
 }
 
-cell_grid cells_at(const prepared_mesh& mesh, double distance, wanted_side side, double step,
-                   base::work_progress& progress) {
+cell_grid cells_at(const char* function, const prepared_mesh& mesh, double distance,
+                   wanted_side side, double step, base::work_progress& progress) {
     const box3 box = *bounding_box(mesh.view().points);
     cell_grid grid;
     double extent = 0.0;
@@ -109,7 +109,7 @@ cell_grid cells_at(const prepared_mesh& mesh, double distance, wanted_side side,
     int levels = 0;
     while (std::ldexp(step, levels) < extent) ++levels;
     if (levels > most_levels)
-        refuse_step(step, most_cells * std::ldexp(1.0, 2 * (levels - most_levels)));
+        refuse_step(function, step, most_cells * std::ldexp(1.0, 2 * (levels - most_levels)));
     grid.step = std::ldexp(step, levels);
     level now{{0}, {side == wanted_side::any ? known::outside : known::neither}};
     for (int left = levels; left >= 0; --left) {
@@ -123,7 +123,7 @@ cell_grid cells_at(const prepared_mesh& mesh, double distance, wanted_side side,
         const double expected = std::ldexp(count, 2 * left);
         if ((count > sure_cells && expected > sure_share * most_cells) ||
             count > (left > 0 ? 0.5 : 1.0) * most_cells)
-            refuse_step(step, expected);
+            refuse_step(function, step, expected);
         if (!progress.reach(0.3 * std::ldexp(1.0, -2 * left))) return {};
     }
     grid.cells = std::move(now.cells);

@@ -44,8 +44,8 @@ struct cell_grid {
 /// `progress` is cancelled.
 ///
 /// \pre    step <= distance / 2; the mesh is closed, unless any side will do
-/// \throws std::invalid_argument where there would be too many
-[[nodiscard]] cell_grid cells_at(const prepared_mesh& mesh, double distance, wanted_side side,
-                                 double step, base::work_progress& progress);
+/// \throws std::invalid_argument, in the name of the function, where there would be too many
+[[nodiscard]] cell_grid cells_at(const char* function, const prepared_mesh& mesh, double distance,
+                                 wanted_side side, double step, base::work_progress& progress);
 
 }  // namespace treeform::detail::offset

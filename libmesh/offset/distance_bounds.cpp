@@ -2,6 +2,7 @@
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/offset/distance_bounds.hpp>
+#include <libmesh/offset/near_places.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/triangle.hpp>
 
@@ -28,7 +29,8 @@ double bound_of(const triangle3& part, const triangle3& face) {
 
 }  // namespace
 
-distance_bounds bounds_of_distance(mesh_view from, const prepared_mesh& mesh, double slack) {
+distance_bounds bounds_of_distance(mesh_view from, const prepared_mesh& mesh, double slack,
+                                   const progress_callback& progress) {
     const nearness::closest_point_query& nearest = nearness::closest_point_query_of(mesh);
     std::vector<triangle3> parts(from.faces.size());
     for (std::uint32_t f = 0; f < parts.size(); ++f) parts[f] = base::triangle_of(from, f);
@@ -40,7 +42,12 @@ distance_bounds bounds_of_distance(mesh_view from, const prepared_mesh& mesh, do
             const auto& [a, b, c] = parts[i];
             centers[i] = base::scaled(base::plus(base::plus(a, b), c), 1.0 / 3.0);
         }
-        const auto found = nearest.nearest(centers);
+        // The first round takes most of the time.
+        const double begin = 1.0 - std::ldexp(1.0, -round);
+        const auto found = near_places(nearest, centers, [&](double done) {
+            return !progress || progress(begin + 0.5 * (1.0 - begin) * done);
+        });
+        if (found.size() != centers.size()) return {};
         std::vector<double> bounds(parts.size());
         for (std::size_t i = 0; i < parts.size(); ++i) {
             met = std::max(met, found[i]->distance);

@@ -1,6 +1,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/offset/level_surface.hpp>
+#include <libmesh/offset/near_places.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -27,21 +28,25 @@ constexpr int most_tries = 24;
 
 class builder {
   public:
-    builder(const prepared_mesh& mesh, const cell_grid& grid, double distance, bool near_is_behind)
+    builder(const prepared_mesh& mesh, const cell_grid& grid, double distance, bool near_is_behind,
+            const progress_callback& progress)
         : nearest_(nearness::closest_point_query_of(mesh)),
           grid_(grid),
           distance_(distance),
-          near_is_behind_(near_is_behind) {}
+          near_is_behind_(near_is_behind),
+          progress_(progress) {}
 
     mesh run() {
-        find_heights();
+        if (!find_heights()) return {};
         for (const lattice_key cell : grid_.cells) cut(cell);
         return numbered();
     }
 
   private:
-    /// How much further than the distance corners of cells are.
-    void find_heights() {
+    [[nodiscard]] bool goes_on(double done) const { return !progress_ || progress_(done); }
+
+    /// How much further than the distance corners of cells are. False when it is to stop.
+    bool find_heights() {
         corners_.reserve(8 * grid_.cells.size());
         for (const lattice_key cell : grid_.cells)
             for (unsigned c = 0; c < 8; ++c) corners_.push_back(cell_grid::corner_of(cell, c));
@@ -50,10 +55,11 @@ class builder {
         corners_.shrink_to_fit();
         std::vector<point3> places(corners_.size());
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = grid_.point(corners_[i]);
-        const auto found = nearest_.nearest(places);
-        heights_.resize(places.size());
-        for (std::size_t i = 0; i < places.size(); ++i)
-            heights_[i] = found[i]->distance - distance_;
+        const auto found =
+            near_places(nearest_, places, [&](double done) { return goes_on(0.4 * done); });
+        heights_.reserve(places.size());
+        for (const auto& near : found) heights_.push_back(near->distance - distance_);
+        return found.size() == places.size();
     }
 
     [[nodiscard]] double height(lattice_key corner) const {
@@ -134,10 +140,17 @@ class builder {
         edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
         mesh result;
         result.points.resize(edges.size());
-        constexpr std::size_t grain = 64;
-        for_chunks(edges.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i) result.points[i] = vertex_on(edges[i]);
-        });
+        constexpr std::size_t grain = 64, block = std::size_t{1} << 15;
+        for (std::size_t first = 0; first < edges.size(); first += block) {
+            const std::size_t count = std::min(block, edges.size() - first);
+            for_chunks(count, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t i = first + begin; i < first + end; ++i)
+                    result.points[i] = vertex_on(edges[i]);
+            });
+            if (!goes_on(0.4 + 0.6 * static_cast<double>(first + count) /
+                                   static_cast<double>(edges.size())))
+                return {};
+        }
         const auto number = [&](edge_key e) {
             return static_cast<std::uint32_t>(std::lower_bound(edges.begin(), edges.end(), e) -
                                               edges.begin());
@@ -152,6 +165,7 @@ class builder {
     const cell_grid& grid_;
     double distance_;
     bool near_is_behind_;
+    const progress_callback& progress_;
     std::vector<lattice_key> corners_{};  ///< ascending
     std::vector<double> heights_{};       ///< of `corners_`
     std::vector<std::array<edge_key, 3>> triangles_{};
@@ -160,8 +174,8 @@ class builder {
 }  // namespace
 
 mesh level_surface(const prepared_mesh& mesh, const cell_grid& grid, double distance,
-                   bool near_is_behind) {
-    return builder(mesh, grid, distance, near_is_behind).run();
+                   bool near_is_behind, const progress_callback& progress) {
+    return builder(mesh, grid, distance, near_is_behind, progress).run();
 }
 
 }  // namespace treeform::detail::offset

@@ -1,5 +1,6 @@
 """tf-cut: sections, halves, pieces, parts, and what is in a file."""
 
+import math
 import re
 import zipfile
 
@@ -52,6 +53,16 @@ class Cut(ToolTest):
                             status=0)["files"][0]
         self.assertEqual(entry["pieces"][0]["faces"], 12)
         self.assertLessEqual(entry["distances"]["greatest"], 0.01)
+        run = self.run_tool("hollow", "--wall", "0.2", "--drain", "0,2,0,0.5", part, "-f", "-o",
+                            "out.stl", status=0)
+        self.assertRegex(run.text, r" 0\.19\d* to 0\.2\d* away\n$")
+        self.assertEqual(run.err, "")
+        write(self.path("two.obj"), together(box((0, 0, 0), (4, 4, 1)), box((9, 0, 0), (13, 4, 1))))
+        run = self.run_tool("hollow", "--wall", "0.2", "--drain", "2,2,0,0.5", "two.obj", "-f",
+                            "-o", "out.stl", "-r", "r.json", status=0)
+        self.assertIn("no drain leads into 1 cavity", run.err)
+        self.assertEqual(json.loads(self.read("r.json"))["files"][0]["cavities"],
+                         {"sealed": 1, "blind_drains": []})
         self.run_tool("hollow", part, "-f", "-o", "out.stl", status=2)
         self.run_tool("hollow", "--wall", "-1", part, "-f", "-o", "out.stl", status=2)
 
@@ -127,7 +138,8 @@ class Cut(ToolTest):
         part = self.put_box()
         run = self.run_tool("info", part, status=0)
         self.assertEqual(run.text, part + ": 12 faces, 4 x 4 x 1, solid; 1 component, area 48, "
-                                          "volume 16, center (2, 2, 0.5)\n")
+                                          "volume 16, center (2, 2, 0.5), thinnest wall 1 at "
+                                          "(1.33333, 1.33333, 0)\n")
         points, faces = cube()
         write(self.path("open.obj"), (points, faces[1:]))
         report = self.report("info", part, "open.obj", status=0)
@@ -137,6 +149,25 @@ class Cut(ToolTest):
         self.assertEqual(second["defects"], "open at 3 edges")
         self.assertTrue(second["area"] > 0 and second["volume"] is None)  # it ends: around nothing
         self.assertTrue(second["center"] is None and second["inertia"] is None)
+        self.assertEqual(first["thinnest"]["by"], "ray")
+        self.assertEqual(first["thinnest"]["thickness"], 1)
+        self.assertEqual(first["oriented_box"]["size"], [4, 4, 1])
+        self.assertIsNone(second["thinnest"])
+        self.assertEqual((first["unit"], second["unit"]), (None, None))
+        for how, thickness in (("sphere", 2 / 3), ("none", None)):
+            info = self.report("info", part, "--walls", how, "--units", "mm",
+                               status=0)["files"][0]["info"]
+            self.assertEqual(info["unit"], "mm")
+            if thickness:
+                self.assertAlmostEqual(info["thinnest"]["thickness"], thickness, delta=1e-5)
+            else:
+                self.assertIsNone(info["thinnest"])
+        c, d = math.cos(0.5), math.sin(0.5)
+        points, faces = box((0, 0, 0), (4, 2, 1))
+        write(self.path("turned.obj"), ([[c * x - d * y, d * x + c * y, z] for x, y, z in points],
+                                        faces))
+        run = self.run_tool("info", "turned.obj", status=0)
+        self.assertIn(" (turned 4 x 2 x 1), solid", run.text)
         report = self.report("parts", "open.obj", "-n", status=0)
         self.assertIsNone(report["files"][0]["pieces"][0]["volume"])
         write(self.path("huge.obj"), ([[1e200 * x for x in p] for p in points], faces))

@@ -2,6 +2,8 @@
 
 #include "tools/common/console.hpp"
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -21,9 +23,41 @@ json planes_entry(const cut_settings& s) {
     return {{"at", s.plane.at}, {"normal", s.plane.normal}, {"heights", s.heights}};
 }
 
-std::string size_in_words(const tf::box3& box) {
-    return brief(box.max.x - box.min.x) + " x " + brief(box.max.y - box.min.y) + " x " +
-           brief(box.max.z - box.min.z);
+std::string size_in_words(double x, double y, double z) {
+    return brief(x) + " x " + brief(y) + " x " + brief(z);
+}
+
+/// The least box, turned; in words where it is less than the one along the axes.
+std::string turned_box(job& work, const tf::mesh& mesh, const std::optional<tf::box3>& box) {
+    constexpr double less = 0.99;
+    const auto turned = tf::find_oriented_box(mesh.points);
+    if (!turned) return {};
+    const tf::point3& size = turned->size;
+    work.entry["info"]["oriented_box"] = {
+        {"center", turned->center}, {"axes", turned->axes}, {"size", size}};
+    const double straight =
+        (box->max.x - box->min.x) * (box->max.y - box->min.y) * (box->max.z - box->min.z);
+    if (!(size.x * size.y * size.z < less * straight)) return {};
+    return " (turned " + size_in_words(size.x, size.y, size.z) + ")";
+}
+
+/// Enters where the solid is thinnest, if that is asked for.
+std::string thinnest_wall(job& work, const cut_settings& s, const usable_input& input) {
+    if (s.walls == measured_walls::none) return {};
+    const tf::thickness_result found = tf::wall_thickness(
+        input.file.mesh,
+        {.by = s.walls == measured_walls::ray ? tf::thickness_by::ray : tf::thickness_by::sphere,
+         .progress = work.progress("walls")});
+    work.call_ended(found.status == tf::status::cancelled);
+    if (!std::isfinite(found.least)) return {};
+    tf::point3 middle{};
+    for (const std::uint32_t v : input.file.mesh.faces[found.thinnest])
+        for (std::size_t k = 0; k < 3; ++k) middle[k] += input.file.mesh.points[v][k] / 3;
+    work.entry["info"]["thinnest"] = {{"by", wall_measures[static_cast<std::size_t>(s.walls)]},
+                                      {"thickness", found.least},
+                                      {"face", input.source().stored_face(found.thinnest)},
+                                      {"at", middle}};
+    return ", thinnest wall " + brief(found.least) + " at " + in_words(middle);
 }
 
 bool has_caps(const cut_settings& s) {
@@ -79,6 +113,20 @@ std::optional<double> volume_of(const tf::mesh& mesh) {
     return tf::signed_volume(mesh);
 }
 
+std::string unit_of(const job& work, const tf::mesh_file& file) {
+    constexpr std::array<std::array<const char*, 2>, 6> names{{{"millimeter", "mm"},
+                                                               {"centimeter", "cm"},
+                                                               {"meter", "m"},
+                                                               {"inch", "in"},
+                                                               {"foot", "ft"},
+                                                               {"micron", "um"}}};
+    if (work.options.unit != "unknown") return work.options.unit;
+    for (const std::string& line : file.attributes.obj_info)
+        for (const auto& [name, unit] : names)
+            if (line == std::string("unit ") + name) return unit;
+    return {};
+}
+
 double diagonal_of(const usable_input& input) {
     const auto box = tf::bounding_box(input.file.mesh.points);
     return box ? box->diagonal() : 0.0;
@@ -96,7 +144,7 @@ void enter_blank_report(job& work, const cut_settings& s, const usable_input& in
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};
-    for (const char* key : {"layers", "pieces", "distances", "info", "output"})
+    for (const char* key : {"layers", "pieces", "distances", "cavities", "info", "output"})
         entry[key] = nullptr;
 }
 
@@ -163,11 +211,15 @@ void say_pieces(job& work, const cut_settings& s, const usable_input& input,
         text = open < pieces.size() ? ", volume " + brief(volume) + " in all" : std::string();
         if (open > 0) text += ", " + grouped(open) + " open";
     }
+    if (const json& reached = work.entry["distances"];
+        reached.is_object() && !reached["resolution"].is_null())
+        text += ", " + brief(reached["least"].get<double>()) + " to " +
+                brief(reached["greatest"].get<double>()) + " away";
     work.out.result(work.name + ": " + grouped(pieces.size()) + word_for(s, pieces.size()) + text);
     warn_of_missing(work, s, input, pieces.size());
 }
 
-void say_info(job& work, const usable_input& input) {
+void say_info(job& work, const cut_settings& s, const usable_input& input) {
     const tf::mesh& mesh = input.file.mesh;
     const auto timing = work.time("check");
     tf::solid_defects defects =
@@ -182,21 +234,30 @@ void say_info(job& work, const usable_input& input) {
     const std::uint64_t parts =
         tf::count_topology(joined.points.size(), joined.faces).components_by_point;
     const double area = tf::surface_area(mesh);
-    work.entry["info"] = {{"box", box ? json{{"min", box->min}, {"max", box->max}} : json(nullptr)},
+    const std::string unit = unit_of(work, input.file);
+    work.entry["info"] = {{"unit", or_null(!unit.empty(), unit)},
+                          {"box", box ? json{{"min", box->min}, {"max", box->max}} : json(nullptr)},
+                          {"oriented_box", nullptr},
                           {"solid", !defects.any()},
                           {"defects", defects.message()},
                           {"components", parts},
                           {"area", area},
                           {"volume", or_null(volume.has_value(), volume.value_or(0.0))},
                           {"center", mass ? json(mass->center) : json(nullptr)},
-                          {"inertia", mass ? json(mass->inertia) : json(nullptr)}};
+                          {"inertia", mass ? json(mass->inertia) : json(nullptr)},
+                          {"thinnest", nullptr}};
     std::string text = counted(mesh.faces.size(), "face", "faces");
-    if (box) text += ", " + size_in_words(*box);
+    if (box)
+        text += ", " + size_in_words(box->max.x - box->min.x, box->max.y - box->min.y,
+                                     box->max.z - box->min.z);
+    if (!unit.empty()) text += " " + unit;
+    text += turned_box(work, joined, box);
     text += defects.any() ? ", no solid: " + defects.message() : std::string(", solid");
     text += "; " + counted(parts, "component", "components");
     if (std::isfinite(area)) text += ", area " + brief(area);
     if (volume && std::isfinite(*volume)) text += ", volume " + brief(*volume);
     if (mass) text += ", center " + in_words(mass->center);
+    if (!defects.any()) text += thinnest_wall(work, s, input);
     work.out.result(work.name + ": " + text);
     if (!std::isfinite(area) || (volume && !std::isfinite(*volume)))
         work.warn("too-large", "area or volume are beyond what a number can hold");

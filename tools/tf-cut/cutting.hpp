@@ -3,6 +3,8 @@
 /// What a user of tf-cut asks for, what is made of an input, and how it is reported and written.
 
 #include "tools/common/change_limits.hpp"
+#include "tools/common/command_line.hpp"
+#include "tools/common/common_options.hpp"
 #include "tools/common/parse_value.hpp"
 #include "tools/common/run.hpp"
 #include "tools/common/usable_input.hpp"
@@ -41,6 +43,10 @@ inline constexpr std::array<const char*, 3> thick_sides{"both", "front", "back"}
 enum class kept_half : std::uint8_t { both, below, above };
 inline constexpr std::array<const char*, 3> kept_halves{"both", "below", "above"};
 
+/// How `info` looks for the thinnest wall.
+enum class measured_walls : std::uint8_t { ray, sphere, none };
+inline constexpr std::array<const char*, 3> wall_measures{"ray", "sphere", "none"};
+
 /// Of `simplify`, `offset`, `hollow` and `thicken`.
 struct shape_settings {
     tools::distance distance{};  ///< that of `offset` may be below 0
@@ -63,12 +69,24 @@ struct cut_settings {
     double min_volume = 0.0;
     std::uint64_t largest = 0;  ///< 0: all
     shape_settings shape{};
+    measured_walls walls = measured_walls::ray;
     std::string caps{};  ///< name of the property with the plane of each cap; or none
     std::filesystem::path output{};
 };
 
+/// What the command line may say; what it asks for is to go together. \throws failure (bad_usage)
+void add_settings(command_line& line, cut_settings& s);
+void check_request(const command_line& line, cut_settings& s, common_options& options);
+
+/// The option of the distance of `simplify`, `offset`, `hollow` and `thicken`.
+[[nodiscard]] const char* option_of(cut_mode mode);
+
 /// As `signed_volume`; none of an open surface, of which it would depend on the origin.
 [[nodiscard]] std::optional<double> volume_of(const tf::mesh& mesh);
+
+/// The unit of lengths in the file: mm, cm, m, in, ft or um, by --units or as the file says; empty
+/// where neither does.
+[[nodiscard]] std::string unit_of(const job& work, const tf::mesh_file& file);
 
 /// Of the box around it.
 [[nodiscard]] double diagonal_of(const usable_input& input);
@@ -92,7 +110,7 @@ void say_section(job& work, const cut_settings& s, const usable_input& input,
                  const tf::section_result& made);
 void say_pieces(job& work, const cut_settings& s, const usable_input& input,
                 const std::vector<cut_off>& pieces);
-void say_info(job& work, const usable_input& input);
+void say_info(job& work, const cut_settings& s, const usable_input& input);
 
 /// What `simplify`, `offset`, `hollow` and `thicken` make; enters the distances.
 cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,

@@ -30,6 +30,18 @@ json distances_entry(const cut_settings& s, double used, double resolution, doub
             {"greatest", greatest}};
 }
 
+/// Enters what cavities have no way out, and says which drains lead nowhere.
+void say_drains(job& work, const cut_settings& s, const tf::offset_result& made) {
+    work.entry["cavities"] = {{"sealed", made.statistics.sealed_cavities},
+                              {"blind_drains", made.blind_drains}};
+    for (const std::uint32_t i : made.blind_drains)
+        work.warn("blind-drain", "the drain at " + in_words(s.shape.drains[i].at) +
+                                     " may not lead from outside into a cavity");
+    if (!s.shape.drains.empty() && made.statistics.sealed_cavities > 0)
+        work.warn("sealed", "no drain leads into " +
+                                counted(made.statistics.sealed_cavities, "cavity", "cavities"));
+}
+
 }  // namespace
 
 cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
@@ -57,6 +69,7 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
     work.call_ended(made.certificate.status == tf::status::cancelled);
     work.entry["distances"] = distances_entry(s, distance, made.statistics.resolution,
                                               made.statistics.least, made.statistics.greatest);
+    if (s.mode == cut_mode::hollow && made.certificate) say_drains(work, s, made);
     return as_piece(std::move(made.mesh), std::move(made.certificate));
 }
 

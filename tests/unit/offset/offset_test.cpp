@@ -2,6 +2,7 @@
 /// Solids grown, shrunk, hollowed, and surfaces made thick: certified, at their distance, on the right
 /// side, in volumes that are known.
 
+#include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/offset.hpp>
@@ -12,11 +13,13 @@
 #include <doctest/doctest.h>
 #include <support/solid_checks.hpp>
 #include <support/solids.hpp>
+#include <support/soups.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -140,6 +143,55 @@ TEST_CASE("a hollow cube keeps its surface, and drains lead into it") {
     CHECK(!tf::contains(drained.mesh, {5, 5, 0.5}));
 }
 
+TEST_CASE("a drain ends in the cavity, and what none leads into is counted") {
+    const tf::mesh slab = test::box(10, 10, 3);
+    const auto drained = tf::hollow(slab, 1, std::array{tf::drain{{5, 5, 3}, 4}});
+    REQUIRE(drained.certificate);
+    CHECK(tf::contains(drained.mesh, {5, 5, 0.5}));  // the wall across is whole
+    CHECK(!tf::contains(drained.mesh, {5, 5, 2.5}));
+    CHECK(drained.blind_drains.empty());
+    CHECK(drained.statistics.sealed_cavities == 0);
+    CHECK(tf::hollow(slab, 1).statistics.sealed_cavities == 1);
+    const std::array two{slab, test::moved(slab, {20, 0, 0})};
+    const auto half = tf::hollow(tf::concatenate(two), 1, std::array{tf::drain{{25, 5, 9}, 1}});
+    REQUIRE(half.certificate);
+    CHECK(half.blind_drains.empty());
+    CHECK(half.statistics.sealed_cavities == 1);
+    // A slot narrower than the drain is wide: the wall across is not drilled.
+    const tf::mesh slotted =
+        tf::subtract(test::box(10, 10, 10), test::moved(test::box(12, 12, 1), {-1, -1, 4.5}))
+            .value();
+    const auto into_slot = tf::hollow(slotted, 1, std::array{tf::drain{{5, 5, 4.6}, 3}});
+    REQUIRE(into_slot.certificate);
+    CHECK(into_slot.blind_drains.empty());
+    CHECK(!tf::contains(into_slot.mesh, {5, 5, 4}));
+    CHECK(tf::contains(into_slot.mesh, {5, 5, 6}));
+    CHECK(into_slot.statistics.sealed_cavities == 1);
+}
+
+TEST_CASE("a drain whose axis passes by the cavity is named") {
+    // Near the edge of a wedge of 20 degrees, the edge of the cavity is nearest, at a slant.
+    const double high = 20 * std::tan(pi / 18), at = 2.3;
+    const tf::mesh wedge{
+        {{0, 0, 0}, {20, 0, -high}, {20, 0, high}, {0, 10, 0}, {20, 10, -high}, {20, 10, high}},
+        {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 3}, {2, 3, 0}}};
+    const std::array drains{tf::drain{{20, 5, 0}, 1}, tf::drain{{at, 5, at * high / 20}, 0.1}};
+    const auto made = tf::hollow(wedge, 0.5, drains);
+    REQUIRE(made.certificate);
+    CHECK(made.blind_drains == std::vector<std::uint32_t>{1});
+}
+
+TEST_CASE("without a resolution, cells are a share of the distance within a budget of faces") {
+    const tf::mesh cube = test::box(1, 1, 1);
+    for (const double d : {0.05, 0.25, 1.0, 100.0}) {
+        const auto made = tf::offset(cube, d);
+        checked(made);
+        CHECK(made.mesh.faces.size() < 250'000);
+        CHECK(made.statistics.greatest < 1.02 * d);
+        CHECK(made.statistics.least > 0.96 * d);
+    }
+}
+
 TEST_CASE("what is nowhere so thick vanishes, and an open surface bounds no solid") {
     const tf::mesh cube = test::box(1, 1, 1);
     CHECK(tf::offset(cube, -0.6).certificate.status == tf::status::vanished);
@@ -209,9 +261,42 @@ TEST_CASE("what makes no sense is refused, with what would do") {
     }
 }
 
-TEST_CASE("it stops when it is told to") {
-    const auto made =
-        tf::offset(test::ball(3, 1.0), 0.2, {.progress = [](double) { return false; }});
-    CHECK(made.certificate.status == tf::status::cancelled);
-    CHECK(made.mesh.faces.empty());
+TEST_CASE("it stops when it is told to, whenever that is") {
+    const tf::mesh ball = test::ball(3, 1.0);
+    int heard = 0;
+    (void)tf::hollow(ball, 0.2, {}, {.progress = [&](double) { return ++heard > 0; }});
+    CHECK(heard > 12);
+    for (int stop = 0; stop < heard; stop += 3) {
+        int calls = 0;
+        const auto made =
+            tf::hollow(ball, 0.2, {}, {.progress = [&](double) { return ++calls <= stop; }});
+        CHECK(made.certificate.status == tf::status::cancelled);
+        CHECK(made.mesh.faces.empty());
+        CHECK(calls == stop + 1);
+    }
+}
+
+TEST_CASE("each verb says its own name") {
+    const tf::mesh cube = test::box(1, 1, 1);
+    const auto message = [](const auto& call) -> std::string {
+        try {
+            call();
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return {};
+    };
+    for (const double r : {1.0, 1e-4, 1e-15}) {
+        const tf::offset_options how{.resolution = r};
+        CHECK(message([&] { (void)tf::offset(cube, 0.1, how); }).starts_with("treeform::offset: "));
+        CHECK(message([&] {
+                  (void)tf::hollow(cube, 0.1, {}, how);
+              }).starts_with("treeform::hollow: "));
+        CHECK(message([&] {
+                  (void)tf::thicken(cube, 0.1, {}, how);
+              }).starts_with("treeform::thicken: "));
+    }
+    CHECK(message([] {
+              (void)tf::thicken(tf::mesh{{}, {{0, 1, 2}}}, 1.0);
+          }).starts_with("treeform::thicken: "));
 }

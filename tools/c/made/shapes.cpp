@@ -42,6 +42,9 @@ void glue::fill(keeper& kept, const tf::offset_result& from, treeform_offset_res
     to.least = from.statistics.least;
     to.greatest = from.statistics.greatest;
     to.cells = from.statistics.cells;
+    to.sealed_cavities = from.statistics.sealed_cavities;
+    to.blind_drains = or_null(from.blind_drains);
+    to.blind_drain_count = from.blind_drains.size();
 }
 
 tf::simplify_options glue::read(const treeform_simplify_options* options) {

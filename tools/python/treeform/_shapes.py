@@ -27,9 +27,12 @@ class OffsetResult(MadeMesh):
     """A solid at a distance from a mesh, around it or hollow.
 
     statistics: What it took, and was measured.
+    blind_drains: (n,) Of `hollow`: numbers of drains that are not known to lead from outside into a
+        cavity: an end of their axis is neither there nor there.
     """
 
     statistics: dict[str, Any]
+    blind_drains: Ids
 # end
 
 

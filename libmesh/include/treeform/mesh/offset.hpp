@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace treeform {
 
@@ -21,7 +22,9 @@ struct offset_options {
     /// Edge of the cells that the surface is made in, in the mesh's length unit: at most half of
     /// the distance. Every point of space whose distance differs from the one asked for by more
     /// than twice this is on the right side of the surface. Details that are smaller may be lost.
-    /// Where it is not given, half of the distance, and no more than a 128th of the diagonal.
+    /// Where it is not given, a quarter of the distance, and no more than a 64th of the diagonal of
+    /// the result; but for surfaces of more than some 2^16 cells (170,000 faces) so much that there
+    /// are no more, or half of the distance. `offset_statistics` has it, and the error reached.
     std::optional<double> resolution{};
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
@@ -38,6 +41,8 @@ struct offset_statistics {
     double least = 0.0;
     double greatest = 0.0;
     std::uint64_t cells = 0;  ///< that the surface may pass through
+    /// Of `hollow`: cavities that nothing leads out of, those of the input, too.
+    std::uint64_t sealed_cavities = 0;
 };
 
 /// The mesh, and what was checked.
@@ -45,9 +50,13 @@ struct TREEFORM_API offset_result {
     treeform::mesh mesh;
     /// Status ok says, checked on the coordinates above: a closed manifold, outward, no two faces
     /// of which meet beyond common corners and edges. `open_input`: no solid was given, and `open`
-    /// says where. `vanished`: nothing is left, as the solid is nowhere that thick.
+    /// says where. `vanished`: nothing is left, as the solid is nowhere that thick, or by less than
+    /// a cell.
     treeform::certificate certificate{};
     offset_statistics statistics{};
+    /// Of `hollow`: numbers of drains that are not known to lead from outside into a cavity: an end
+    /// of their axis is neither there nor there.
+    std::vector<std::uint32_t> blind_drains{};
 
     /// The mesh.
     /// \throws not_certified_error unless the certificate's status is ok
@@ -79,8 +88,9 @@ struct drain {
 };
 
 /// The solid without what is further inside than `wall`: its surface stays bit for bit, around
-/// cavities. Each drain runs through the wall along the shortest way to a cavity. `statistics` are
-/// those of the cavities. `vanished` where there is none.
+/// cavities. Each drain runs through the wall along the shortest way to a cavity, and as far beyond
+/// both ends as it is wide, but not more than half of the way to what is next there. `statistics`
+/// are those of the cavities. `vanished` where there is none.
 ///
 /// \throws std::invalid_argument as `offset`, for a wall that is not positive, and for a drain that
 ///         is not finite or whose diameter is not positive

@@ -57,6 +57,7 @@ py::object object(of_result, tf::offset_result&& from) {
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
     made["certificate"] = certificate;
     made["statistics"] = counters(from.statistics);
+    made["blind_drains"] = as_python(std::move(from.blind_drains));
     return object_of("treeform._shapes", "OffsetResult", made);
 }
 
@@ -376,6 +377,7 @@ py::dict counters(const tf::offset_statistics& from) {
     made["least"] = from.least;
     made["greatest"] = from.greatest;
     made["cells"] = from.cells;
+    made["sealed_cavities"] = from.sealed_cavities;
     return made;
 }
 

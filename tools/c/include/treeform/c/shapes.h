@@ -29,8 +29,10 @@ typedef struct treeform_offset_options {
     /// Edge of the cells that the surface is made in, in the mesh's length unit: at most half of
     /// the distance. Every point of space whose distance differs from the one asked for by more
     /// than twice this is on the right side of the surface. Details that are smaller may be lost.
-    /// Where it is not given, half of the distance, and no more than a 128th of the diagonal; NaN:
-    /// not given
+    /// Where it is not given, a quarter of the distance, and no more than a 64th of the diagonal
+    /// of the result; but for surfaces of more than some 2^16 cells (170,000 faces) so much that
+    /// there are no more, or half of the distance. `offset_statistics` has it, and the error
+    /// reached; NaN: not given
     double resolution;
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
@@ -47,7 +49,8 @@ typedef struct treeform_offset_result {
     treeform_arrays mesh;
     /// Status ok says, checked on the coordinates above: a closed manifold, outward, no two faces
     /// of which meet beyond common corners and edges. `open_input`: no solid was given, and `open`
-    /// says where. `vanished`: nothing is left, as the solid is nowhere that thick.
+    /// says where. `vanished`: nothing is left, as the solid is nowhere that thick, or by less
+    /// than a cell.
     const treeform_certificate* certificate;
     double distance;    ///< that was asked for, without its sign
     double resolution;  ///< that was used
@@ -57,6 +60,12 @@ typedef struct treeform_offset_result {
     double least;
     double greatest;
     uint64_t cells;  ///< that the surface may pass through
+    /// Of `treeform_hollow`: cavities that nothing leads out of, those of the input, too.
+    uint64_t sealed_cavities;
+    /// [blind_drain_count] Of `treeform_hollow`: numbers of drains that are not known to lead from
+    /// outside into a cavity: an end of their axis is neither there nor there.
+    const uint32_t* blind_drains;
+    size_t blind_drain_count;
 } treeform_offset_result;
 // end
 
