@@ -77,33 +77,35 @@ mesh used_part(const char* verb, mesh_view given) {
 }
 
 /// As fine as is usual, but no finer than for so many cells as are usual.
-double usual_resolution(mesh_view mesh, double diagonal, double distance, wanted_side side) {
+double usual_resolution(mesh_view mesh, double diagonal, double distance, double least,
+                        wanted_side side) {
     const bool grows = side != wanted_side::inside;
     const double extent = diagonal + (grows ? 2.0 * distance : 0.0);
     const double area = surface_area(mesh) * (side == wanted_side::any ? 2.0 : 1.0) +
                         (grows ? 4.0 * std::numbers::pi * distance * distance : 0.0);
     const double fine = std::min(usual_share * distance, extent / usual_extent);
     return std::min(most_share * distance,
-                    std::max(fine, std::sqrt(cells_per_square * area / usual_cells)));
+                    std::max({least, fine, std::sqrt(cells_per_square * area / usual_cells)}));
 }
 
 double resolution_for(mesh_view mesh, double distance, wanted_side side, const request& asked) {
     const box3 box = *bounding_box(mesh.points);
     const double size = box.diagonal();
     if (!(size + distance < 0x1p150)) asked.refuse("lengths of 2^150 and more are not taken");
-    const double step = asked.options.resolution ? *asked.options.resolution
-                                                 : usual_resolution(mesh, size, distance, side);
-    asked.require_positive(step, "the resolution");
-    if (step > most_share * distance)
-        asked.refuse("the resolution " + detail::base::brief(step) +
-                     " is too coarse: half of the distance, " +
-                     detail::base::brief(most_share * distance) + ", is the most");
     std::array<point3, 2> ends{box.min, box.max};
     for (std::size_t k = 0; k < 3; ++k) {
         ends[0][k] -= distance;
         ends[1][k] += distance;
     }
     const double least = least_steps * coordinate_step(ends, asked.options.precision);
+    const double step = asked.options.resolution
+                            ? *asked.options.resolution
+                            : usual_resolution(mesh, size, distance, least, side);
+    asked.require_positive(step, "the resolution");
+    if (step > most_share * distance)
+        asked.refuse("the resolution " + detail::base::brief(step) +
+                     " is too coarse: half of the distance, " +
+                     detail::base::brief(most_share * distance) + ", is the most");
     if (step < least)
         asked.refuse("the resolution " + detail::base::brief(step) +
                      " is finer than coordinates allow there: " + detail::base::brief(least) +

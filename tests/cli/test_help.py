@@ -25,7 +25,7 @@ VALUES = {"X,Y,Z": "0,0,-1", "X,Y[,Z]": "9,9", "DIST": "1", "SEC": "1", "DEG": "
           "FACE|X,Y,Z": "1", "KIND": "plane", "EXT": "ply", "SET": "90", "EXPR": "a+b",
           "N:FILE": "1:m", "SHARE": "1%", "WHEN": "never", "V,...": "iso,top", "WxH": "90x60",
           "V": "1", "H,...": "1", "T": "1", "HALF": "below", "D": "1", "W": "1", "R": "0.1",
-          "SIDE": "both", "X,Y,Z,D": "0,0,0,1"}
+          "SIDE": "both", "HOW": "none", "X,Y,Z,D": "0,0,0,1"}
 WORDS = {"--precision": "float", "--png": "p.png", "--weights": "equal", "--metric": "plane"}
 # Options that are refused without others, or beside -o.
 WITH = {"--pick": ["--feature", "plane"], "--pick-fixed": ["--feature", "plane"],

@@ -245,6 +245,8 @@ class Reports(PlaceTest):
                 (["parts", "slit.obj", "-n"], 0),
                 (["simplify", "part.obj", "--distance", "0.01", "-o", "few.stl"], 0),
                 (["offset", "part.obj", "--distance", "0.4", "--resolution", "0.1", "-n"], 0),
+                (["hollow", "part.obj", "--wall", "0.2", "--drain", "0.5,0.5,0,0.1", "-n"], 0),
+                (["info", "part.obj", "--units", "mm"], 0),
                 (["info", "part.obj", "flat.obj", "huge.obj", "missing.obj"], 3)]:
             yield arguments, status
 

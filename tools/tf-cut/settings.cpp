@@ -94,7 +94,7 @@ void add_modes(command_line& line) {
                        "  data/two_spheres.stl: 1 part: 320 faces, volume 4.04704\n",
                .without = both(both(of_planes, of_one), {"--max-move"})});
     line.mode({.names = "info",
-               .text = "size, solid or why not, area, volume, center, thinnest wall",
+               .text = "size, solid or why not, volume, center, thinnest wall",
                .usage = "info [OPTIONS] INPUT...",
                .more =
                    "Of many inputs, prints a table at the end.\n\nExamples:\n"
@@ -170,9 +170,9 @@ void add_options(command_line& line, cut_settings& s) {
                        "and leave the pieces open"});
     line.option(s.walls,
                 {"--walls", "HOW",
-                 "info: thinnest wall of a solid by ray, from the middle\n"
-                 "of each face inward; by sphere, within, which takes ten\n"
-                 "times as long; none",
+                 "info: thinnest wall of a solid: ray, from the middle\n"
+                 "of each face inward; sphere, the largest ball there\n"
+                 "(ten times as long); or none",
                  "ray"},
                 wall_measures);
     add_max_move(line, s.limits);

@@ -190,6 +190,11 @@ TEST_CASE("without a resolution, cells are a share of the distance within a budg
         CHECK(made.statistics.greatest < 1.02 * d);
         CHECK(made.statistics.least > 0.96 * d);
     }
+    // As fine as 32-bit coordinates allow there, where that is coarser.
+    const tf::offset_options rough{.precision = tf::precision::float32};
+    const auto far = tf::offset(test::moved(cube, {100, 0, 0}), 0.3, rough);
+    checked(far);
+    CHECK(far.statistics.resolution == 0.125);
 }
 
 TEST_CASE("what is nowhere so thick vanishes, and an open surface bounds no solid") {
