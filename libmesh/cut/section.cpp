@@ -4,6 +4,7 @@
 #include <libmesh/cut/nested_loops.hpp>
 #include <libmesh/cut/plane_levels.hpp>
 #include <libmesh/weld/joined_faces.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/section.hpp>
 
 #include <algorithm>
@@ -68,9 +69,49 @@ void measure(section_loop& loop, std::span<const point2> points) {
     if (loop.closed) loop.area = twice / 2;
 }
 
+/// Whether the faces lie in one plane and look the same way, exactly. Not where one has no area.
+bool continues(mesh_view mesh, std::uint32_t a, std::uint32_t b) {
+    const auto &p = mesh.faces[a], &q = mesh.faces[b];
+    const auto at = [&](std::uint32_t v) -> const point3& { return mesh.points[v]; };
+    for (const std::uint32_t v : q)
+        if (v != p[0] && v != p[1] && v != p[2] &&
+            orient3d(at(p[0]), at(p[1]), at(p[2]), at(v)) != 0)
+            return false;
+    for (int axis = 0; axis < 3; ++axis)
+        if (const int turn = orient2d(axis, at(p[0]), at(p[1]), at(p[2])); turn != 0)
+            return turn == orient2d(axis, at(q[0]), at(q[1]), at(q[2]));
+    return false;
+}
+
+/// Leaves out points at which loops go straight on, from a face to another one in its plane. Those
+/// of loops whose faces disagree stay.
+void straighten(mesh_view mesh, cut::layer_loops& traced) {
+    std::size_t to = 0;
+    for (auto& [first, count, closed, oriented] : traced.loops) {
+        const std::size_t begin = std::exchange(first, to), end = begin + count;
+        std::vector<std::size_t> kept;
+        for (std::size_t i = begin; i < end; ++i) {
+            const bool ends = !closed && (i == begin || i + 1 == end);
+            if (ends || !oriented ||
+                !continues(mesh, traced.faces[i == begin ? end - 1 : i - 1], traced.faces[i]))
+                kept.push_back(i);
+        }
+        const bool flat = closed && kept.size() < 3;  // there and back, through nothing
+        if (!flat) count = kept.size();
+        for (std::size_t i = 0; i < count; ++i, ++to) {
+            const std::size_t from = flat ? begin + i : kept[i];
+            traced.points[to] = traced.points[from];
+            traced.faces[to] = traced.faces[from];
+        }
+    }
+    traced.points.resize(to);
+    traced.faces.resize(to);
+}
+
 drawn_layer draw(mesh_view mesh, const cut::plane_levels& levels, const plane_frame& frame,
                  std::uint32_t k, std::span<const std::uint32_t> faces) {
     cut::layer_loops traced = cut::loops_of(mesh, levels, k, faces);
+    straighten(mesh, traced);
     drawn_layer layer;
     std::vector<point3> centers;
     centers.reserve(traced.points.size());

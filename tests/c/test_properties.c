@@ -120,6 +120,7 @@ static void test_hull(void) {
     CHECK(hull->dimension == 3 && hull->face_count == 12 && hull->side_count == 6);
     CHECK(hull->sides[0].area == 1.0 && hull->corner_begin[6] == 24);
     CHECK(hull->corners[0] < 8);
+    CHECK(hull->mesh.point_count == 8 && hull->mesh.face_count == 12);
     treeform_free(hull);
     treeform_free(cloud);
 }

@@ -64,7 +64,7 @@ static void test_measured_shapes(void) {
 static void test_isolines(void) {
     treeform_mesh* mesh = cube(0, 0, 0, 2);
     double values[8];
-    const double levels[2] = {0.5, 1};
+    const double levels[2] = {0.5, 1}, normal[3] = {1, 1, 0};
     treeform_isolines_result* lines = NULL;
     treeform_cut_result* pieces = NULL;
     int calls = 0, i = 0;
@@ -72,6 +72,10 @@ static void test_isolines(void) {
     OK(treeform_isolines(mesh, values, levels, 2, NULL, NULL, &lines));
     CHECK(lines && lines->line_count == 2 && lines->lines[0].closed && lines->lines[1].length == 8);
     CHECK(lines && lines->points[3 * lines->lines[1].first_point + 2] == 1);
+    OK(treeform_write_isolines(path_in_work("lines.obj"), lines, NULL, NULL, NULL));
+    OK(treeform_write_isolines(path_in_work("lines.txt"), lines, normal, "svg", "in"));
+    INVALID("normal",
+            treeform_write_isolines(path_in_work("lines.svg"), lines, values, NULL, NULL));
     treeform_free(lines);
     ENDS(TREEFORM_CANCELLED, "", treeform_isolines(mesh, values, levels, 2, stop, &calls, &lines));
     INVALID("values", treeform_isolines(mesh, NULL, levels, 2, NULL, NULL, &lines));

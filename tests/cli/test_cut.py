@@ -82,6 +82,38 @@ class Cut(ToolTest):
         self.run_tool("section", part, "--height", "0.5", "-o", "s.svg", status=4)  # is there
         self.assertTrue(self.read("s.svg").count("<g") == 4)
 
+    def test_isolines_are_of_heights_distances_and_properties(self):
+        part = self.put_box()
+        run = self.run_tool("isolines", part, "--count", "3", "-o", "a.svg", status=0)
+        self.assertEqual(run.text, part + ": 3 levels, 3 lines, length 48\n")
+        self.assertEqual(self.read("a.svg").count("<g id=\"level"), 3)
+        run = self.run_tool("isolines", part, "--normal", "1,0,0", "--at", "1,0,0", "--levels",
+                            "0.5,9", "-o", "a.obj", status=0)
+        self.assertIn(": 2 levels, 1 line, length 10", run.text)
+        self.assertIn("v 1.5 ", self.read("a.obj"))
+        write(self.path("to.obj"), box((1, 1, 0), (3, 3, 1)))
+        entry = self.report("isolines", part, "--to", "to.obj", "--levels",
+                            "1", "-o", "a.dxf", status=0)["files"][0]
+        self.assertTrue(entry["isolines"]["signed"])
+        self.assertAlmostEqual(entry["isolines"]["greatest"], 2 ** 0.5)
+        lines = [line + (f" {i % 2} 0.5 0" if line.startswith("v ") else "")
+                 for i, line in enumerate(self.read("part.obj").splitlines())]
+        self.put("colors.obj", "\n".join(lines) + "\n")
+        run = self.run_tool("isolines", "colors.obj", "--value", "red", "--levels", "0.5", "-o",
+                            "-", status=0)
+        self.assertTrue(json.loads(run.out)["lines"])
+        run = self.run_tool("isolines", "colors.obj", "--value", "gren", "--levels", "0.5", "-n",
+                            status=2)
+        self.assertIn("there are height, distance, red, green, blue", run.err)
+        run = self.run_tool("isolines", part, "--levels", "5", "-n", "--html", "a.html", status=0)
+        self.assertIn("no level is met: height is between 0 and 1", run.err)
+        self.assertIn("isolines", self.read("a.html"))
+        for arguments in ([], ["--levels", "1", "--value", "height", "--to", "a.obj"],
+                          ["--value", "distance", "--levels", "1"], ["--count", "0"],
+                          ["--levels", "1", "-o", "a.stl"], ["--levels", "1", "--height", "1"]):
+            self.run_tool("isolines", part, *arguments, *([] if "-o" in arguments else ["-n"]),
+                          status=2)
+
     def test_open_and_turned_surfaces_are_told_of(self):
         points, faces = box((0, 0, 0), (1, 1, 1))
         upright = [i for i, f in enumerate(faces) if len({points[v][2] for v in f}) == 2]

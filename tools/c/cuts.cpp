@@ -22,7 +22,7 @@ std::vector<T> copied_as(const C* values, std::size_t count, const char* name) {
 }  // namespace
 
 treeform_code treeform_write_section(const char* path, const treeform_section_result* section,
-                                     const char* format) {
+                                     const char* format, const char* unit) {
     return glue::guard([&] {
         const treeform_section_result& s = glue::need(section, "section");
         tf::section_result copy;
@@ -32,7 +32,23 @@ treeform_code treeform_write_section(const char* path, const treeform_section_re
                                             s.point_count, "points");
         copy.frame = {glue::point(s.x, "x"), glue::point(s.y, "y"),
                       glue::point(s.normal, "normal")};
-        tf::write_section(&glue::need(path, "path"), copy, glue::text(format));
+        tf::write_section(&glue::need(path, "path"), copy, glue::text(format), glue::text(unit));
+    });
+}
+
+treeform_code treeform_write_isolines(const char* path, const treeform_isolines_result* lines,
+                                      const double normal[3], const char* format,
+                                      const char* unit) {
+    return glue::guard([&] {
+        const treeform_isolines_result& given = glue::need(lines, "lines");
+        tf::isolines_result copy;
+        copy.lines = copied_as<tf::isoline>(given.lines, given.line_count, "lines");
+        copy.points = copied_as<tf::point3>(reinterpret_cast<const tf::point3*>(given.points),
+                                            given.point_count, "points");
+        tf::oriented_plane seen;
+        if (normal != nullptr) seen.normal = glue::point(normal, "normal");
+        tf::write_isolines(&glue::need(path, "path"), copy, seen.frame(), glue::text(format),
+                           glue::text(unit));
     });
 }
 

@@ -143,6 +143,7 @@ treeform_code treeform_convex_hull(const treeform_mesh* mesh, treeform_progress 
         }
         h.corner_begin = made->keep(std::move(begin)).data();
         h.corners = made->keep(std::move(corners)).data();
+        h.mesh = glue::arrays(made->keep(found.mesh(points)));
         glue::give(std::move(made), hull);
     });
 }

@@ -19,7 +19,9 @@ namespace tools {
 namespace {
 
 json planes_entry(const cut_settings& s) {
-    if (s.mode == cut_mode::parts || s.mode == cut_mode::info || s.bed) return nullptr;
+    if (s.mode >= cut_mode::parts || s.bed) return nullptr;
+    if (s.mode == cut_mode::isolines)
+        return {{"at", s.plane.at}, {"normal", s.plane.normal}, {"heights", nullptr}};
     return {{"at", s.plane.at}, {"normal", s.plane.normal}, {"heights", s.heights}};
 }
 
@@ -144,7 +146,8 @@ void enter_blank_report(job& work, const cut_settings& s, const usable_input& in
                          {"used", nullptr},
                          {"largest", nullptr},
                          {"step", nullptr}};
-    for (const char* key : {"layers", "pieces", "distances", "cavities", "info", "output"})
+    for (const char* key :
+         {"layers", "isolines", "pieces", "distances", "cavities", "info", "output"})
         entry[key] = nullptr;
 }
 

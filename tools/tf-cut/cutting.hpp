@@ -28,6 +28,7 @@ namespace tools {
 enum class cut_mode : std::uint8_t {
     half,
     section,
+    isolines,
     pieces,
     parts,
     info,
@@ -36,8 +37,9 @@ enum class cut_mode : std::uint8_t {
     hollow,
     thicken
 };
-inline constexpr std::array<const char*, 9> cut_modes{
-    "half", "section", "pieces", "parts", "info", "simplify", "offset", "hollow", "thicken"};
+inline constexpr std::array<const char*, 10> cut_modes{"half",   "section", "isolines", "pieces",
+                                                       "parts",  "info",    "simplify", "offset",
+                                                       "hollow", "thicken"};
 inline constexpr std::array<const char*, 3> thick_sides{"both", "front", "back"};
 
 enum class kept_half : std::uint8_t { both, below, above };
@@ -56,6 +58,14 @@ struct shape_settings {
     std::uint64_t fewest_faces = 0;
 };
 
+/// Of `isolines`.
+struct line_settings {
+    std::string value = "height";  ///< or "distance", or the name of a property of vertices
+    std::string to{};              ///< the file that `distance` is from
+    std::vector<double> levels{};
+    std::uint64_t count = 0;  ///< of levels, where none are given
+};
+
 struct cut_settings {
     std::string mode_text{};
     cut_mode mode = cut_mode::half;
@@ -69,6 +79,7 @@ struct cut_settings {
     double min_volume = 0.0;
     std::uint64_t largest = 0;  ///< 0: all
     shape_settings shape{};
+    line_settings lines{};
     measured_walls walls = measured_walls::ray;
     std::string caps{};  ///< name of the property with the plane of each cap; or none
     std::filesystem::path output{};
@@ -112,6 +123,24 @@ void say_pieces(job& work, const cut_settings& s, const usable_input& input,
                 const std::vector<cut_off>& pieces);
 void say_info(job& work, const cut_settings& s, const usable_input& input);
 
+/// What `make` returns; where its arguments do not suit the mesh, the option is to blame.
+template <class Make>
+[[nodiscard]] auto suitable(const char* option, const Make& make) {
+    try {
+        return make();
+    } catch (const std::invalid_argument& error) {
+        const std::string text = error.what();
+        refuse(std::string(option) + text.substr(std::min(text.size(), text.find(": "))));
+    }
+}
+
+/// Loops in planes, and lines where a value has levels: made, said, shown and written.
+exit_status make_section(job& work, const usable_input& input, cut_settings s);
+exit_status make_isolines(job& work, const usable_input& input, const cut_settings& s);
+
+/// How lines are written; json to standard output.
+[[nodiscard]] std::string lines_format(const std::filesystem::path& path);
+
 /// What `simplify`, `offset`, `hollow` and `thicken` make; enters the distances.
 cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
                  tf::precision precision);
@@ -124,8 +153,14 @@ void write_pieces(job& work, const cut_settings& s, const usable_input& input,
 /// (bad_usage)
 void check_pieces_path(const common_options& options, std::size_t pieces);
 
+/// Sides of loops or isolines, to be drawn.
+struct drawn_lines {
+    std::string name{};
+    std::vector<std::array<tf::point3, 2>> sides{};
+};
+
 /// Page and picture, where they are asked for.
 void write_page(job& work, const usable_input& input, const std::string& verdict, bool good,
-                const std::vector<cut_off>& pieces, const tf::section_result* section);
+                const std::vector<cut_off>& pieces, const drawn_lines* lines);
 
 }  // namespace tools

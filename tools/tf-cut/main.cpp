@@ -27,44 +27,6 @@ using tools::exit_status;
 using tools::refuse;
 using tools::usable_input;
 
-/// What `make` returns; where its arguments do not suit the mesh, the option is to blame.
-template <class Make>
-auto suitable(const char* option, const Make& make) {
-    try {
-        return make();
-    } catch (const std::invalid_argument& error) {
-        const std::string text = error.what();
-        refuse(std::string(option) + text.substr(std::min(text.size(), text.find(": "))));
-    }
-}
-
-exit_status make_section(tools::job& work, const usable_input& input, cut_settings s) {
-    if (s.layers > 0.0) {
-        s.heights = suitable("--layers", [&] {
-            return tf::layer_heights(input.file.mesh.points, s.plane, s.layers);
-        });
-        work.entry["planes"]["heights"] = s.heights;
-    }
-    tf::section_result made;
-    {
-        const auto timing = work.time("cut");
-        made = tf::section(input.file.mesh, s.plane, s.heights, {work.progress("section")});
-    }
-    work.call_ended(made.status == tf::status::cancelled);
-    tools::say_section(work, s, input, made);
-    tools::write_page(work, input, "section", true, {}, &made);
-    if (s.output.empty() || work.options.dry_run) return tools::done;
-    const auto timing = work.time("write");
-    tools::output_place place(s.output, work.options.force);
-    tf::write_section(place.writable(), made, tools::extension_of(s.output));
-    place.commit();
-    work.entry["output"] = {{"file", s.output.string()},
-                            {"format", tools::extension_of(s.output)},
-                            {"precision_out", nullptr},
-                            {"max_move", nullptr}};
-    return tools::done;
-}
-
 std::vector<cut_off> parts_of(const usable_input& input, const cut_settings& s) {
     tf::components_options options{.min_volume = s.min_volume};
     if (s.largest > 0) options.largest = s.largest;
@@ -117,7 +79,7 @@ tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settin
                                   .caps = !s.open,
                                   .keep_cuts = tf::carry_sources(source).merging_mixes_values(),
                                   .progress = work.progress("cut")};
-    tf::cut_result made = suitable(s.bed ? "--bed" : "--height", [&] {
+    tf::cut_result made = tools::suitable(s.bed ? "--bed" : "--height", [&] {
         return s.bed ? tf::cut_to_fit(input.file.mesh, *s.bed, options)
                      : tf::cut(input.file.mesh, s.plane, s.heights, options);
     });
@@ -140,7 +102,8 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
     tools::check_outputs(work, {}, {s.output});
     const usable_input input = tools::read_usable(work);
     tools::enter_blank_report(work, s, input);
-    if (s.mode == cut_mode::section) return make_section(work, input, s);
+    if (s.mode == cut_mode::section) return tools::make_section(work, input, s);
+    if (s.mode == cut_mode::isolines) return tools::make_isolines(work, input, s);
     if (s.mode == cut_mode::info) {
         tools::say_info(work, s, input);
         tools::write_page(work, input, "info", true, {}, nullptr);
@@ -151,7 +114,7 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
         const auto timing = work.time("cut");
         pieces = parts_of(input, s);
     } else if (s.mode > cut_mode::info) {
-        pieces.push_back(suitable(tools::option_of(s.mode), [&] {
+        pieces.push_back(tools::suitable(tools::option_of(s.mode), [&] {
             return tools::shape_of(work, s, input, precision_of(work, input));
         }));
         if (!pieces[0].certificate) return not_made(work, input, pieces[0].certificate);

@@ -37,26 +37,17 @@ void add_pieces(scene& shown, const std::vector<cut_off>& pieces) {
     shown.tables.push_back(std::move(table));
 }
 
-void add_section(scene& shown, const tf::section_result& section) {
-    shown.classes.push_back({"loops", "#e02020"});
+void add_lines(scene& shown, const drawn_lines& drawn) {
+    shown.classes.push_back({drawn.name, "#e02020"});
     scene_lines lines{.kind = static_cast<std::uint8_t>(shown.classes.size() - 1)};
-    for (const tf::section_layer& layer : section.layers)
-        for (std::uint32_t l = 0; l < layer.loop_count; ++l) {
-            const tf::section_loop& loop = section.loops[layer.first_loop + l];
-            for (std::size_t i = 0; i + (loop.closed ? 0 : 1) < loop.point_count; ++i) {
-                const std::size_t next = (i + 1) % loop.point_count;
-                lines.ends.push_back(
-                    {section.in_space(layer, section.points[loop.first_point + i]),
-                     section.in_space(layer, section.points[loop.first_point + next])});
-            }
-        }
+    lines.ends.assign(drawn.sides.begin(), drawn.sides.end());
     shown.lines.push_back(std::move(lines));
 }
 
 }  // namespace
 
 void write_page(job& work, const usable_input& input, const std::string& verdict, bool good,
-                const std::vector<cut_off>& pieces, const tf::section_result* section) {
+                const std::vector<cut_off>& pieces, const drawn_lines* lines) {
     if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-cut");
@@ -69,10 +60,10 @@ void write_page(job& work, const usable_input& input, const std::string& verdict
         scene_mesh mesh{.mesh = input.file.mesh, .kind = {0}, .name = work.name};
         for (std::uint32_t f = 0; f < input.file.mesh.faces.size(); ++f)
             mesh.number.push_back(input.source().stored_face(f));
-        mesh.ghost = section != nullptr;
+        mesh.ghost = lines != nullptr;
         shown.meshes.push_back(std::move(mesh));
     }
-    if (section != nullptr) add_section(shown, *section);
+    if (lines != nullptr) add_lines(shown, *lines);
     write_page(work, std::move(shown));
 }
 

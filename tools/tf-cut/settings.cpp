@@ -77,6 +77,15 @@ void add_modes(command_line& line) {
                        "  $ tf-cut section data/two_spheres.stl --layers 0.5 -o layers.svg\n"
                        "  data/two_spheres.stl: 4 layers, 8 loops\n",
                .without = both(both(of_meshes, of_one), {"--max-move"})});
+    line.mode({.names = "isolines",
+               .text = "lines where a value has levels; written like sections",
+               .usage = "isolines --levels L[,L...] [OPTIONS] INPUT...",
+               .more = "Prints how many levels and lines there are, and their length. Lines end\n"
+                       "where the mesh does. SVG has them as seen along --normal, the other\n"
+                       "formats in space.\n\nExamples:\n"
+                       "  $ tf-cut isolines data/sphere.ply --count 3 -o lines.svg\n"
+                       "  data/sphere.ply: 3 levels, 3 lines, length 17.1219\n",
+               .without = both(both(of_meshes, of_one), {"--max-move", "--height"})});
     line.mode({.names = "pieces",
                .text = "what is between planes, or fits a printer's bed",
                .usage = "pieces --bed X,Y[,Z] [OPTIONS] INPUT...",
@@ -153,6 +162,21 @@ void add_options(command_line& line, cut_settings& s) {
                  "section: planes in the middles of layers of this\n"
                  "thickness, from the lowest point to the highest"},
                 [&s](std::string_view v) { s.layers = parse_number("--layers", v); });
+    line.option(s.lines.value, {"--value", "NAME",
+                                "isolines: of what: height, along --normal above --at;\n"
+                                "distance, of --to, below 0 inside a closed mesh;\n"
+                                "or a property of vertices: red, quality, ...",
+                                "height"});
+    line.option({"--to", "MESH", "isolines: of the distance from this file"},
+                [&s](std::string_view v) { s.lines.to = v; });
+    line.option({"--levels", "L,...", "isolines: of the value"}, [&s](std::string_view v) {
+        const auto count = static_cast<std::size_t>(std::ranges::count(v, ',')) + 1;
+        s.lines.levels = parse_numbers("--levels", v, count);
+    });
+    line.option(s.lines.count, {"--count", "N",
+                                "isolines: so many levels, equally far apart, between\n"
+                                "the least value and the greatest",
+                                "0"});
     line.option({"--bed", "X,Y[,Z]",
                  "pieces: that fit into this, across x, y and z, as few\n"
                  "as there can be, of equal length"},
@@ -184,7 +208,8 @@ void add_options(command_line& line, cut_settings& s) {
 void add_what_to_give_back(command_line& line, cut_settings& s) {
     line.group("What to give back");
     line.output(s.output, {"-o, --output", "FILE",
-                           "where the result goes: loops as svg, dxf, obj or json;\n"
+                           "where the result goes: lines as svg, dxf, obj or json,\n"
+                           "\"-\" being json on standard output;\n"
                            "pieces as meshes, \"%d\" in the name being the number\n"
                            "of each, or as objects of one 3MF, OBJ or GLB"});
     line.option(s.caps, {"--caps", "P",
@@ -220,6 +245,18 @@ const char* const epilogue =
     "  piece could not be certified; 2 usage; 3 input; 4 output; 5 stopped (memory,\n"
     "  timeout, signal); 70 bug. Of several inputs, the highest.\n";
 
+void check_lines(const command_line& line, line_settings& lines) {
+    constexpr std::uint64_t most_levels = 100'000;
+    if (!line.given("--levels") && !line.given("--count"))
+        refuse("isolines: where? give --levels or --count");
+    if (lines.count > most_levels || (line.given("--count") && lines.count == 0))
+        refuse("--count: from 1 to 100,000");
+    if (!lines.to.empty() && line.given("--value") && lines.value != "distance")
+        refuse("--to is for --value distance");
+    if (!lines.to.empty()) lines.value = "distance";
+    if (lines.to.empty() && lines.value == "distance") refuse("--value distance needs --to");
+}
+
 void check_mode(const command_line& line, cut_settings& s) {
     const auto at = std::ranges::find(cut_modes, s.mode_text);
     if (at == cut_modes.end())
@@ -230,7 +267,9 @@ void check_mode(const command_line& line, cut_settings& s) {
             refuse(std::string(name) + " is not for " + s.mode_text);
     };
     using enum cut_mode;
-    for (const char* name : {"--normal", "--at", "--height"}) only(name, {half, section, pieces});
+    for (const char* name : {"--normal", "--at"}) only(name, {half, section, isolines, pieces});
+    only("--height", {half, section, pieces});
+    for (const char* name : {"--value", "--to", "--levels", "--count"}) only(name, {isolines});
     for (const char* name : {"--open", "--caps", "--max-move"}) only(name, {half, pieces});
     for (const char* name : {"--min-volume", "--largest"}) only(name, {parts});
     only("--layers", {section});
@@ -238,7 +277,7 @@ void check_mode(const command_line& line, cut_settings& s) {
     only("--walls", {info});
     only("--keep", {half});
     for (const char* name : {"--output", "--dry-run"})
-        only(name, {half, section, pieces, parts, simplify, offset, hollow, thicken});
+        only(name, {half, section, isolines, pieces, parts, simplify, offset, hollow, thicken});
     for (const std::string& name : of_meshes)
         only(name.c_str(), {half, pieces, parts, simplify, offset, hollow, thicken});
     for (const std::string& name : of_one)
@@ -259,6 +298,7 @@ void check_mode(const command_line& line, cut_settings& s) {
         refuse("--layers: a thickness above 0 is needed");
     if (s.mode == section && !placed && s.layers == 0.0)
         refuse("section: where? give --height, --at or --layers");
+    if (s.mode == isolines) check_lines(line, s.lines);
     if (line.given("--layers") && line.given("--height"))
         refuse("--layers and --height exclude each other");
     if (s.mode == pieces && !placed && !s.bed) refuse("pieces: where? give --bed or --height");
@@ -286,11 +326,12 @@ void add_settings(command_line& line, cut_settings& s) {
 void check_request(const command_line& line, cut_settings& s, common_options& options) {
     check_mode(line, s);
     if (s.mode == cut_mode::info) return;
-    if (s.mode == cut_mode::section) {
-        const std::string format = extension_of(s.output);
+    if (s.mode == cut_mode::section || s.mode == cut_mode::isolines) {
+        const std::string format = lines_format(s.output);
         if (!s.output.empty() && format != "svg" && format != "dxf" && format != "obj" &&
             format != "json")
-            refuse(s.output.string() + ": sections can be written as svg, dxf, obj or json");
+            refuse(s.output.string() +
+                   ": sections and isolines can be written as svg, dxf, obj or json");
     } else {
         options.output = s.output;
         check_common_options(line, options);

@@ -109,7 +109,7 @@ TEST_CASE("a box has a square in it") {
     CHECK(made.layers[0].area == 6.0);
     CHECK(made.layers[0].length == 10.0);
     CHECK(made.layers[0].at == tf::point3{0, 0, 0.5});
-    CHECK(made.points.size() == 8);  // corners, and diagonals of sides
+    CHECK(made.points.size() == 4);  // corners; diagonals of sides leave no point
     for (const tf::point2& p : made.points)
         CHECK((p.x == 0.0 || p.x == 2.0 || p.y == 0.0 || p.y == 3.0));
     CHECK(made.in_space(made.layers[0], {2, 3}) == tf::point3{2, 3, 0.5});
@@ -212,9 +212,30 @@ TEST_CASE("where a mesh ends, polylines are open, and where neighbors disagree t
         REQUIRE(made.loops.size() == 1);
         REQUIRE(made.loops[0].closed);
         REQUIRE(made.loops[0].oriented == (mask == 255));
-        REQUIRE(made.loops[0].point_count == 8);
+        REQUIRE(made.loops[0].point_count == (mask == 255 ? 4 : 8));
         REQUIRE(std::abs(made.loops[0].area) == 1.0);
     }
+}
+
+TEST_CASE("a line goes straight through faces in one plane, and bends by as little as they do") {
+    for (const double bend : {0.0, 0x1p-40}) {
+        tf::mesh strip;  // four squares, each of two triangles
+        for (int i = 0; i <= 4; ++i)
+            for (const double y : {0.0, 1.0})
+                strip.points.push_back({1.0 * i, y, i == 2 ? bend : 0.0});
+        for (std::uint32_t i = 0; i < 8; i += 2) {
+            strip.faces.push_back({i, i + 2, i + 3});
+            strip.faces.push_back({i, i + 3, i + 1});
+        }
+        const tf::section_result made = tf::section(strip, {{0, 0.25, 0}, {0, 1, 0}});
+        REQUIRE(made.loops.size() == 1);
+        CHECK(made.points.size() == (bend == 0.0 ? 2 : 5));
+        CHECK(made.faces[0] < 2);
+        CHECK(made.layers[0].length == 4.0);
+    }
+    // Two sheets of it, back to back: a loop through nothing keeps its points.
+    tf::mesh closed{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
+    CHECK(tf::section(closed, {{0, 0.25, 0}, {0, 1, 0}}).points.size() < 3);
 }
 
 TEST_CASE("planes through vertices, along edges and in faces, turned") {

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -55,6 +56,44 @@ TEST_CASE("sections are written as SVG, DXF, OBJ and JSON") {
         dxf.starts_with("0\nSECTION\n2\nENTITIES\n0\nPOLYLINE\n8\nLAYER0\n66\n1\n70\n9\n10\n0\n"));
     CHECK(dxf.find("0\nVERTEX\n8\nLAYER0\n10\n1\n20\n0\n30\n1\n70\n32\n") != std::string::npos);
     CHECK(dxf.ends_with("0\nSEQEND\n8\nLAYER0\n0\nENDSEC\n0\nEOF\n"));
+}
+
+TEST_CASE("a unit gives SVG its size on paper, and DXF its header") {
+    const test::own_folder folder("section_units");
+    const auto in_unit = [&](const std::string& name, const std::string& unit) {
+        tf::write_section(folder.path / name, cut_tetrahedron(false), {}, unit);
+        return test::bytes_of(folder.path / name);
+    };
+    CHECK(in_unit("a.svg", "cm").find(" width=\"10.02mm\" height=\"10.02mm\" viewBox") !=
+          std::string::npos);
+    CHECK(in_unit("a.dxf", "in")
+              .starts_with("0\nSECTION\n2\nHEADER\n9\n$"
+                           "INSUNITS\n70\n1\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"));
+    CHECK(in_unit("a.json", "um").starts_with("{\"unit\":\"um\",\"x\":"));
+    CHECK_THROWS_AS(in_unit("b.svg", "yard"), std::invalid_argument);
+    CHECK(!std::filesystem::exists(folder.path / "b.svg"));
+}
+
+TEST_CASE("isolines are written in space, and seen from a side as SVG") {
+    const test::own_folder folder("write_isolines");
+    const tf::mesh sheet{{{0, 0, 0}, {2, 0, 0}, {0, 0, 2}}, {{0, 1, 2}}};
+    const tf::isolines_result lines =
+        tf::isolines(sheet, std::array{0.0, 2.0, 2.0}, std::array{1.0, 1.5, 9.0});
+    const auto as = [&](const std::string& name, const tf::plane_frame& seen) {
+        tf::write_isolines(folder.path / name, lines, seen);
+        return test::bytes_of(folder.path / name);
+    };
+    CHECK(as("a.obj", {}) ==
+          "v 0 0 1\nv 1 0 0\nv 0 0 1.5\nv 1.5 0 0\no level0\nl 1 2\no level1\nl 3 4\n");
+    CHECK(as("a.json", {})
+              .starts_with("{\"lines\":[\n{\"level\":1,\"closed\":false,\"oriented\":true,"
+                           "\"length\":1.414213562"));
+    CHECK(as("a.dxf", {}).find("0\nVERTEX\n8\nLEVEL1\n10\n0\n20\n0\n30\n1.5\n70\n32\n") !=
+          std::string::npos);
+    const tf::plane_frame across = tf::oriented_plane{{}, {0, 1, 0}}.frame();  // z, x
+    CHECK(as("a.svg", across)
+              .find("<g id=\"level1\" data-level=\"1.5\">\n"
+                    "<path fill=\"none\" d=\"M1.5 0L0 -1.5\"/>") != std::string::npos);
 }
 
 TEST_CASE("open polylines are not filled and not closed") {

@@ -63,8 +63,23 @@ py::object section(const held_mesh& mesh, const std::array<double, 3>& at,
 }
 
 void write_section(const std::filesystem::path& path, const tf::section_result& section,
-                   const std::string& format) {
-    without_lock([&] { tf::write_section(path, section, format); });
+                   const std::string& format, const std::string& unit) {
+    without_lock([&] { tf::write_section(path, section, format, unit); });
+}
+
+void write_isolines(const std::filesystem::path& path, const py::list& lines,
+                    const array_of<double>& points, const std::array<double, 3>& normal,
+                    const std::string& format, const std::string& unit) {
+    tf::isolines_result all;
+    for (const py::handle line : lines)
+        all.lines.push_back(
+            {line.attr("level").cast<double>(), line.attr("first_point").cast<std::size_t>(),
+             line.attr("point_count").cast<std::size_t>(), line.attr("closed").cast<bool>(),
+             line.attr("oriented").cast<bool>(), line.attr("length").cast<double>()});
+    const std::span<const tf::point3> given = rows_of<tf::point3>(points);
+    all.points.assign(given.begin(), given.end());
+    const tf::plane_frame seen = plane_of({}, normal).frame();
+    without_lock([&] { tf::write_isolines(path, all, seen, format, unit); });
 }
 
 /// The pieces, and the certificate of all.
@@ -124,6 +139,7 @@ void add_cuts(py::module_& module) {
     py::class_<tf::section_result>(module, "SectionData");
     module.def("section", &section);
     module.def("write_section", &write_section);
+    module.def("write_isolines", &write_isolines);
     module.def("cut", &cut);
     module.def("cut_to_fit", &cut_to_fit);
     module.def("cut_along", &cut_along);

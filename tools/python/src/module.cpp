@@ -129,7 +129,7 @@ void make_jobs(py::module_& module) {
     for (const char* name : {"read", "read_bytes", "read_urdf", "self_intersections_of_file",
                              "search_of", "weld_of", "pack", "page", "picture"})
         make_job(module, name, job_kind::long_work);
-    for (const char* name : {"write", "write_section", "weld_stream"})
+    for (const char* name : {"write", "write_section", "write_isolines", "weld_stream"})
         make_job(module, name, job_kind::writes);
     for (const char* name : {"scatter", "search_tile", "finish"})
         make_job(module.attr("SearchInSteps"), name, job_kind::writes);

@@ -14,7 +14,7 @@ from ._nearness import Deviation
 from ._placement import Alignment, Depth, Impact, LaidFlat, Measure, Packing, Placement
 from ._properties import Feature, MeshDefects, SolidDefects, Topology
 from ._repair import ConvexHull, RepairResult, ResolveResult, WrapResult
-from ._shapes import Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness
+from ._shapes import Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness
 from ._weld import WeldResult, WeldStreamResult
 
 Floats = NDArray[np.float64]
@@ -195,8 +195,10 @@ def cut_along(mesh: HeldMesh, values: Floats, levels: Floats, options: CutOption
               progress: Watched = ...) -> tuple[list[CutPiece], Certificate]: ...
 def concatenate(meshes: list[HeldMesh],
                 progress: Watched = ...) -> tuple[Floats, Ids, Optional[FileData]]: ...
-def write_section(path: str, section: SectionData, format: str,
+def write_section(path: str, section: SectionData, format: str, unit: str,
                   progress: Watched = ...) -> None: ...
+def write_isolines(path: str, lines: list[Isoline], points: Floats, normal: Floats, format: str,
+                   unit: str, progress: Watched = ...) -> None: ...
 def find_rounding_defects(mesh: HeldMesh, placed: Floats,
                           progress: Watched = ...) -> tuple[int, int]: ...
 def join_equal_points(mesh: HeldMesh,

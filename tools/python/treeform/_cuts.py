@@ -111,11 +111,11 @@ class Section(Result):
         made: Floats = flat[:, :1] * x + flat[:, 1:] * y + up
         return made
 
-    def write(self, path: Union[str, os.PathLike[str]], *, format: str = "",
+    def write(self, path: Union[str, os.PathLike[str]], *, format: str = "", unit: str = "",
               progress: Progress = None) -> None:
         """Writes all layers as SVG, DXF, OBJ (lines in space) or JSON, by the extension or
-        `format`."""
-        _core.write_section(os.fspath(path), self._data, format, progress=progress)
+        `format`. With a unit, 'mm', 'cm', 'm', 'in', 'ft' or 'um', SVG has its size on paper."""
+        _core.write_section(os.fspath(path), self._data, format, unit, progress=progress)
 
 
 def _heights(heights: ArrayLike | None) -> Floats:

@@ -199,6 +199,13 @@ class ConvexHull(Result):
     normals: Floats
 # end
 
+    def mesh(self, points: Union[MeshLike, ArrayLike]) -> Mesh:
+        """The hull as a closed mesh, of the points that it uses. points: those it is the hull of."""
+        cloud = cloud_of(points)
+        used, faces = np.unique(self.faces, return_inverse=True)
+        vertices = as_mesh(points).vertices if cloud is None else np.asarray(cloud)
+        return Mesh(vertices[used], faces.reshape(-1, 3))
+
 
 def convex_hull(points: Union[MeshLike, ArrayLike], *, progress: Progress = None) -> ConvexHull:
     """The convex hull of points (n, 3), or of those of a mesh. Exact: no point is outside the plane of a face, and faces
@@ -208,6 +215,8 @@ def convex_hull(points: Union[MeshLike, ArrayLike], *, progress: Progress = None
     >>> hull = treeform.convex_hull(treeform.read("data/cube.stl"))
     >>> hull.dimension, len(hull.faces), hull.areas.tolist()
     (3, 12, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
+    >>> hull.mesh(treeform.read("data/cube.stl")).volume
+    1.0
     """
     cloud = cloud_of(points)
     return _core.convex_hull(as_mesh(points).vertices if cloud is None else cloud,

@@ -81,7 +81,7 @@ struct section_result {
     /// In the frame: of p in space, (x . p, y . p), for p within 2^-45 of its largest coordinate.
     std::vector<point2> points{};
     std::vector<std::uint32_t>
-        faces{};  ///< [points] the face that the side from each point on lies in
+        faces{};  ///< [points] the face that the side from each point on begins in
     plane_frame frame{};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
 
@@ -108,6 +108,9 @@ struct section_options {
 /// on, not `oriented`. Loops of faces that cross each other do, too: `parent` is then that of one
 /// of their points, and areas are added up as often as the surface winds around them. Corners with
 /// equal coordinates are one.
+///
+/// Where a loop goes straight on from one face to another in the same plane, exactly, there is no
+/// point: a box has four. The side from a point on lies in the face named, and may go on in others.
 ///
 /// Loops are in the order of their lowest faces.
 ///
@@ -173,12 +176,19 @@ struct isolines_result {
 
 /// Writes sections as `svg`, `dxf`, `obj` or `json`, by the extension where no format is given:
 /// loops in the frame (SVG: a group a layer, y up; DXF: polylines at the height as z; JSON: all
-/// that is known), OBJ lines in space. "-" is standard output.
+/// that is known), OBJ lines in space. "-" is standard output. Of lengths in a `unit` (mm, cm, m,
+/// in, ft or um), SVG has the size on paper, and DXF $INSUNITS; otherwise neither.
 ///
 /// \throws io_error for another format, or when the file cannot be written: then there is none, or
-///         the one that was there
+///         the one that was there; std::invalid_argument for another unit
 /// \same   bytes
 TREEFORM_API void write_section(const std::filesystem::path& path, const section_result& section,
-                                const std::string& format = {});
+                                const std::string& format = {}, const std::string& unit = {});
+
+/// The same for isolines: SVG as seen from the normal of a frame, a group a level; DXF and OBJ lines
+/// in space; JSON all that is known.
+TREEFORM_API void write_isolines(const std::filesystem::path& path, const isolines_result& isolines,
+                                 const plane_frame& seen = {}, const std::string& format = {},
+                                 const std::string& unit = {});
 
 }  // namespace treeform

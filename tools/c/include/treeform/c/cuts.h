@@ -90,9 +90,10 @@ TREEFORM_C_API treeform_code treeform_layer_heights(const treeform_mesh* mesh,
                                                     treeform_heights** heights);
 
 /// Writes sections as svg, dxf, obj or json: `format`, or by the extension where that is null.
+/// `unit` of lengths: mm, cm, m, in, ft or um, or null: SVG has no size on paper then.
 TREEFORM_C_API treeform_code treeform_write_section(const char* path,
                                                     const treeform_section_result* section,
-                                                    const char* format);
+                                                    const char* format, const char* unit);
 
 // made of <mesh/cut.hpp>:
 //   cut_options cut_piece cut_result

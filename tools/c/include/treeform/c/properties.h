@@ -209,6 +209,7 @@ typedef struct treeform_hull {
     /// [side_count + 1] corners of side i are corners[corner_begin[i]] ... in order around it
     const size_t* corner_begin;
     const uint32_t* corners;
+    treeform_arrays mesh;  ///< the hull as a closed mesh, with the points that it uses
 } treeform_hull;
 
 /// The convex hull of the points of a mesh or cloud, exact on the coordinates as given. `progress`

@@ -216,6 +216,13 @@ TREEFORM_C_API treeform_code treeform_isolines(const treeform_mesh* mesh, const 
                                                treeform_progress progress, void* progress_data,
                                                treeform_isolines_result** lines);
 
+/// Writes isolines as `treeform_write_section` does sections; SVG as seen from where `normal` points
+/// (null: z).
+TREEFORM_C_API treeform_code treeform_write_isolines(const char* path,
+                                                     const treeform_isolines_result* lines,
+                                                     const double normal[3], const char* format,
+                                                     const char* unit);
+
 /// The mesh cut along these lines: count + 1 pieces, by value, from the lowest up.
 TREEFORM_C_API treeform_code treeform_cut_along(const treeform_mesh* mesh, const double* values,
                                                 const double* levels, size_t count,
