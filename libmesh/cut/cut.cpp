@@ -92,12 +92,13 @@ void look_through(cut_piece& piece, const cut_piece& whole, std::uint32_t first_
 
 /// The mesh as the solid that it winds around, or without caps as a surface that meets itself
 /// nowhere.
-cut_piece sound_whole(const mesh_ref& mesh, const cut_options& options,
-                      progress_callback progress) {
+cut_piece sound_whole(const mesh_ref& mesh, const cut_options& options, progress_callback progress,
+                      bool& resolved) {
     const boolean_options how{.max_displacement = options.max_displacement,
                               .keep_cuts = options.keep_cuts,
                               .progress = std::move(progress)};
     boolean_result made = options.caps ? boolean(mesh, "a", how) : split(mesh, how);
+    resolved = made.statistics.pairs > 0;
     cut_piece whole;
     whole.mesh = std::move(made.mesh);
     whole.certificate = std::move(made.certificate);
@@ -127,7 +128,7 @@ cut_result cut_of(const mesh_ref& mesh, const oriented_plane& plane,
     result.certificate.precision = options.precision;
     (void)cut_room::levels_of("cut", {}, plane, heights);  // refuses what are no planes
     work_progress progress(options.progress);
-    const cut_piece whole = sound_whole(mesh, options, progress.part(0.0, 0.5));
+    const cut_piece whole = sound_whole(mesh, options, progress.part(0.0, 0.5), result.resolved);
     if (!whole.certificate) {
         result.certificate = whole.certificate;
         return result;
@@ -175,7 +176,7 @@ cut_result cut_to_fit(const mesh_ref& mesh, const point3& size, const cut_option
     result.certificate.precision = options.precision;
     work_progress progress(options.progress);
     std::vector<cut_piece> pieces;
-    pieces.push_back(sound_whole(mesh, options, progress.part(0.0, 0.4)));
+    pieces.push_back(sound_whole(mesh, options, progress.part(0.0, 0.4), result.resolved));
     if (!pieces[0].certificate) {
         result.certificate = pieces[0].certificate;
         return result;

@@ -30,10 +30,53 @@ class Cut(ToolTest):
         os.remove(self.path("half0.stl"))
         self.run_tool("half", part, "--height", "0.5", "-o", "half%d.stl", status=4)
         self.assertFalse(os.path.exists(self.path("half0.stl")))
-        run = self.run_tool("half", part, "--height", "7", "--keep", "above", "-o", "no.stl", status=0)
-        self.assertIn("0 pieces", run.text)
-        self.assertIn("nothing is there", run.err)
-        self.assertFalse(os.path.exists(self.path("no.stl")))
+        for name in ("no.stl", "no.ply", "no.obj", "no.off", "no.3mf"):
+            run = self.run_tool("half", part, "--height", "7", "--keep", "above", "-o", name,
+                                status=0)
+            self.assertIn("1 piece: 0 faces, volume 0\n", run.text)
+            self.assertIn("nothing is left: the mesh is between heights 0 and 1", run.err)
+            self.assertTrue(os.path.exists(self.path(name)))
+        run = self.run_tool("half", part, "--height", "0.25", "--keep", "below", "-o", "-",
+                            "--output-format", "off", status=0)
+        self.assertTrue(run.out.startswith(b"OFF\n12 20"))
+
+    def test_what_meets_is_made_one_first_which_is_said(self):
+        write(self.path("two.obj"), together(box((0, 0, 0), (2, 2, 2)), box((1, 1, 0), (3, 3, 2))))
+        run = self.run_tool("half", "two.obj", "--height", "1", "-n", status=0)
+        self.assertIn("2 pieces", run.text)
+        self.assertIn("parts that overlap are one", run.err)
+        write(self.path("apart.obj"), together(box((0, 0, 0), (2, 2, 2)), box((3, 3, 0), (4, 4, 2))))
+        self.assertEqual(self.run_tool("half", "apart.obj", "--height", "1", "-n", status=0).err, "")
+
+    def test_caps_have_texture_by_their_planes(self):
+        self.put_box()
+        lines = [line.split() for line in self.read("part.obj").splitlines()]
+        text = "".join(" ".join(line) + "\n" for line in lines if line[0] == "v")
+        text += "vt 0 0\nvt 2 0\nvt 0 2\n"  # of faces of 4 x 4, two to a length of four
+        text += "".join("f " + " ".join(f"{v}/{i}" for i, v in enumerate(line[1:], 1)) + "\n"
+                        for line in lines if line[0] == "f")
+        self.put("uv.obj", text)
+        self.run_tool("half", "uv.obj", "--height", "0.5", "-o", "h%02d.obj", status=0)
+        below, above = (self.read(f"h0{i}.obj") for i in range(2))
+        caps = []
+        for half in (below, above):
+            points = [tuple(map(float, line.split()[1:4])) for line in half.splitlines()
+                      if line.startswith("v ")]
+            texture = [tuple(map(float, line.split()[1:3])) for line in half.splitlines()
+                       if line.startswith("vt ")]
+            pairs = set()
+            for line in half.splitlines():
+                if not line.startswith("f "):
+                    continue
+                corners = [tuple(int(n) - 1 for n in word.split("/")[:2]) for word in line.split()[1:]]
+                if all(points[v][2] == 0.5 for v, _ in corners):
+                    pairs |= {(points[v], texture[t]) for v, t in corners}
+            caps.append(pairs)
+        self.assertEqual(caps[0], caps[1])
+        scale = [t[k] / p[k] for p, t in caps[0] for k in range(2) if p[k] != 0]
+        self.assertEqual(len(caps[0]), 8)
+        for one in scale:
+            self.assertAlmostEqual(one, scale[0])
 
     def test_shapes_are_solids_within_distances(self):
         part = self.put_box()
@@ -79,6 +122,13 @@ class Cut(ToolTest):
         self.assertEqual([layer["area"] for layer in entry["layers"]], [0, 16, 0])
         run = self.run_tool("section", part, "--at", "2,2,0.5", "--normal", "1,1,0", "-n", status=0)
         self.assertIn("1 loop, area 5.65685, length 13.3137", run.text)
+        self.run_tool("section", part, "--layers", "0.25", "-o", "layer%03d.json", status=0)
+        for i in range(4):
+            layer, = json.loads(self.read(f"layer00{i}.json"))["layers"]
+            self.assertEqual((layer["height"], layer["area"], len(layer["loops"][0]["points"])),
+                             (0.125 + 0.25 * i, 16, 4))
+        run = self.run_tool("section", part, "--height", "0.5", "--units", "cm", "-o", "-", status=0)
+        self.assertEqual(json.loads(run.out)["unit"], "cm")
         self.run_tool("section", part, "--height", "0.5", "-o", "s.svg", status=4)  # is there
         self.assertTrue(self.read("s.svg").count("<g") == 4)
 
@@ -214,7 +264,7 @@ class Cut(ToolTest):
             run = self.run_tool(*arguments, "-n", status=0)
             self.assertIn("the mesh is between heights 0 and 1\n", run.err, msg=arguments)
         run = self.run_tool("half", part, "--height", "7", "--keep", "above", "-n", status=0)
-        self.assertIn("to be written: the mesh is between heights 0 and 1\n", run.err)
+        self.assertIn("nothing is left: the mesh is between heights 0 and 1\n", run.err)
         for arguments in (["half", part, "--height", "7", "--keep", "below"],
                           ["pieces", part, "--height", "0.5,0.5"]):
             self.assertEqual(self.run_tool(*arguments, "-n", status=0).err, "", msg=arguments)

@@ -14,6 +14,8 @@ def test_solids_are_grown_shrunk_and_hollowed():
     assert tf.offset(CUBE, -0.25, resolution=0.1).mesh.volume == pytest.approx(0.125, rel=0.1)
     shell = tf.hollow(CUBE, 0.1, resolution=0.05)
     drained = tf.hollow(CUBE, 0.1, drains=[[0.5, 0.5, 0, 0.2]], resolution=0.05)
+    assert drained.statistics["sealed_cavities"] == 0 and len(drained.blind_drains) == 0
+    assert shell.statistics["sealed_cavities"] == 1
     assert shell.mesh.is_solid and drained.mesh.is_solid
     assert drained.mesh.volume < shell.mesh.volume < 0.5
     with pytest.raises(tf.NotSolidError):
@@ -44,13 +46,20 @@ def test_walls_and_boxes_are_measured():
     box = tf.oriented_box([[0, 0, 0], [3, 4, 0], [1.5, 2, 0]])
     assert box.size == pytest.approx([5, 0, 0]) and box.center == pytest.approx([1.5, 2, 0])
     assert tf.oriented_box(np.zeros((0, 3))) is None
+    hull = tf.convex_hull([[0, 0, 0], [9, 9, 9], [4, 4, 1], [0, 9, 0], [9, 0, 0]])
+    assert hull.mesh([[0, 0, 0], [9, 9, 9], [4, 4, 1], [0, 9, 0], [9, 0, 0]]).is_solid
+    assert tf.convex_hull(CUBE).mesh(CUBE).volume == 1.0
 
 
-def test_lines_and_pieces_follow_values():
+def test_lines_and_pieces_follow_values(tmp_path):
     values = CUBE.vertices[:, 2]
     lines = tf.isolines(CUBE, values, [0.25, 2])
     assert len(lines.lines) == 1 and lines.lines[0].closed
     assert set(lines.points_of(0)[:, 2]) == {0.25}
+    lines.write(tmp_path / "lines.svg", normal=(1, 1, 0), unit="mm")
+    assert '<svg xmlns="http://www.w3.org/2000/svg" width="' in (tmp_path / "lines.svg").read_text()
+    lines.write(tmp_path / "lines.txt", format="obj")
+    assert (tmp_path / "lines.txt").read_text().count("v ") == lines.lines[0].point_count
     low, high = tf.cut_along(CUBE, values, [0.25])
     assert low.mesh.area == pytest.approx(2) and high.mesh.area == pytest.approx(4)
     with pytest.raises(ValueError, match="values"):

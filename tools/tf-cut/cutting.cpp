@@ -93,14 +93,14 @@ std::string heights_in_words(const cut_settings& s, const usable_input& input) {
 void warn_of_missing(job& work, const cut_settings& s, const usable_input& input,
                      std::size_t made) {
     const std::string nothing = "nothing is there to be written: ";
-    const bool half_kept = s.mode == cut_mode::half && s.keep != kept_half::both;
-    if (made == 0 && !half_kept) {
+    if (s.keeps_one()) {
+        if (work.entry["pieces"][0]["faces"] == 0)
+            work.warn("no-pieces", "nothing is left: " + heights_in_words(s, input));
+    } else if (made == 0) {
         const bool parts = s.mode == cut_mode::parts;
         work.warn("no-pieces",
                   nothing + (parts ? "no part is so large" : "the faces enclose nothing"));
-    } else if (made == 0) {
-        work.warn("no-pieces", nothing + heights_in_words(s, input));
-    } else if (has_caps(s) && !s.bed && !half_kept) {
+    } else if (has_caps(s) && !s.bed) {
         const std::size_t asked = std::set<double>(s.heights.begin(), s.heights.end()).size() + 1;
         if (made < asked)
             work.warn("no-cut", counted(asked - made, "piece is", "pieces are") +

@@ -83,6 +83,11 @@ struct cut_settings {
     measured_walls walls = measured_walls::ray;
     std::string caps{};  ///< name of the property with the plane of each cap; or none
     std::filesystem::path output{};
+
+    /// One half, which may be empty: an empty file then, as of a boolean.
+    [[nodiscard]] bool keeps_one() const {
+        return mode == cut_mode::half && keep != kept_half::both;
+    }
 };
 
 /// What the command line may say; what it asks for is to go together. \throws failure (bad_usage)
@@ -144,6 +149,15 @@ exit_status make_isolines(job& work, const usable_input& input, const cut_settin
 /// What `simplify`, `offset`, `hollow` and `thicken` make; enters the distances.
 cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
                  tf::precision precision);
+
+/// Whether "%d" is in the name, or "%03d" with so many digits at least.
+[[nodiscard]] bool has_number(const std::filesystem::path& path);
+
+/// Paths of `count` files with numbers instead, none of which is an input; the path itself where it
+/// has no place for one. \throws failure
+[[nodiscard]] std::vector<std::filesystem::path> numbered_paths(job& work,
+                                                                const std::filesystem::path& path,
+                                                                std::size_t count);
 
 /// Writes pieces, each to a file of its own, or all to one. \throws failure
 void write_pieces(job& work, const cut_settings& s, const usable_input& input,

@@ -103,15 +103,37 @@ drawn_lines drawn(const tf::isolines_result& made) {
     return lines;
 }
 
-/// Writes lines by `write(path, format, unit)`, where they are asked for.
+/// A layer by itself.
+tf::section_result layer_of(const tf::section_result& all, std::size_t i) {
+    tf::section_result one;
+    one.frame = all.frame;
+    one.layers.push_back(all.layers[i]);
+    const std::uint32_t first = std::exchange(one.layers[0].first_loop, 0);
+    for (std::uint32_t l = first; l < first + all.layers[i].loop_count; ++l) {
+        tf::section_loop& loop = one.loops.emplace_back(all.loops[l]);
+        if (loop.parent != tf::section_loop::none) loop.parent -= first;
+        const auto begin =
+            static_cast<std::ptrdiff_t>(std::exchange(loop.first_point, one.points.size()));
+        const auto end = begin + static_cast<std::ptrdiff_t>(loop.point_count);
+        one.points.insert(one.points.end(), all.points.begin() + begin, all.points.begin() + end);
+    }
+    return one;
+}
+
+/// Writes lines by `write(path, i, format, unit)`, where they are asked for: `count` files, where
+/// the name has a place for a number.
 template <class Write>
-void give_lines(job& work, const cut_settings& s, const usable_input& input, const Write& write) {
+void give_lines(job& work, const cut_settings& s, const usable_input& input, std::size_t count,
+                const Write& write) {
     if (s.output.empty() || work.options.dry_run) return;
     const auto timing = work.time("write");
-    output_place place(s.output, work.options.force);
-    const std::string format = lines_format(s.output);
-    write(place.writable(), format, unit_of(work, input.file));
-    place.commit();
+    const std::string format = lines_format(s.output), unit = unit_of(work, input.file);
+    const auto paths = numbered_paths(work, s.output, count);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        output_place place(paths[i], work.options.force);
+        write(place.writable(), i, format, unit);
+        place.commit();
+    }
     work.entry["output"] = {{"file", s.output.string()},
                             {"format", format},
                             {"precision_out", nullptr},
@@ -174,9 +196,11 @@ exit_status make_section(job& work, const usable_input& input, cut_settings s) {
         const drawn_lines lines = drawn(made);
         write_page(work, input, "section", true, {}, &lines);
     }
-    give_lines(work, s, input, [&](const auto& path, const auto& format, const auto& unit) {
-        tf::write_section(path, made, format, unit);
-    });
+    const bool apart = has_number(s.output);
+    give_lines(work, s, input, made.layers.size(),
+               [&](const auto& path, std::size_t i, const auto& format, const auto& unit) {
+                   tf::write_section(path, apart ? layer_of(made, i) : made, format, unit);
+               });
     return done;
 }
 
@@ -197,9 +221,10 @@ exit_status make_isolines(job& work, const usable_input& input, const cut_settin
         const drawn_lines lines = drawn(made);
         write_page(work, input, "isolines", true, {}, &lines);
     }
-    give_lines(work, s, input, [&](const auto& path, const auto& format, const auto& unit) {
-        tf::write_isolines(path, made, s.plane.frame(), format, unit);
-    });
+    give_lines(work, s, input, 1,
+               [&](const auto& path, std::size_t, const auto& format, const auto& unit) {
+                   tf::write_isolines(path, made, s.plane.frame(), format, unit);
+               });
     return done;
 }
 

@@ -46,11 +46,9 @@ std::vector<cut_off> parts_of(const usable_input& input, const cut_settings& s) 
 std::vector<cut_off> pieces_of(tf::cut_result&& made, const cut_settings& s) {
     std::vector<cut_off> pieces;
     for (std::size_t i = 0; i < made.pieces.size(); ++i) {
-        if (s.mode == cut_mode::half && s.keep != tools::kept_half::both &&
-            (i == 0) != (s.keep == tools::kept_half::below))
-            continue;
+        if (s.keeps_one() && (i == 0) != (s.keep == tools::kept_half::below)) continue;
         tf::cut_piece& piece = made.pieces[i];
-        if (piece.mesh.faces.empty()) continue;
+        if (piece.mesh.faces.empty() && !s.keeps_one()) continue;
         cut_off& one = pieces.emplace_back();
         one.volume = s.open ? tools::volume_of(piece.mesh) : tf::signed_volume(piece.mesh);
         one.area = tf::surface_area(piece.mesh);
@@ -131,6 +129,11 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
             tools::write_page(work, input, "not cut: " + why, false, {}, nullptr);
             return tools::found;
         }
+        if (made.resolved)
+            work.warn("united",
+                      s.open ? "faces meet: they are cut along each other first"
+                             : "faces meet: what is cut is the solid that they wind around, where "
+                               "parts that overlap are one");
         pieces = pieces_of(std::move(made), s);
         const auto furthest = std::ranges::max_element(
             pieces, {}, [](const cut_off& piece) { return piece.certificate.max_displacement; });

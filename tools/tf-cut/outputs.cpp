@@ -12,14 +12,20 @@ namespace {
 
 constexpr const char* number_mark = "%d";
 
-bool has_number(const std::filesystem::path& path) {
-    return path.string().find(number_mark) != std::string::npos;
-}
+/// Where "%d" or "%03d" is in the text, and how long; how many digits at least.
+struct number_place {
+    std::size_t at = std::string::npos, length = 0, digits = 0;
+};
 
-std::filesystem::path numbered(const std::filesystem::path& path, std::size_t number) {
-    std::string text = path.string();
-    text.replace(text.find(number_mark), 2, std::to_string(number));
-    return text;
+number_place number_in(const std::string& text) {
+    for (std::size_t at = text.find('%'); at != std::string::npos; at = text.find('%', at + 1)) {
+        std::size_t end = at + 1, digits = 0;
+        if (end < text.size() && text[end] == '0')
+            for (; end < text.size() && text[end] >= '0' && text[end] <= '9' && digits < 10; ++end)
+                digits = 10 * digits + static_cast<std::size_t>(text[end] - '0');
+        if (end < text.size() && text[end] == 'd') return {at, end + 1 - at, digits};
+    }
+    return {};
 }
 
 /// Of formats with objects, each piece is one.
@@ -31,6 +37,7 @@ bool has_objects(const std::string& format) {
 tf::mesh_file carried(const cut_settings& s, const usable_input& input, cut_off&& piece) {
     tf::mesh_file file = file_of(std::move(piece.mesh), piece.certificate);
     tf::carry_sources(input.source()).carry(file, piece.face_source, piece.vertex_source);
+    tf::texture_caps(file, piece.cap, input.source());
     if (!s.caps.empty()) {
         std::vector<std::int32_t> cap(piece.cap.begin(), piece.cap.end());  // none is -1
         file.attributes.obtain("face", file.mesh.faces.size())
@@ -60,6 +67,28 @@ cut_off together(std::vector<cut_off>& pieces, std::vector<tf::part>& parts) {
 }
 
 }  // namespace
+
+bool has_number(const std::filesystem::path& path) {
+    return number_in(path.string()).at != std::string::npos;
+}
+
+std::vector<std::filesystem::path> numbered_paths(job& work, const std::filesystem::path& path,
+                                                  std::size_t count) {
+    const number_place place = number_in(path.string());
+    if (place.at == std::string::npos) return {path};
+    std::vector<std::filesystem::path> paths;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::string digits = std::to_string(i);
+        if (digits.size() < place.digits) digits.insert(0, place.digits - digits.size(), '0');
+        const std::filesystem::path& one =
+            paths.emplace_back(path.string().replace(place.at, place.length, digits));
+        std::error_code ignored;
+        if (std::filesystem::equivalent(one, work.path, ignored))
+            refuse(one.string() + " is an input; no output may replace it");
+        check_outputs(work, {one});
+    }
+    return paths;
+}
 
 void check_pieces_path(const common_options& o, std::size_t pieces) {
     if (o.output.empty() || pieces < 2 || has_number(o.output)) return;
@@ -98,20 +127,12 @@ void write_pieces(job& work, const cut_settings& s, const usable_input& input,
         write(std::move(file), *output, 0.0, false);
         return;
     }
-    if (has_number(*output))
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            const std::filesystem::path path = numbered(*output, i);
-            std::error_code ignored;
-            if (std::filesystem::equivalent(path, work.path, ignored))
-                refuse(path.string() + " is an input; no output may replace it");
-            check_outputs(work, {path});
-        }
+    const auto paths = numbered_paths(work, *output, pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const std::filesystem::path path = has_number(*output) ? numbered(*output, i) : *output;
         const double moved = pieces[i].certificate.max_displacement;
         const bool certified = s.mode != cut_mode::parts && !s.open;
-        write(carried(s, input, std::move(pieces[i])), path, moved, certified);
-        work.entry["pieces"][i]["file"] = path.string();
+        write(carried(s, input, std::move(pieces[i])), paths[i], moved, certified);
+        work.entry["pieces"][i]["file"] = paths[i].string();
     }
 }
 

@@ -210,8 +210,9 @@ void add_what_to_give_back(command_line& line, cut_settings& s) {
     line.output(s.output, {"-o, --output", "FILE",
                            "where the result goes: lines as svg, dxf, obj or json,\n"
                            "\"-\" being json on standard output;\n"
-                           "pieces as meshes, \"%d\" in the name being the number\n"
-                           "of each, or as objects of one 3MF, OBJ or GLB"});
+                           "pieces as meshes, or as objects of one 3MF, OBJ or GLB.\n"
+                           "\"%d\" in the name, or \"%03d\" with zeros ahead, is the\n"
+                           "number of a layer or piece with a file of its own"});
     line.option(s.caps, {"--caps", "P",
                          "half, pieces: write the number of its plane for each\n"
                          "face of a cap to property P of a PLY or GLB, else -1"});
@@ -328,6 +329,8 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
     if (s.mode == cut_mode::info) return;
     if (s.mode == cut_mode::section || s.mode == cut_mode::isolines) {
         const std::string format = lines_format(s.output);
+        if (s.mode == cut_mode::isolines && has_number(s.output))
+            refuse(s.output.string() + ": isolines are one file; \"%d\" is for layers and pieces");
         if (!s.output.empty() && format != "svg" && format != "dxf" && format != "obj" &&
             format != "json")
             refuse(s.output.string() +
@@ -335,8 +338,7 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
     } else {
         options.output = s.output;
         check_common_options(line, options);
-        const bool single =
-            (s.mode == cut_mode::half && s.keep != kept_half::both) || s.mode > cut_mode::info;
+        const bool single = s.keeps_one() || s.mode > cut_mode::info;
         if (!single) {
             if (!options.output_dir.empty() || options.in_place)
                 refuse("--output-dir and --in-place need --keep below or above");

@@ -76,6 +76,7 @@ void glue::fill(keeper& kept, const tf::cut_result& from, treeform_cut_result& t
     to.pieces = list<treeform_cut_piece>(kept, from.pieces);
     to.count = from.pieces.size();
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
+    to.resolved = from.resolved;
 }
 
 void glue::fill(keeper&, const tf::mesh_part& from, treeform_mesh_part& to) {

@@ -63,6 +63,9 @@ struct cut_result {
     std::vector<cut_piece> pieces{};
     /// That of the first piece that is not ok, or of the mesh where it bounds no solid.
     treeform::certificate certificate{};
+    /// Faces of the mesh met: what was cut is the solid that it winds around, where parts that overlap
+    /// are one; without caps, the faces cut along each other. Not of `cut_along`.
+    bool resolved = false;
 };
 
 /// The mesh below, between and above planes at `heights` above `plane`
@@ -74,7 +77,8 @@ struct cut_result {
 /// piece is checked as results of `boolean` are. Caps between axes stay flat and alike when
 /// rounded; others may bend by a step of the precision.
 ///
-/// `carry_sources` gives pieces the attributes of a file, by their sources.
+/// `carry_sources` gives pieces the attributes of a file, by their sources, and `texture_caps` caps
+/// texture coordinates in their planes.
 ///
 /// The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has
 /// parts that are inside out or hidden in others, it is first made the solid that it winds around,

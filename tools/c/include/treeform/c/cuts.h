@@ -54,7 +54,7 @@ typedef struct treeform_section_result {
     /// [point_count][2] In the frame: of p in space, (x . p, y . p), for p within 2^-45 of its
     /// largest coordinate.
     const double* points;
-    /// [points] the face that the side from each point on lies in
+    /// [points] the face that the side from each point on begins in
     const uint32_t* faces;
     size_t point_count;
     double x[3];
@@ -141,6 +141,9 @@ typedef struct treeform_cut_result {
     size_t count;
     /// That of the first piece that is not ok, or of the mesh where it bounds no solid.
     const treeform_certificate* certificate;
+    /// Faces of the mesh met: what was cut is the solid that it winds around, where parts that
+    /// overlap are one; without caps, the faces cut along each other. Not of `treeform_cut_along`.
+    int32_t resolved;
 } treeform_cut_result;
 // end
 
