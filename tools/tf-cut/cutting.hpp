@@ -66,6 +66,12 @@ struct line_settings {
     std::uint64_t count = 0;  ///< of levels, where none are given
 };
 
+/// Of `parts`.
+struct part_settings {
+    double min_volume = 0.0;
+    std::uint64_t largest = 0;  ///< 0: all
+};
+
 struct cut_settings {
     std::string mode_text{};
     cut_mode mode = cut_mode::half;
@@ -76,8 +82,7 @@ struct cut_settings {
     kept_half keep = kept_half::both;
     bool open = false;
     tools::change_limits limits{};
-    double min_volume = 0.0;
-    std::uint64_t largest = 0;  ///< 0: all
+    part_settings parts{};
     shape_settings shape{};
     line_settings lines{};
     measured_walls walls = measured_walls::ray;

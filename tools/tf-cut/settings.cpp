@@ -201,8 +201,9 @@ void add_options(command_line& line, cut_settings& s) {
                 wall_measures);
     add_max_move(line, s.limits);
     line.option({"--min-volume", "V", "parts: leave out those below V; open ones have none", "0"},
-                [&s](std::string_view v) { s.min_volume = parse_volume("--min-volume", v); });
-    line.option(s.largest, {"--largest", "N", "parts: only the N of the greatest volume", "all"});
+                [&s](std::string_view v) { s.parts.min_volume = parse_volume("--min-volume", v); });
+    line.option(s.parts.largest,
+                {"--largest", "N", "parts: only the N of the greatest volume", "all"});
 }
 
 void add_what_to_give_back(command_line& line, cut_settings& s) {
@@ -342,7 +343,7 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
         if (!single) {
             if (!options.output_dir.empty() || options.in_place)
                 refuse("--output-dir and --in-place need --keep below or above");
-            check_pieces_path(options, s.largest == 1 ? 1 : 2);
+            check_pieces_path(options, s.parts.largest == 1 ? 1 : 2);
         }
         if (!s.caps.empty() && !options.output.empty()) {
             const std::string format = mesh_format(options, options.output);
