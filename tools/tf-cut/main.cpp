@@ -29,7 +29,7 @@ using tools::usable_input;
 
 std::vector<cut_off> parts_of(const usable_input& input, const cut_settings& s) {
     tf::components_options options{.min_volume = s.parts.min_volume};
-    if (s.parts.largest > 0) options.parts.largest = s.parts.largest;
+    if (s.parts.largest > 0) options.largest = s.parts.largest;
     std::vector<cut_off> parts;
     for (tf::mesh_part& part : tf::components(input.file.mesh, options)) {
         cut_off& one = parts.emplace_back();
