@@ -211,7 +211,7 @@ void add_what_to_give_back(command_line& line, cut_settings& s) {
     line.output(s.output, {"-o, --output", "FILE",
                            "where the result goes: lines as svg, dxf, obj or json,\n"
                            "\"-\" being json on standard output;\n"
-                           "pieces as meshes, or as objects of one 3MF, OBJ or GLB.\n"
+                           "pieces as meshes, or objects of one 3MF, OBJ or GLB.\n"
                            "\"%d\" in the name, or \"%03d\" with zeros ahead, is the\n"
                            "number of a layer or piece with a file of its own"});
     line.option(s.caps, {"--caps", "P",
