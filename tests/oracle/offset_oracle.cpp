@@ -5,10 +5,8 @@
 ///
 /// TREEFORM_STRESS_COUNT is the number of points of each kind for each result (default 20).
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -17,8 +15,8 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 #include <doctest/doctest.h>
-#include <support/models.hpp>
 #include <support/random.hpp>
+#include <support/real_solids.hpp>
 #include <support/settings.hpp>
 
 #include <algorithm>
@@ -26,10 +24,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <filesystem>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace {
@@ -112,24 +107,6 @@ void check(const tf::offset_result& made, const tf::mesh& of, bool outer_stays,
     }
 }
 
-/// Models of no more than so many bytes, with faces, as they are.
-template <class Visit>
-void for_each_model(std::uintmax_t most, const Visit& visit) {
-    for (const std::string& file : test::files_with_truth(test::models_folder())) {
-        const std::filesystem::path path = test::models_folder() / file;
-        if (std::filesystem::file_size(path) > most) continue;
-        tf::mesh mesh;
-        try {
-            mesh = tf::read_mesh(path).mesh;
-        } catch (const std::exception&) {
-            continue;
-        }
-        if (mesh.faces.empty()) continue;
-        CAPTURE(file);
-        visit(mesh);
-    }
-}
-
 /// Of the box around the faces.
 double diagonal_of(const tf::mesh& mesh) {
     std::vector<tf::point3> used;
@@ -143,7 +120,7 @@ double diagonal_of(const tf::mesh& mesh) {
 TEST_CASE("any real mesh is made thick") {
     NEEDS_MODELS();
     std::uint64_t models = 0;
-    for_each_model(1'000'000, [&](const tf::mesh& mesh) {
+    test::for_each_model(1'000'000, [&](const tf::mesh& mesh) {
         const double half = diagonal_of(mesh) / 40;
         if (!(half > 0.0) || half >= 0x1p140) return;  // beyond 2^150 it is refused
         const auto made = tf::thicken(mesh, 2 * half, {}, {.resolution = half / 2});
@@ -157,8 +134,7 @@ TEST_CASE("any real mesh is made thick") {
 TEST_CASE("real solids grow, shrink and are hollowed") {
     NEEDS_MODELS();
     std::uint64_t models = 0;
-    for_each_model(500'000, [&](const tf::mesh& mesh) {
-        if (tf::find_solid_defects(mesh).any()) return;
+    test::for_each_solid(500'000, [&](const tf::mesh& mesh) {
         const tf::prepared_mesh solid = tf::prepared_mesh::borrow(mesh);
         const double d = diagonal_of(mesh) / 40;
         const tf::offset_options how{.resolution = d / 2};
