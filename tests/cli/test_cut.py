@@ -106,6 +106,8 @@ class Cut(ToolTest):
         self.assertIn("no drain leads into 1 cavity", run.err)
         self.assertEqual(json.loads(self.read("r.json"))["files"][0]["cavities"],
                          {"sealed": 1, "blind_drains": []})
+        run = self.run_tool("hollow", "--wall", "0.6", part, "-n", status=1)
+        self.assertIn("nowhere thicker than two walls", run.err)
         self.run_tool("hollow", part, "-f", "-o", "out.stl", status=2)
         self.run_tool("hollow", "--wall", "-1", part, "-f", "-o", "out.stl", status=2)
 

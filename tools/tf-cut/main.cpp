@@ -85,7 +85,8 @@ tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settin
     return made;
 }
 
-exit_status not_made(tools::job& work, const usable_input& input, const tf::certificate& why) {
+exit_status not_made(tools::job& work, const cut_settings& s, const usable_input& input,
+                     const tf::certificate& why) {
     work.out.result(work.name + ": not made: " + tools::message_of(why, [&](std::uint32_t f) {
                         return input.source().stored_face(f);
                     }));
@@ -93,6 +94,11 @@ exit_status not_made(tools::job& work, const usable_input& input, const tf::cert
         work.warn("no-solid",
                   "the input bounds no solid; tf-repair makes one of it, and thicken takes any "
                   "surface");
+    if (why.status == tf::status::vanished)
+        work.warn("too-thin",
+                  s.mode == cut_mode::hollow
+                      ? "there is no cavity: the solid is nowhere thicker than two walls"
+                      : "the solid is nowhere so thick, or by less than a cell");
     return tools::found;
 }
 
@@ -115,7 +121,7 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
         pieces.push_back(tools::suitable(tools::option_of(s.mode), [&] {
             return tools::shape_of(work, s, input, precision_of(work, input));
         }));
-        if (!pieces[0].certificate) return not_made(work, input, pieces[0].certificate);
+        if (!pieces[0].certificate) return not_made(work, s, input, pieces[0].certificate);
     } else {
         tf::cut_result made = cut(work, input, s);
         if (!made.certificate) {
