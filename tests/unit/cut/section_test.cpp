@@ -238,6 +238,42 @@ TEST_CASE("a line goes straight through faces in one plane, and bends by as litt
     CHECK(tf::section(closed, {{0, 0.25, 0}, {0, 1, 0}}).points.size() < 3);
 }
 
+TEST_CASE("a box of many coplanar faces has the sections of one of few") {
+    const tf::mesh few = test::box(2, 3, 1);
+    tf::mesh many = few;
+    for (int times = 0; times < 3; ++times) {  // each face into four, at middles, exactly
+        tf::mesh next{many.points, {}};
+        for (const auto& [a, b, c] : many.faces) {
+            const auto middle = [&](std::uint32_t i, std::uint32_t j) {
+                const tf::point3 &p = many.points[i], &q = many.points[j];
+                next.points.push_back({(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2});
+                return static_cast<std::uint32_t>(next.points.size() - 1);
+            };
+            const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+            next.faces.insert(next.faces.end(),
+                              {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+        many = std::move(next);
+    }
+    test::random source(1);
+    for (int i = 0; i < 300; ++i) {
+        // Through points of the grid, across axes and diagonals, and anyhow.
+        tf::oriented_plane plane{many.points[source.below(many.points.size())], {}};
+        for (std::size_t k = 0; k < 3; ++k)
+            plane.normal[k] =
+                i % 2 == 0 ? static_cast<double>(source.below(3)) - 1.0 : source.in(-1, 1);
+        if (plane.normal == tf::point3{}) continue;
+        CAPTURE(i);
+        const tf::section_result expected = tf::section(few, plane),
+                                 made = tf::section(many, plane);
+        REQUIRE(made.loops.size() == expected.loops.size());
+        CHECK(made.points.size() == expected.points.size());
+        CHECK(made.points.size() <= 6);
+        CHECK(made.layers[0].area == doctest::Approx(expected.layers[0].area).epsilon(1e-14));
+        CHECK(made.layers[0].length == doctest::Approx(expected.layers[0].length).epsilon(1e-14));
+    }
+}
+
 TEST_CASE("planes through vertices, along edges and in faces, turned") {
     // x + y + z = 1 goes through three corners of the box; just below, the section is their
     // triangle.
