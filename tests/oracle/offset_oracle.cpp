@@ -3,7 +3,7 @@
 /// two faces meet; distances of points of the result, and sides of points of space, by trying all
 /// faces of the input.
 ///
-/// TREEFORM_STRESS_COUNT is the number of points of each kind for each result (default 20).
+/// TREEFORM_STRESS_COUNT is the number of points of each kind for each result (default 8).
 
 #include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -94,7 +94,7 @@ void check(const tf::offset_result& made, const tf::mesh& of, bool outer_stays,
     const auto box = *tf::bounding_box(made.mesh.points);
     const double tiny = 1e-12 * box.diagonal();
     const tf::prepared_mesh result = tf::prepared_mesh::borrow(made.mesh);
-    for (std::size_t i = 0; i < test::stress_count(20); ++i) {
+    for (std::size_t i = 0; i < test::stress_count(8); ++i) {
         const double d = distance_to(of, on_face(made.mesh, source));
         CAPTURE(d);
         const bool outer = outer_stays && d <= tiny;
@@ -121,7 +121,7 @@ TEST_CASE("any real mesh is made thick") {
     NEEDS_MODELS();
     std::uint64_t models = 0;
     test::for_each_model(1'000'000, [&](const tf::mesh& mesh) {
-        const double half = diagonal_of(mesh) / 40;
+        const double half = diagonal_of(mesh) / 20;
         if (!(half > 0.0) || half >= 0x1p140) return;  // beyond 2^150 it is refused
         const auto made = tf::thicken(mesh, 2 * half, {}, {.resolution = half / 2});
         check(made, mesh, false, [&](const tf::point3&, double away) { return away < half; });
@@ -136,7 +136,7 @@ TEST_CASE("real solids grow, shrink and are hollowed") {
     std::uint64_t models = 0;
     test::for_each_solid(500'000, [&](const tf::mesh& mesh) {
         const tf::prepared_mesh solid = tf::prepared_mesh::borrow(mesh);
-        const double d = diagonal_of(mesh) / 40;
+        const double d = diagonal_of(mesh) / 20;
         const tf::offset_options how{.resolution = d / 2};
         const auto within = [&](const tf::point3& p) { return tf::contains(solid, p); };
         check(tf::offset(solid, d, how), mesh, false,

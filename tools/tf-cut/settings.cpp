@@ -196,7 +196,7 @@ void add_options(command_line& line, cut_settings& s) {
                 {"--walls", "HOW",
                  "info: thinnest wall of a solid: ray, from the middle\n"
                  "of each face inward; sphere, the largest ball there\n"
-                 "(ten times as long); or none",
+                 "(it takes far longer); or none",
                  "ray"},
                 wall_measures);
     add_max_move(line, s.limits);
