@@ -145,15 +145,17 @@ TEST_CASE("a hollow cube keeps its surface, and drains lead into it") {
 
 TEST_CASE("a drain ends in the cavity, and what none leads into is counted") {
     const tf::mesh slab = test::box(10, 10, 3);
-    const auto drained = tf::hollow(slab, 1, std::array{tf::drain{{5, 5, 3}, 4}});
+    const tf::offset_options how{.resolution = 0.3};
+    const auto drained = tf::hollow(slab, 1, std::array{tf::drain{{5, 5, 3}, 4}}, how);
     REQUIRE(drained.certificate);
     CHECK(tf::contains(drained.mesh, {5, 5, 0.5}));  // the wall across is whole
     CHECK(!tf::contains(drained.mesh, {5, 5, 2.5}));
     CHECK(drained.blind_drains.empty());
     CHECK(drained.statistics.sealed_cavities == 0);
-    CHECK(tf::hollow(slab, 1).statistics.sealed_cavities == 1);
+    CHECK(tf::hollow(slab, 1, {}, how).statistics.sealed_cavities == 1);
     const std::array two{slab, test::moved(slab, {20, 0, 0})};
-    const auto half = tf::hollow(tf::concatenate(two), 1, std::array{tf::drain{{25, 5, 9}, 1}});
+    const auto half =
+        tf::hollow(tf::concatenate(two), 1, std::array{tf::drain{{25, 5, 9}, 1}}, how);
     REQUIRE(half.certificate);
     CHECK(half.blind_drains.empty());
     CHECK(half.statistics.sealed_cavities == 1);
@@ -161,7 +163,7 @@ TEST_CASE("a drain ends in the cavity, and what none leads into is counted") {
     const tf::mesh slotted =
         tf::subtract(test::box(10, 10, 10), test::moved(test::box(12, 12, 1), {-1, -1, 4.5}))
             .value();
-    const auto into_slot = tf::hollow(slotted, 1, std::array{tf::drain{{5, 5, 4.6}, 3}});
+    const auto into_slot = tf::hollow(slotted, 1, std::array{tf::drain{{5, 5, 4.6}, 3}}, how);
     REQUIRE(into_slot.certificate);
     CHECK(into_slot.blind_drains.empty());
     CHECK(!tf::contains(into_slot.mesh, {5, 5, 4}));
@@ -176,7 +178,7 @@ TEST_CASE("a drain whose axis passes by the cavity is named") {
         {{0, 0, 0}, {20, 0, -high}, {20, 0, high}, {0, 10, 0}, {20, 10, -high}, {20, 10, high}},
         {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 3}, {2, 3, 0}}};
     const std::array drains{tf::drain{{20, 5, 0}, 1}, tf::drain{{at, 5, at * high / 20}, 0.1}};
-    const auto made = tf::hollow(wedge, 0.5, drains);
+    const auto made = tf::hollow(wedge, 0.5, drains, {.resolution = 0.1});
     REQUIRE(made.certificate);
     CHECK(made.blind_drains == std::vector<std::uint32_t>{1});
 }
@@ -267,14 +269,16 @@ TEST_CASE("what makes no sense is refused, with what would do") {
 }
 
 TEST_CASE("it stops when it is told to, whenever that is") {
-    const tf::mesh ball = test::ball(3, 1.0);
+    const tf::mesh ball = test::ball(2, 1.0);
     int heard = 0;
-    (void)tf::hollow(ball, 0.2, {}, {.progress = [&](double) { return ++heard > 0; }});
+    (void)tf::hollow(ball, 0.2, {},
+                     {.resolution = 0.1, .progress = [&](double) { return ++heard > 0; }});
     CHECK(heard > 12);
     for (int stop = 0; stop < heard; stop += 3) {
         int calls = 0;
         const auto made =
-            tf::hollow(ball, 0.2, {}, {.progress = [&](double) { return ++calls <= stop; }});
+            tf::hollow(ball, 0.2, {},
+                       {.resolution = 0.1, .progress = [&](double) { return ++calls <= stop; }});
         CHECK(made.certificate.status == tf::status::cancelled);
         CHECK(made.mesh.faces.empty());
         CHECK(calls == stop + 1);
