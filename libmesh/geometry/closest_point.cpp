@@ -42,4 +42,8 @@ closest_on_triangle closest_point(const triangle3& t, const point3& p) {
         detail::geometry::based_triangle(t), p);
 }
 
+double detail::geometry::squared_distance(const based_triangle& t, const point3& p) {
+    return HWY_STATIC_DISPATCH(closest_on_one)(t, p).squared_distance;
+}
+
 }  // namespace treeform

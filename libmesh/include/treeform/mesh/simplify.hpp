@@ -33,6 +33,8 @@ struct simplify_options {
 struct simplify_result {
     treeform::mesh mesh;
     std::vector<std::uint32_t> face_source;  ///< [F] the face of the input that each was
+    /// [V] the vertex of the input whose place each has; none: a new place
+    std::vector<std::uint32_t> vertex_source;
     std::uint64_t collapses = 0;             ///< edges that became a vertex
     std::uint64_t refused_by_topology = 0;   ///< edges tried whose collapse would change it
     std::uint64_t refused_by_turning = 0;    ///< edges whose collapse would turn a face about
