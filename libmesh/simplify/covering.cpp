@@ -101,24 +101,28 @@ bool covering::settle(std::span<const target> by, double distance) {
     if (!(limit > 0.0) || whole.count + 3 > whole.corners.size()) return false;
     aabb<double, 3> box;
     for (std::size_t k = 0; k < whole.count; ++k) box.include(whole.corners[k]);
-    std::array<double, 12> nearest{};
-    nearest.fill(std::numeric_limits<double>::infinity());
     near_.clear();
-    for (const std::uint32_t i : at_all_) {
-        if (!are_near(by[i].box, box, distance)) continue;
-        near_.push_back(i);
-        double furthest = 0.0;
-        for (std::size_t k = 0; k < whole.count; ++k) {
-            const double d = geometry::squared_distance(by[i].based, whole.corners[k]);
-            nearest[k] = std::min(nearest[k], d);
-            furthest = std::max(furthest, d);
-        }
+    std::uint32_t out = 0;  // of a corner that the last was too far from
+    for (const std::uint32_t i : at_all_)
+        if (are_near(by[i].box, box, distance)) near_.push_back(i);
+    for (const std::uint32_t i : near_) {
+        double furthest = geometry::squared_distance(by[i].based, whole.corners[out]);
+        for (std::uint32_t k = 0; k < whole.count && furthest <= limit * limit; ++k)
+            if (k != out) {
+                const double d = geometry::squared_distance(by[i].based, whole.corners[k]);
+                if (d > furthest) furthest = d;
+                if (d > limit * limit) out = k;
+            }
         if (furthest > limit * limit) continue;
         use_of(i, std::sqrt(furthest) + blur);
+        std::swap(at_all_.front(), *std::ranges::find(at_all_, i));
         return true;
     }
-    if (*std::max_element(nearest.begin(), nearest.begin() + whole.count) > limit * limit)
-        return false;
+    for (std::size_t k = 0; k < whole.count; ++k)
+        if (std::ranges::none_of(near_, [&](std::uint32_t i) {
+                return geometry::squared_distance(by[i].based, whole.corners[k]) <= limit * limit;
+            }))
+            return false;
     point3 middle;
     for (std::size_t k = 0; k < whole.count; ++k) middle = base::plus(middle, whole.corners[k]);
     middle = base::scaled(middle, 1.0 / whole.count);

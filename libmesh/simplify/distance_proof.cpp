@@ -123,7 +123,10 @@ bool distance_proof::covers_there(const change& c) {
     targets_.clear();
     for (const triangle3& t : c.after) targets_.emplace_back(t);
     ids others;
+    if (const auto last = std::ranges::find(affected_, too_far_); last != affected_.end())
+        std::rotate(affected_.begin(), last, last + 1);
     for (const std::uint32_t t : affected_) {
+        too_far_ = t;
         targets_.resize(c.after.size());
         others.clear();
         for (const std::uint32_t f : near_given_[t])

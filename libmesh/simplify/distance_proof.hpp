@@ -70,6 +70,7 @@ class distance_proof {
     std::vector<bounded> made_{};  ///< [kept] of the change
     std::vector<covering::use> raised_{};  ///< other faces that points went to
     std::vector<target> targets_{};
+    std::uint32_t too_far_ = 0;  ///< triangle of the input where the last proof failed, or ended
     ids visited_{}, waiting_{};
     std::uint32_t visit_ = 0;
 };

@@ -30,6 +30,8 @@ namespace treeform {
 namespace detail::simplify {
 namespace {
 
+constexpr std::size_t most_places = 2;  ///< tried for an edge
+
 struct candidate {
     double cost = 0.0;
     std::uint32_t p = 0, q = 0;
@@ -199,6 +201,7 @@ std::vector<place> simplifying::places(std::uint32_t p, std::uint32_t q) const {
         }
     }
     std::ranges::stable_sort(all, {}, &place::cost);
+    if (all.size() > most_places) all.resize(most_places);
     return all;
 }
 
