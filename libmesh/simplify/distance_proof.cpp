@@ -10,7 +10,7 @@
 namespace treeform::detail::simplify {
 namespace {
 
-constexpr double shrunk_by = 0x1p-30;
+constexpr double shrunk_by = 0x1p-36;
 
 [[nodiscard]] aabb<double, 3> box_around(const triangle3& t, double margin) {
     aabb<double, 3> box;
@@ -157,9 +157,10 @@ bool distance_proof::is_under(std::size_t i, const triangle3& t) {
     seen_triangle seen = view.see(t);
     if (!view.faces_eye(t, seen)) return false;
     const double rim = shrunk_by * extent_of(seen);
+    // On no line of a grid, where triangles end.
     const point3 middle =
-        base::plus(base::scaled(seen[0], 0.375),
-                   base::plus(base::scaled(seen[1], 0.34375), base::scaled(seen[2], 0.28125)));
+        base::plus(base::scaled(seen[0], 0.3717),
+                   base::plus(base::scaled(seen[1], 0.3391), base::scaled(seen[2], 0.2892)));
     for (point3& p : seen)
         p = base::plus(p, base::scaled(base::minus(middle, p), 0.25 * shrunk_by));
     waiting_.clear();
@@ -189,9 +190,11 @@ bool distance_proof::is_under(std::size_t i, const triangle3& t) {
         if (*gap + rim > limit_ || !view.faces_eye(given_[g], at)) return fails();
         worst = std::max(worst, *gap);
         made_[i].near.push_back(g);
-        for (const std::uint32_t mate : mates_[g]) {
-            if (mate == no_face) return fails();
-            if (visited_[mate] == visit_) continue;
+        for (std::size_t side = 0; side < 3; ++side) {
+            const std::uint32_t mate = mates_[g][side];
+            const point3 &p = at[side], &q = at[(side + 1) % 3];
+            if (mate == no_face && gap_between({p, q, q}, seen)) return fails();
+            if (mate == no_face || visited_[mate] == visit_) continue;
             visited_[mate] = visit_;
             waiting_.push_back(mate);
         }

@@ -2,6 +2,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/simplify/distance_proof.hpp>
 #include <libmesh/simplify/kept_chains.hpp>
@@ -24,6 +25,7 @@
 #include <queue>
 #include <stdexcept>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 namespace treeform {
@@ -31,6 +33,10 @@ namespace detail::simplify {
 namespace {
 
 constexpr std::size_t most_places = 2;  ///< tried for an edge
+
+[[nodiscard]] std::uint64_t edge_of(std::uint32_t p, std::uint32_t q) {
+    return std::uint64_t{std::max(p, q)} << 32 | std::min(p, q);
+}
 
 struct candidate {
     double cost = 0.0;
@@ -72,6 +78,7 @@ class simplifying {
     [[nodiscard]] bool meets();
     void apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, double chain,
                std::uint32_t source);
+    [[nodiscard]] std::uint32_t nearest_given(std::uint32_t p) const;
     simplify_result finish();
 
     const simplify_options& options_;
@@ -89,8 +96,9 @@ class simplifying {
     point3 center_{};  ///< that quadrics are around
     dynamic_tree<3> tree_{};
     std::priority_queue<candidate, std::vector<candidate>, std::greater<>> next_{};
-    change change_{};           ///< what the attempt is to make
-    std::vector<face> made_{};  ///< [kept] of it
+    change change_{};                              ///< what the attempt is to make
+    std::vector<face> made_{};                     ///< [kept] of it
+    std::unordered_set<std::uint64_t> shelved_{};  ///< edges to try again when faces at them change
     predicate_counters counters_{};
     simplify_result result_{};
 };
@@ -227,6 +235,7 @@ void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
     if (gone.empty() || gone.size() > 2 || common.size() != gone.size() ||
         change_.kept.size() < gone.size() + (gone.size() == 2 ? 1 : 0)) {
         ++result_.refused_by_topology;
+        shelved_.insert(edge_of(p, q));
         return;
     }
     for (const std::uint32_t f : change_.old) change_.before.push_back(triangle_of(faces_[f]));
@@ -241,6 +250,7 @@ void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
         points_[q] = before[1];
     }
     ++*refused;
+    if (refused != &result_.refused_by_distance) shelved_.insert(edge_of(p, q));
 }
 
 /// Makes it, or returns the counter of what speaks against it.
@@ -316,6 +326,23 @@ void simplifying::apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, do
     ids around;
     put_neighbors(p, around);
     for (const std::uint32_t c : around) line_up(p, c);
+    for (const face& f : made_)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (const std::uint32_t a = f[i], b = f[(i + 1) % 3];
+                a != p && b != p && shelved_.erase(edge_of(a, b)) > 0)
+                line_up(a, b);
+}
+
+/// The triangle of the input that is nearest to a vertex, of those in lists of its faces.
+std::uint32_t simplifying::nearest_given(std::uint32_t p) const {
+    std::uint32_t nearest = star_[p].front();
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t f : star_[p])
+        for (const std::uint32_t t : proof_.near(f)) {
+            const double d = closest_point(proof_.given(t), points_[p]).squared_distance;
+            if (std::tie(d, t) < std::tie(least, nearest)) least = d, nearest = t;
+        }
+    return nearest;
 }
 
 simplify_result simplifying::finish() {
@@ -330,6 +357,8 @@ simplify_result simplifying::finish() {
                 number[c] = static_cast<std::uint32_t>(result_.mesh.points.size());
                 result_.mesh.points.push_back(points_[c]);
                 result_.vertex_source.push_back(source_[c]);
+                result_.face_of_new_vertex.push_back(
+                    source_[c] == no_face ? face_source_[nearest_given(c)] : no_face);
             }
             c = number[c];
         }

@@ -117,9 +117,11 @@ py::object carrying::to(const tf::mesh& made, const tf::carried_elements& elemen
 }
 
 py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
-                        std::span<const std::uint32_t> vertex_source) const {
-    return carried(made,
-                   [&](tf::mesh_file& file) { sources_.carry(file, face_source, vertex_source); });
+                        std::span<const std::uint32_t> vertex_source,
+                        std::span<const std::uint32_t> face_of_new_vertex) const {
+    return carried(made, [&](tf::mesh_file& file) {
+        sources_.carry(file, face_source, vertex_source, face_of_new_vertex);
+    });
 }
 
 void add_carrying(py::module_& module) { module.def("turned", &turned); }

@@ -34,7 +34,8 @@ class carrying {
     /// The attributes of what was made of the operands; None where these have none.
     [[nodiscard]] py::object to(const tf::mesh& made, const tf::carried_elements& elements) const;
     [[nodiscard]] py::object to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
-                                std::span<const std::uint32_t> vertex_source) const;
+                                std::span<const std::uint32_t> vertex_source,
+                                std::span<const std::uint32_t> face_of_new_vertex = {}) const;
 
   private:
     template <class Carry>

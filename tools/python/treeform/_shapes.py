@@ -114,6 +114,9 @@ class SimplifyResult(MadeMesh):
     refused_by_contact: Edges whose collapse would make faces meet.
     there_at_most: No point of the input is further from the result.
     back_at_most: No point of the result is further from the input.
+    vertex_source: (V,) vertex of the input that each is; `NONE`: new.
+    face_of_new_vertex: (V,) of a new vertex, the face of the input that is nearest to it; else
+        `NONE`.
     """
 
     face_source: Ids
@@ -124,6 +127,8 @@ class SimplifyResult(MadeMesh):
     refused_by_contact: int
     there_at_most: float
     back_at_most: float
+    vertex_source: Ids
+    face_of_new_vertex: Ids
 # end
 
 

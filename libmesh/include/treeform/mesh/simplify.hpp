@@ -31,10 +31,13 @@ struct simplify_options {
 
 /// The mesh with fewer faces, and what was proven and checked.
 struct simplify_result {
+    static constexpr std::uint32_t none = operand_element::none;
+
     treeform::mesh mesh;
     std::vector<std::uint32_t> face_source;  ///< [F] the face of the input that each was
-    /// [V] the vertex of the input whose place each has; none: a new place
-    std::vector<std::uint32_t> vertex_source;
+    std::vector<std::uint32_t> vertex_source;  ///< [V] vertex of the input that each is; none: new
+    /// [V] of a new vertex, the face of the input that is nearest to it; else none
+    std::vector<std::uint32_t> face_of_new_vertex;
     std::uint64_t collapses = 0;             ///< edges that became a vertex
     std::uint64_t refused_by_topology = 0;   ///< edges tried whose collapse would change it
     std::uint64_t refused_by_turning = 0;    ///< edges whose collapse would turn a face about

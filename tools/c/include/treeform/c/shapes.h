@@ -113,6 +113,10 @@ typedef struct treeform_simplify_result {
     /// Status ok: the result was looked at, and of what `treeform_find_solid_defects` counts
     /// nothing is more than it was. So a solid is one still. Else `not_certified`, or `cancelled`.
     const treeform_certificate* certificate;
+    /// [V] vertex of the input that each is; `TREEFORM_NONE`: new
+    const uint32_t* vertex_source;
+    /// [V] of a new vertex, the face of the input that is nearest to it; else none
+    const uint32_t* face_of_new_vertex;
 } treeform_simplify_result;
 // end
 
