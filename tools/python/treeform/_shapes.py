@@ -136,10 +136,11 @@ def simplify(mesh: MeshLike, max_distance: float, *, target_faces: int = 0,
              feature_angle: float = 180.0, precision: str = "float64", check: bool = True,
              progress: Progress = None) -> SimplifyResult:
     """A mesh with fewer faces: no point of either surface is further than `max_distance` from the
-    other, which is proven face by face, and no faces are made to meet. It takes about a
-    millisecond a face.
+    other, which is proven face by face, and no faces are made to meet. Values of vertices are
+    interpolated, faces have those of their source, and values of corners are left out.
 
-    target_faces: stop at so many. feature_angle: edges whose faces turn by more degrees stay.
+    target_faces: stop at so many. feature_angle: edges whose faces turn by more degrees, and
+    borders, are simplified along themselves.
 
     >>> import treeform
     >>> few = treeform.simplify(treeform.read("data/two_spheres.stl"), 0.05)
