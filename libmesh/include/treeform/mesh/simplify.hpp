@@ -35,17 +35,17 @@ struct simplify_result {
     static constexpr std::uint32_t none = operand_element::none;
 
     treeform::mesh mesh;
-    std::vector<std::uint32_t> face_source;  ///< [F] the face of the input that each was
+    std::vector<std::uint32_t> face_source;    ///< [F] the face of the input that each was
     std::vector<std::uint32_t> vertex_source;  ///< [V] vertex of the input that each is; none: new
     /// [V] of a new vertex, the face of the input that is nearest to it; else none
     std::vector<std::uint32_t> face_of_new_vertex;
-    std::uint64_t collapses = 0;             ///< edges that became a vertex
-    std::uint64_t refused_by_topology = 0;   ///< edges tried whose collapse would change it
-    std::uint64_t refused_by_turning = 0;    ///< edges whose collapse would turn a face about
-    std::uint64_t refused_by_distance = 0;   ///< edges whose collapse was not proven near
-    std::uint64_t refused_by_contact = 0;    ///< edges whose collapse would make faces meet
-    double there_at_most = 0.0;              ///< no point of the input is further from the result
-    double back_at_most = 0.0;               ///< no point of the result is further from the input
+    std::uint64_t collapses = 0;            ///< edges that became a vertex
+    std::uint64_t refused_by_topology = 0;  ///< edges tried whose collapse would change it
+    std::uint64_t refused_by_turning = 0;   ///< edges whose collapse would turn a face about
+    std::uint64_t refused_by_distance = 0;  ///< edges whose collapse was not proven near
+    std::uint64_t refused_by_contact = 0;   ///< edges whose collapse would make faces meet
+    double there_at_most = 0.0;             ///< no point of the input is further from the result
+    double back_at_most = 0.0;              ///< no point of the result is further from the input
     /// Status ok: the result was looked at, and of what `find_solid_defects` counts nothing is more
     /// than it was. So a solid is one still. Else `not_certified`, or `cancelled`.
     treeform::certificate certificate{};
