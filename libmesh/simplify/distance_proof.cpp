@@ -1,9 +1,8 @@
 #include <libmesh/simplify/distance_proof.hpp>
-#include <libmesh/simplify/seen_along.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -19,14 +18,6 @@ constexpr double shrunk_by = 0x1p-36;
     return box;
 }
 
-[[nodiscard]] bool overlaps(const aabb<double, 3>& a, const triangle3& t) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto [low, high] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
-        if (low > a.max[axis] || high < a.min[axis]) return false;
-    }
-    return true;
-}
-
 [[nodiscard]] bool has(const ids& ascending, std::uint32_t value) {
     return std::ranges::binary_search(ascending, value);
 }
@@ -37,13 +28,13 @@ distance_proof::distance_proof(mesh_view given, const connected_faces& now, doub
                                double limit)
     : mates_(now.mates), limit_(limit), covering_(largest) {
     faces_.resize(now.faces.size());
-    near_given_.resize(faces_.size());
     visited_.resize(faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         given_.push_back(base::triangle_of(given, now.source[f]));
         bounded& face = faces_[f];
         face.now = base::triangle_of(now.points, now.faces[f]);
-        face.near = near_given_[f] = {f};
+        face.near = {f};
+        box_.push_back(box_around(given_.back(), 0.0));
         for (std::size_t i = 0; i < 3; ++i) {  // rounded to the precision
             const point3 way = base::minus(face.now[i], given_[f][i]);
             if (way == point3{}) continue;
@@ -53,15 +44,16 @@ distance_proof::distance_proof(mesh_view given, const connected_faces& now, doub
     }
 }
 
+/// Triangles of the input in lists of old faces.
 void distance_proof::find_affected(const change& c) {
     affected_.clear();
+    ++visit_;
     for (const std::uint32_t f : c.old)
-        affected_.insert(affected_.end(), faces_[f].near.begin(), faces_[f].near.end());
-    std::ranges::sort(affected_);
-    affected_.erase(std::unique(affected_.begin(), affected_.end()), affected_.end());
+        for (const std::uint32_t t : faces_[f].near)
+            if (std::exchange(visited_[t], visit_) != visit_) affected_.push_back(t);
 }
 
-bool distance_proof::holds(const change& c) {
+bool distance_proof::holds(const change& c, const dynamic_tree<3>& tree) {
     made_.resize(c.kept.size());
     raised_.clear();
     for (std::size_t i = 0; i < made_.size(); ++i) {
@@ -69,16 +61,15 @@ bool distance_proof::holds(const change& c) {
         made_[i].there = made_[i].back = 0.0;
         made_[i].near.clear();
     }
-    if (c.same_rim && holds_by_step(c)) {
-        find_affected(c);
-        for (bounded& made : made_) {
-            const auto reach = box_around(made.now, std::max(made.there, made.back));
-            for (const std::uint32_t t : affected_)
-                if (overlaps(reach, given_[t])) made.near.push_back(t);
-        }
-        return true;
+    const bool by_step = c.same_rim && holds_by_step(c);
+    find_affected(c);
+    if (!by_step) return holds_anew(c, tree);
+    for (bounded& made : made_) {
+        const auto reach = box_around(made.now, std::max(made.there, made.back));
+        for (const std::uint32_t t : affected_)
+            if (overlaps(reach, box_[t])) made.near.push_back(t);
     }
-    return holds_anew(c);
+    return true;
 }
 
 /// Old and new disks have one rim, and all faces of both face the eye: of each place in view, they
@@ -88,17 +79,17 @@ bool distance_proof::holds_by_step(const change& c) {
     for (const triangle3& t : c.before) along = base::plus(along, normal_of(t));
     if (!(base::dot(along, along) > 0.0)) return false;
     const view_along view(along, c.after[0][0]);
-    std::vector<seen_triangle> before, after;
     const auto see = [&](const std::vector<triangle3>& all, std::vector<seen_triangle>& seen) {
+        seen.clear();
         return std::ranges::all_of(all, [&](const triangle3& t) {
             seen.push_back(view.see(t));
             return view.faces_eye(t, seen.back());
         });
     };
-    if (!see(c.after, after) || !see(c.before, before)) return false;
+    if (!see(c.after, seen_after_) || !see(c.before, seen_before_)) return false;
     for (std::size_t i = 0; i < made_.size(); ++i)
         for (std::size_t j = 0; j < c.old.size(); ++j)
-            if (const std::optional<double> gap = gap_between(before[j], after[i])) {
+            if (const std::optional<double> gap = gap_between(seen_before_[j], seen_after_[i])) {
                 made_[i].there = std::max(made_[i].there, faces_[c.old[j]].there + *gap);
                 made_[i].back = std::max(made_[i].back, faces_[c.old[j]].back + *gap);
                 if (made_[i].there > limit_ || made_[i].back > limit_) return false;
@@ -106,9 +97,9 @@ bool distance_proof::holds_by_step(const change& c) {
     return true;
 }
 
-bool distance_proof::holds_anew(const change& c) {
-    find_affected(c);
+bool distance_proof::holds_anew(const change& c, const dynamic_tree<3>& tree) {
     for (bounded& made : made_) made.there = made.back = 0.0;
+    find_targets(c, tree);
     if (!covers_there(c)) return false;
     for (std::size_t i = 0; i < made_.size(); ++i)
         if (!is_under(i, c.after[i]) && !covers_back(i, c.after[i])) return false;
@@ -119,29 +110,35 @@ bool distance_proof::holds_anew(const change& c) {
     return true;
 }
 
-bool distance_proof::covers_there(const change& c) {
+/// New faces, and what others there are within the limit of triangles of the input.
+void distance_proof::find_targets(const change& c, const dynamic_tree<3>& tree) {
     targets_.clear();
+    others_.clear();
     for (const triangle3& t : c.after) targets_.emplace_back(t);
-    ids others;
+    aabb<double, 3> around;
+    for (const std::uint32_t t : affected_) around.include(box_[t]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        around.min[axis] -= limit_, around.max[axis] += limit_;
+    search(tree, around, [&](std::uint32_t f) {
+        if (!has(c.old, f)) others_.push_back(f);
+    });
+    std::ranges::sort(others_);
+    for (const std::uint32_t f : others_) targets_.emplace_back(faces_[f].now);
+}
+
+bool distance_proof::covers_there(const change& c) {
     if (const auto last = std::ranges::find(affected_, too_far_); last != affected_.end())
-        std::rotate(affected_.begin(), last, last + 1);
+        std::iter_swap(affected_.begin(), last);
     for (const std::uint32_t t : affected_) {
         too_far_ = t;
-        targets_.resize(c.after.size());
-        others.clear();
-        for (const std::uint32_t f : near_given_[t])
-            if (!has(c.old, f)) {
-                others.push_back(f);
-                targets_.emplace_back(faces_[f].now);
-            }
         if (!covering_.cover(given_[t], targets_, limit_)) return false;
         for (const covering::use& use : covering_.used())
-            if (use.number < made_.size()) {
+            if (use.number < c.kept.size()) {
                 bounded& made = made_[use.number];
                 made.there = std::max(made.there, use.at_most);
                 made.near.push_back(t);
             } else {
-                raised_.push_back({others[use.number - made_.size()], use.at_most});
+                raised_.push_back({others_[use.number - c.kept.size()], t, use.at_most});
             }
     }
     return true;
@@ -156,12 +153,12 @@ bool distance_proof::is_under(std::size_t i, const triangle3& t) {
     const view_along view(normal, t[0]);
     seen_triangle seen = view.see(t);
     if (!view.faces_eye(t, seen)) return false;
-    const double rim = shrunk_by * extent_of(seen);
+    const double rim = shrunk_by * seen.extent;
     // On no line of a grid, where triangles end.
     const point3 middle =
-        base::plus(base::scaled(seen[0], 0.3717),
-                   base::plus(base::scaled(seen[1], 0.3391), base::scaled(seen[2], 0.2892)));
-    for (point3& p : seen)
+        base::plus(base::scaled(seen.at[0], 0.3717),
+                   base::plus(base::scaled(seen.at[1], 0.3391), base::scaled(seen.at[2], 0.2892)));
+    for (point3& p : seen.at)
         p = base::plus(p, base::scaled(base::minus(middle, p), 0.25 * shrunk_by));
     waiting_.clear();
     ++visit_;
@@ -192,8 +189,8 @@ bool distance_proof::is_under(std::size_t i, const triangle3& t) {
         made_[i].near.push_back(g);
         for (std::size_t side = 0; side < 3; ++side) {
             const std::uint32_t mate = mates_[g][side];
-            const point3 &p = at[side], &q = at[(side + 1) % 3];
-            if (mate == no_face && gap_between({p, q, q}, seen)) return fails();
+            const point3 &p = at.at[side], &q = at.at[(side + 1) % 3];
+            if (mate == no_face && gap_between({{p, q, q}, at.extent}, seen)) return fails();
             if (mate == no_face || visited_[mate] == visit_) continue;
             visited_[mate] = visit_;
             waiting_.push_back(mate);
@@ -215,15 +212,13 @@ bool distance_proof::covers_back(std::size_t i, const triangle3& t) {
 }
 
 void distance_proof::accept(const change& c) {
-    for (const std::uint32_t t : affected_)
-        std::erase_if(near_given_[t], [&](std::uint32_t f) { return has(c.old, f); });
-    for (const std::uint32_t f : c.old) faces_[f] = {};
-    for (const covering::use& other : raised_)
-        faces_[other.number].there = std::max(faces_[other.number].there, other.at_most);
-    for (std::size_t i = 0; i < made_.size(); ++i) {
-        for (const std::uint32_t t : made_[i].near) near_given_[t].push_back(c.kept[i]);
-        std::swap(faces_[c.kept[i]], made_[i]);
+    for (const std::uint32_t f : c.old) faces_[f].near.clear();
+    for (const auto& [other, t, there] : raised_) {
+        bounded& face = faces_[other];
+        face.there = std::max(face.there, there);
+        if (std::ranges::find(face.near, t) == face.near.end()) face.near.push_back(t);
     }
+    for (std::size_t i = 0; i < made_.size(); ++i) std::swap(faces_[c.kept[i]], made_[i]);
 }
 
 }  // namespace treeform::detail::simplify

@@ -4,8 +4,10 @@
 
 #include <libmesh/simplify/connected_faces.hpp>
 #include <libmesh/simplify/covering.hpp>
+#include <libmesh/simplify/seen_along.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/dynamic_tree.hpp>
 
 #include <array>
 #include <cstddef>
@@ -22,6 +24,11 @@ struct change {
     ids kept;                       ///< of `old`, those that stay with another corner, ascending
     std::vector<triangle3> after;   ///< [kept]
     bool same_rim = true;           ///< `before` and `after` are disks with the same border
+
+    void clear() {
+        for (ids* all : {&old, &kept}) all->clear();
+        for (std::vector<triangle3>* all : {&before, &after}) all->clear();
+    }
 };
 
 /// Bounds for each face: `there`, of points of the input that are near it, and `back`, of its points
@@ -38,7 +45,8 @@ class distance_proof {
     /// \param largest no coordinate has a larger magnitude, nor will
     distance_proof(mesh_view given, const connected_faces& now, double largest, double limit);
 
-    [[nodiscard]] bool holds(const change& c);
+    /// \param tree of faces as they are before
+    [[nodiscard]] bool holds(const change& c, const dynamic_tree<3>& tree);
     /// Makes the change that was last asked for, and holds.
     void accept(const change& c);
 
@@ -54,22 +62,29 @@ class distance_proof {
         ids near{};  ///< triangles of the input some of whose points belong to it, or that it is near
     };
     [[nodiscard]] bool holds_by_step(const change& c);
-    [[nodiscard]] bool holds_anew(const change& c);
+    [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
+    void find_targets(const change& c, const dynamic_tree<3>& tree);
     [[nodiscard]] bool covers_there(const change& c);
     [[nodiscard]] bool covers_back(std::size_t i, const triangle3& t);
     [[nodiscard]] bool is_under(std::size_t i, const triangle3& t);
     void find_affected(const change& c);
 
-    std::vector<triangle3> given_;
+    std::vector<triangle3> given_{};
+    std::vector<aabb<double, 3>> box_{};  ///< of these
     std::vector<std::array<std::uint32_t, 3>> mates_;
     double limit_;
     std::vector<bounded> faces_{};
-    std::vector<ids> near_given_{};  ///< of each triangle of the input, the faces with it in lists
     covering covering_;
     ids affected_{};               ///< triangles of the input in lists of old faces, ascending
     std::vector<bounded> made_{};  ///< [kept] of the change
-    std::vector<covering::use> raised_{};  ///< other faces that points went to
+    struct raised {
+        std::uint32_t face, given;
+        double there;
+    };
+    std::vector<raised> raised_{};  ///< other faces that points went to
     std::vector<target> targets_{};
+    ids others_{};  ///< faces that targets are, after those made
+    std::vector<seen_triangle> seen_before_{}, seen_after_{};
     std::uint32_t too_far_ = 0;  ///< triangle of the input where the last proof failed, or ended
     ids visited_{}, waiting_{};
     std::uint32_t visit_ = 0;

@@ -16,7 +16,7 @@ namespace {
 
 /// A convex polygon; were signs wrong, each of three cuts might still do no more than double it.
 struct cut_corners {
-    std::array<point3, 24> at{};
+    std::array<point3, 24> at;
     std::size_t count = 0;
 };
 
@@ -52,51 +52,53 @@ seen_triangle view_along::see(const triangle3& t) const {
     seen_triangle seen;
     for (std::size_t i = 0; i < 3; ++i) {
         const point3 to = base::minus(t[i], around_);
-        seen[i] = {base::dot(to, across_), base::dot(to, up_), base::dot(to, along_)};
+        seen.at[i] = {base::dot(to, across_), base::dot(to, up_), base::dot(to, along_)};
+        seen.extent = std::max(seen.extent, base::largest_of(seen.at[i]));
     }
     return seen;
 }
 
 bool view_along::faces_eye(const triangle3& t, const seen_triangle& seen) const {
     const point3 normal = normal_of(t);
-    const double extent = extent_of(seen), area = base::dot(normal, along_);
-    return area > 0x1p-40 * extent * extent && area * area > 0.04 * base::dot(normal, normal);
-}
-
-double extent_of(const seen_triangle& t) {
-    return std::max({base::largest_of(t[0]), base::largest_of(t[1]), base::largest_of(t[2])});
+    const double area = base::dot(normal, along_);
+    return area > 0x1p-40 * seen.extent * seen.extent &&
+           area * area > 0.04 * base::dot(normal, normal);
 }
 
 std::optional<double> gap_between(const seen_triangle& a, const seen_triangle& b) {
-    const double extent = std::max(extent_of(a), extent_of(b)), error = sides_error(extent);
-    cut_corners common;
-    std::copy(a.begin(), a.end(), common.at.begin());
-    common.count = 3;
-    for (std::size_t i = 0; i < 3 && common.count > 0; ++i) {
-        const point3 &p = b[i], &q = b[(i + 1) % 3];
-        if (turn_of(p, q, a[0]) < -error && turn_of(p, q, a[1]) < -error &&
-            turn_of(p, q, a[2]) < -error)
-            return std::nullopt;
+    const double extent = std::max(a.extent, b.extent), error = sides_error(extent);
+    std::array<bool, 3> cuts{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const point3 &p = b.at[i], &q = b.at[(i + 1) % 3];
+        int out = 0;
+        for (const point3& corner : a.at) out += turn_of(p, q, corner) < -error ? 1 : 0;
+        if (out == 3) return std::nullopt;
+        cuts[i] = out > 0;
     }
+    cut_corners common;
+    std::copy(a.at.begin(), a.at.end(), common.at.begin());
+    common.count = 3;
     for (std::size_t i = 0; i < 3 && common.count > 0; ++i)
-        common = left_of(common, b[i], b[(i + 1) % 3], error);
+        if (cuts[i]) common = left_of(common, b.at[i], b.at[(i + 1) % 3], error);
     if (common.count == 0) return std::nullopt;
-    const double area = turn_of(b[0], b[1], b[2]);
+    const double area = turn_of(b.at[0], b.at[1], b.at[2]);
+    const double rise_1 = b.at[1].z - b.at[0].z, rise_2 = b.at[2].z - b.at[0].z;
     double gap = 0.0;
     for (std::size_t i = 0; i < common.count; ++i) {
         const point3& at = common.at[i];
-        const double height = b[0].z + (turn_of(b[0], at, b[2]) * (b[1].z - b[0].z) +
-                                        turn_of(b[0], b[1], at) * (b[2].z - b[0].z)) /
-                                           area;
-        gap = std::max(gap, std::abs(height - at.z));
+        const double rise =
+            (turn_of(b.at[0], at, b.at[2]) * rise_1 + turn_of(b.at[0], b.at[1], at) * rise_2) /
+            area;
+        gap = std::max(gap, std::abs(b.at[0].z + rise - at.z));
     }
-    return gap + 0x1p-44 * extent;
+    return gap + 0x1p-44 * extent +
+           0x1p-45 * extent * extent / area * (std::abs(rise_1) + std::abs(rise_2));
 }
 
 bool is_seen_within(const seen_triangle& t, const point3& at) {
-    const double error = sides_error(std::max(extent_of(t), base::largest_of(at)));
-    return turn_of(t[0], t[1], at) > error && turn_of(t[1], t[2], at) > error &&
-           turn_of(t[2], t[0], at) > error;
+    const double error = sides_error(std::max(t.extent, base::largest_of(at)));
+    return turn_of(t.at[0], t.at[1], at) > error && turn_of(t.at[1], t.at[2], at) > error &&
+           turn_of(t.at[2], t.at[0], at) > error;
 }
 
 }  // namespace treeform::detail::simplify

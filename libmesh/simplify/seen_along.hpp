@@ -14,8 +14,11 @@ namespace treeform::detail::simplify {
     return base::cross(base::minus(t[1], t[0]), base::minus(t[2], t[0]));
 }
 
-/// Where in the view a point is, as x and y, and how near to the eye, as z.
-using seen_triangle = std::array<point3, 3>;
+/// Where in the view corners are, as x and y, and how near to the eye, as z.
+struct seen_triangle {
+    std::array<point3, 3> at;
+    double extent = 0.0;  ///< greatest magnitude of a coordinate
+};
 
 /// A view along a direction, around a point.
 ///
@@ -33,18 +36,17 @@ class view_along {
     point3 around_, across_, up_, along_;
 };
 
-/// The greatest magnitude of a coordinate in the view.
-[[nodiscard]] double extent_of(const seen_triangle& t);
-
 /// How far heights of `a` and `b` differ at most where both are seen; none where one of them is at
 /// each place. Never too little, and never none where there is a common place.
 ///
 /// With u = 2^-53 and S the larger extent: places are off by 4 u S, corners cut by 8 u S more, and
-/// `sides` that decide by 32 u S^2: what is outside by no more than 2^-46 S^2 is kept. Planes rise by
-/// less than 5 in 1 (`faces_eye`), so that heights at cut corners are off by less than 128 u S, and
-/// differences by twice that and 8 u S: 2^-44 S is added.
+/// twice the area that tells the side of a line by 64 u S^2. What is outside by no more than twice
+/// that is kept, so that no corner is cut off that is common. Edges rise by less than 5 in 1
+/// (`faces_eye`), so that heights at corners of `a` that are cut are off by less than 128 u S. Those
+/// of the plane of `b` are off by as much, and as a share of its area by 64 u S^2 each of two: 2^-44 S
+/// and 2^-45 S^2 / area times its rise are added.
 ///
-/// \pre both face the eye
+/// \pre both face the eye; of `a`, two corners may be one
 [[nodiscard]] std::optional<double> gap_between(const seen_triangle& a, const seen_triangle& b);
 
 /// Whether `at` is seen within `t`, beyond doubt.

@@ -71,7 +71,11 @@ class simplifying {
     }
     void add_quadrics();
     void put_neighbors(std::uint32_t p, ids& all) const;
-    [[nodiscard]] std::vector<place> places(std::uint32_t p, std::uint32_t q) const;
+    struct places_of_edge {
+        std::array<place, most_places + 1> best{};  ///< the last for one too many
+        std::size_t count = 0;
+    };
+    [[nodiscard]] places_of_edge places(std::uint32_t p, std::uint32_t q) const;
     void line_up(std::uint32_t p, std::uint32_t q);
     void collapse(std::uint32_t p, std::uint32_t q);
     std::uint64_t* attempt(std::uint32_t p, std::uint32_t q, const place& to);
@@ -96,8 +100,10 @@ class simplifying {
     point3 center_{};  ///< that quadrics are around
     dynamic_tree<3> tree_{};
     std::priority_queue<candidate, std::vector<candidate>, std::greater<>> next_{};
-    change change_{};                              ///< what the attempt is to make
+    change change_{};  ///< what the attempt is to make
+    std::array<ids, 4> workspace_{};
     std::vector<face> made_{};                     ///< [kept] of it
+    std::vector<aabb<double, 3>> boxes_{};         ///< [kept], of these
     std::unordered_set<std::uint64_t> shelved_{};  ///< edges to try again when faces at them change
     predicate_counters counters_{};
     simplify_result result_{};
@@ -189,47 +195,49 @@ void simplifying::put_neighbors(std::uint32_t p, ids& all) const {
 }
 
 /// Where both ends may go, best first.
-std::vector<place> simplifying::places(std::uint32_t p, std::uint32_t q) const {
+simplifying::places_of_edge simplifying::places(std::uint32_t p, std::uint32_t q) const {
     quadric sum = quadric_[p];
     sum.add(quadric_[q]);
-    std::vector<place> all;
+    places_of_edge all;
     const auto put = [&](const point3& at, std::uint32_t source) {
-        if (base::is_finite(at) && base::largest_of(at) <= largest_)
-            all.push_back({std::max(0.0, sum.at(base::minus(at, center_))), at, source});
+        if (!base::is_finite(at) || base::largest_of(at) > largest_) return;
+        const place one{std::max(0.0, sum.at(base::minus(at, center_))), at, source};
+        std::size_t i = all.count++;
+        for (; i > 0 && one.cost < all.best[i - 1].cost; --i) all.best[i] = all.best[i - 1];
+        all.best[i] = one;
+        all.count = std::min(all.count, most_places);
     };
     if (chains_.may_join(q, p)) put(points_[p], source_[p]);
     if (chains_.may_join(p, q)) put(points_[q], source_[q]);
-    if (chains_.is_free(p) && chains_.is_free(q)) {
-        for (point3 at : {base::plus(center_, sum.lowest()),
-                          base::scaled(base::plus(points_[p], points_[q]), 0.5)}) {
-            if (options_.precision == precision::float32)
-                at = {base::nearest_float(at.x), base::nearest_float(at.y),
-                      base::nearest_float(at.z)};
-            put(at, no_face);
-        }
+    if (!chains_.is_free(p) || !chains_.is_free(q)) return all;
+    for (point3 at : {base::plus(center_, sum.lowest()),
+                      base::scaled(base::plus(points_[p], points_[q]), 0.5)}) {
+        if (options_.precision == precision::float32)
+            at = {base::nearest_float(at.x), base::nearest_float(at.y), base::nearest_float(at.z)};
+        put(at, no_face);
     }
-    std::ranges::stable_sort(all, {}, &place::cost);
-    if (all.size() > most_places) all.resize(most_places);
     return all;
 }
 
 void simplifying::line_up(std::uint32_t p, std::uint32_t q) {
     if (distance_ <= 0.0) return;
-    const std::vector<place> all = places(p, q);
-    if (all.empty()) return;
+    const places_of_edge all = places(p, q);
+    if (all.count == 0) return;
     const point3 way = base::minus(points_[p], points_[q]);
     const double short_first = 1e-9 * base::dot(way, way) * base::dot(way, way);
-    next_.push({all.front().cost + short_first, std::min(p, q), std::max(p, q),
+    next_.push({all.best[0].cost + short_first, std::min(p, q), std::max(p, q),
                 version_[p] + version_[q]});
 }
 
 void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
-    ids at_p, at_q, common, gone;
-    put_neighbors(p, at_p);
-    put_neighbors(q, at_q);
-    std::ranges::set_intersection(at_p, at_q, std::back_inserter(common));
+    ids &common = workspace_[0], &gone = workspace_[1];
+    common.clear();
+    gone.clear();
+    change_.clear();
+    put_neighbors(p, workspace_[2]);
+    put_neighbors(q, workspace_[3]);
+    std::ranges::set_intersection(workspace_[2], workspace_[3], std::back_inserter(common));
     std::ranges::set_intersection(star_[p], star_[q], std::back_inserter(gone));
-    change_ = {};
     std::ranges::set_union(star_[p], star_[q], std::back_inserter(change_.old));
     std::ranges::set_difference(change_.old, gone, std::back_inserter(change_.kept));
     if (gone.empty() || gone.size() > 2 || common.size() != gone.size() ||
@@ -243,8 +251,9 @@ void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
     change_.same_rim = gone.size() == 2;
     const std::array<point3, 2> before{points_[p], points_[q]};
     std::uint64_t* refused = &result_.refused_by_distance;
-    for (const place& to : places(p, q)) {
-        refused = attempt(p, q, to);
+    const places_of_edge all = places(p, q);
+    for (std::size_t i = 0; i < all.count; ++i) {
+        refused = attempt(p, q, all.best[i]);
         if (refused == nullptr) return;
         points_[p] = before[0];
         points_[q] = before[1];
@@ -278,7 +287,7 @@ std::uint64_t* simplifying::attempt(std::uint32_t p, std::uint32_t q, const plac
     }
     for (const triangle3& t : change_.after)
         if (collinear(t[0], t[1], t[2])) return &result_.refused_by_turning;
-    if (!proof_.holds(change_)) return &result_.refused_by_distance;
+    if (!proof_.holds(change_, tree_)) return &result_.refused_by_distance;
     if (meets()) return &result_.refused_by_contact;
     apply(p, q, gone, *chain, to.source);
     return nullptr;
@@ -289,17 +298,21 @@ bool simplifying::meets() {
     const auto meet = [&](const face& f, const face& g) {
         return intersect::classify_pair(points_, f, g, counters_).has_value();
     };
-    for (std::size_t i = 0; i < made_.size(); ++i) {
+    boxes_.clear();
+    aabb<double, 3> around;
+    for (const face& f : made_) {
+        boxes_.push_back(box_of(f));
+        around.include(boxes_.back());
+    }
+    for (std::size_t i = 0; i < made_.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (meet(made_[i], made_[j])) return true;
-        bool found = false;
-        search(tree_, box_of(made_[i]), [&](std::uint32_t g) {
-            found =
-                found || (!std::ranges::binary_search(change_.old, g) && meet(made_[i], faces_[g]));
-        });
-        if (found) return true;
-    }
-    return false;
+    return search_any(tree_, around, [&](std::uint32_t g) {
+        if (std::ranges::binary_search(change_.old, g)) return false;
+        for (std::size_t i = 0; i < made_.size(); ++i)
+            if (overlaps(boxes_[i], tree_.box(g)) && meet(made_[i], faces_[g])) return true;
+        return false;
+    });
 }
 
 void simplifying::apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, double chain,
@@ -307,23 +320,18 @@ void simplifying::apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, do
     ++result_.collapses;
     proof_.accept(change_);
     chains_.join(p, q, gone, chain);
-    ids left_out;
-    std::ranges::set_difference(change_.old, change_.kept, std::back_inserter(left_out));
+    const ids& left_out = workspace_[1];
     for (const std::uint32_t f : left_out)
         for (const std::uint32_t c : faces_[f]) std::erase(star_[c], f);
-    std::vector<aabb<double, 3>> boxes;
-    for (std::size_t i = 0; i < made_.size(); ++i) {
-        faces_[change_.kept[i]] = made_[i];
-        boxes.push_back(box_of(made_[i]));
-    }
+    for (std::size_t i = 0; i < made_.size(); ++i) faces_[change_.kept[i]] = made_[i];
     tree_.remove(left_out);
-    tree_.move(change_.kept, boxes);
+    tree_.move(change_.kept, boxes_);
     star_[p] = change_.kept;
     star_[q].clear();
     source_[p] = source;
     quadric_[p].add(quadric_[q]);
     ++version_[p];
-    ids around;
+    ids& around = workspace_[2];
     put_neighbors(p, around);
     for (const std::uint32_t c : around) line_up(p, c);
     for (const face& f : made_)
