@@ -9,7 +9,7 @@
 namespace treeform::detail::simplify {
 namespace {
 
-constexpr double shrunk_by = 0x1p-36;
+constexpr double rim_share = 0x1p-6;  ///< of the limit
 
 [[nodiscard]] aabb<double, 3> box_around(const triangle3& t, double margin) {
     aabb<double, 3> box;
@@ -26,7 +26,7 @@ constexpr double shrunk_by = 0x1p-36;
 
 distance_proof::distance_proof(mesh_view given, const connected_faces& now, double largest,
                                double limit)
-    : mates_(now.mates), limit_(limit), covering_(largest) {
+    : mates_(now.mates), limit_(limit), rounding_(0x1p-50 * largest), covering_(largest) {
     faces_.resize(now.faces.size());
     visited_.resize(faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
@@ -65,7 +65,7 @@ bool distance_proof::holds(const change& c, const dynamic_tree<3>& tree) {
     find_affected(c);
     if (!by_step) return holds_anew(c, tree);
     for (bounded& made : made_) {
-        const auto reach = box_around(made.now, std::max(made.there, made.back));
+        const auto reach = box_around(made.now, std::max(made.there, made.back) + rounding_);
         for (const std::uint32_t t : affected_)
             if (overlaps(reach, box_[t])) made.near.push_back(t);
     }
@@ -146,20 +146,24 @@ bool distance_proof::covers_there(const change& c) {
 
 /// Whether the input, seen along the face, covers it no further away than the limit. What is seen of
 /// it grows from a triangle that covers some of it, across all sides of those that cover more. The
-/// face is made smaller by `rim` first, so that what only touches it does not count.
+/// face is made smaller by `rim` first, so that what hardly meets it does not count.
 bool distance_proof::is_under(std::size_t i, const triangle3& t) {
     const point3 normal = normal_of(t);
     if (!(base::dot(normal, normal) > 0.0)) return false;
     const view_along view(normal, t[0]);
     seen_triangle seen = view.see(t);
     if (!view.faces_eye(t, seen)) return false;
-    const double rim = shrunk_by * seen.extent;
     // On no line of a grid, where triangles end.
     const point3 middle =
         base::plus(base::scaled(seen.at[0], 0.3717),
                    base::plus(base::scaled(seen.at[1], 0.3391), base::scaled(seen.at[2], 0.2892)));
-    for (point3& p : seen.at)
-        p = base::plus(p, base::scaled(base::minus(middle, p), 0.25 * shrunk_by));
+    double widest = 0.0;
+    for (const point3& p : seen.at) {
+        const point3 way = base::minus(middle, p);
+        widest = std::max(widest, std::sqrt(base::dot(way, way)));
+    }
+    const double rim = std::min(rim_share * limit_, 0.5 * widest);
+    for (point3& p : seen.at) p = base::plus(p, base::scaled(base::minus(middle, p), rim / widest));
     waiting_.clear();
     ++visit_;
     double worst = 0.0;

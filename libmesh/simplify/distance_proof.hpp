@@ -73,6 +73,7 @@ class distance_proof {
     std::vector<aabb<double, 3>> box_{};  ///< of these
     std::vector<std::array<std::uint32_t, 3>> mates_;
     double limit_;
+    double rounding_;  ///< of boxes
     std::vector<bounded> faces_{};
     covering covering_;
     ids affected_{};               ///< triangles of the input in lists of old faces, ascending

@@ -139,11 +139,4 @@ void kept_chains::join(std::uint32_t p, std::uint32_t q, std::uint32_t gone, dou
     locked_[p] = locked_[p] | locked_[q];
 }
 
-double kept_chains::at_most() const {
-    double most = 0.0;
-    for (const std::vector<link>& links : at_)
-        for (const link& l : links) most = std::max(most, l.at_most);
-    return most;
-}
-
 }  // namespace treeform::detail::simplify

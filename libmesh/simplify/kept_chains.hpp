@@ -30,8 +30,6 @@ class kept_chains {
                                               std::uint32_t kept) const;
     /// `q` becomes `p`, wherever that is. Edges of chains at `gone`, one of both, get the bound.
     void join(std::uint32_t p, std::uint32_t q, std::uint32_t gone, double at_most);
-    /// Bounds of all chains.
-    [[nodiscard]] double at_most() const;
 
   private:
     struct link {

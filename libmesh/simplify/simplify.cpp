@@ -11,6 +11,7 @@
 #include <libmesh/weld/equal_firsts.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/simplify.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
 #include <treeform/tree/search.hpp>
@@ -410,8 +411,14 @@ simplify_result simplify(const mesh_ref& mesh, double max_distance,
     if (result.certificate.status == status::cancelled) return result;
     const solid_defects before = find_solid_defects(view), after = find_solid_defects(result.mesh);
     if (has_more(after, before)) {
-        result.certificate.status = status::not_certified;
-        result.certificate.meeting_count = after.meeting_pairs;
+        certificate& known = result.certificate;
+        known.status = status::not_certified;
+        const auto met = self_intersections(result.mesh);
+        known.meeting_count = met.pairs.size();
+        for (std::size_t i = 0; i < std::min<std::size_t>(met.pairs.size(), 100); ++i) {
+            known.meeting.push_back({met.pairs[i].a, met.pairs[i].b});
+            known.meeting_at.push_back(result.mesh.points[result.mesh.faces[met.pairs[i].a][0]]);
+        }
     }
     return result;
 }
