@@ -241,8 +241,7 @@ void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
     std::ranges::set_intersection(star_[p], star_[q], std::back_inserter(gone));
     std::ranges::set_union(star_[p], star_[q], std::back_inserter(change_.old));
     std::ranges::set_difference(change_.old, gone, std::back_inserter(change_.kept));
-    if (gone.empty() || gone.size() > 2 || common.size() != gone.size() ||
-        change_.kept.size() < gone.size() + (gone.size() == 2 ? 1 : 0)) {
+    if (gone.empty() || gone.size() > 2 || common.size() != gone.size() || change_.kept.empty()) {
         ++result_.refused_by_topology;
         shelved_.insert(edge_of(p, q));
         return;
@@ -356,22 +355,20 @@ std::uint32_t simplifying::nearest_given(std::uint32_t p) const {
 
 simplify_result simplifying::finish() {
     ids number(points_.size(), no_face);
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+        if (star_[p].empty()) continue;
+        number[p] = static_cast<std::uint32_t>(result_.mesh.points.size());
+        result_.mesh.points.push_back(points_[p]);
+        result_.vertex_source.push_back(source_[p]);
+        result_.face_of_new_vertex.push_back(source_[p] == no_face ? face_source_[nearest_given(p)]
+                                                                   : no_face);
+    }
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         if (!tree_.contains(f)) continue;
         result_.there_at_most = std::max(result_.there_at_most, proof_.there(f));
         result_.back_at_most = std::max(result_.back_at_most, proof_.back(f));
-        face corners = faces_[f];
-        for (std::uint32_t& c : corners) {
-            if (number[c] == no_face) {
-                number[c] = static_cast<std::uint32_t>(result_.mesh.points.size());
-                result_.mesh.points.push_back(points_[c]);
-                result_.vertex_source.push_back(source_[c]);
-                result_.face_of_new_vertex.push_back(
-                    source_[c] == no_face ? face_source_[nearest_given(c)] : no_face);
-            }
-            c = number[c];
-        }
-        result_.mesh.faces.push_back(corners);
+        result_.mesh.faces.push_back(
+            {number[faces_[f][0]], number[faces_[f][1]], number[faces_[f][2]]});
         result_.face_source.push_back(face_source_[f]);
     }
     return std::move(result_);

@@ -169,6 +169,17 @@ TEST_CASE("A flat square with fine borders becomes two faces, each corner where 
     }
 }
 
+TEST_CASE("A tetrahedron and a triangle stay, whatever the distance") {
+    tf::mesh solid{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                   {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    for (const double distance : {1e-3, 10.0, 1e300}) {
+        CHECK(tf::simplify(solid, distance).mesh == solid);
+        const tf::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+        CHECK(tf::simplify(one, distance).mesh == one);
+        CHECK(test::is_clean_solid(tf::simplify(fine_torus(8), distance).mesh));
+    }
+}
+
 TEST_CASE("A fine cube becomes twelve faces, with features kept or not") {
     for (const double angle : {30.0, 180.0}) {
         const tf::simplify_result made = tf::simplify(fine_cube(8), 1e-6, {.feature_angle = angle});
