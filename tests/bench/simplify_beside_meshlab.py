@@ -48,6 +48,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         given, out = os.path.join(folder, "given.ply"), os.path.join(folder, "out.ply")
         whole = treeform.read(path)
+        whole = treeform.submesh(whole, range(len(whole.faces))).mesh  # without unused points
         treeform.write(given, whole, precision="float32")
         whole = treeform.read(given)
 
