@@ -48,7 +48,11 @@ covering::halves covering::halves_of(const piece& of, const point3& at, const po
             parts.before.corners[parts.before.count++] = cut;
         }
     }
-    parts.behind.cuts = parts.before.cuts = of.cuts + 1;
+    for (piece* part : {&parts.behind, &parts.before}) {
+        part->cuts = of.cuts + 1;
+        part->near_begin = of.near_begin;
+        part->near_end = of.near_end;
+    }
     return parts;
 }
 
@@ -95,58 +99,60 @@ void covering::halve(const piece& whole) {
 
 /// Proves the last piece, or cuts it; false where it cannot be proven.
 bool covering::settle(std::span<const target> by, double distance) {
-    const piece whole = left_.back();
+    piece whole = left_.back();
     left_.pop_back();
     const double blur = unit_ * (40.0 + 9.0 * whole.cuts), limit = distance - blur;
     if (!(limit > 0.0) || whole.count + 3 > whole.corners.size()) return false;
     aabb<double, 3> box;
-    for (std::size_t k = 0; k < whole.count; ++k) box.include(whole.corners[k]);
-    near_.clear();
-    std::uint32_t out = 0;  // of a corner that the last was too far from
-    for (const std::uint32_t i : at_all_)
-        if (are_near(by[i].box, box, distance)) near_.push_back(i);
-    for (const std::uint32_t i : near_) {
-        double furthest = geometry::squared_distance(by[i].based, whole.corners[out]);
-        for (std::uint32_t k = 0; k < whole.count && furthest <= limit * limit; ++k)
-            if (k != out) {
-                const double d = geometry::squared_distance(by[i].based, whole.corners[k]);
-                if (d > furthest) furthest = d;
-                if (d > limit * limit) out = k;
-            }
-        if (furthest > limit * limit) continue;
-        use_of(i, std::sqrt(furthest) + blur);
-        std::swap(at_all_.front(), *std::ranges::find(at_all_, i));
-        return true;
+    point3 middle;
+    for (std::size_t k = 0; k < whole.count; ++k) {
+        box.include(whole.corners[k]);
+        middle = base::plus(middle, whole.corners[k]);
     }
-    for (std::size_t k = 0; k < whole.count; ++k)
-        if (std::ranges::none_of(near_, [&](std::uint32_t i) {
-                return geometry::squared_distance(by[i].based, whole.corners[k]) <= limit * limit;
+    middle = base::scaled(middle, 1.0 / whole.count);
+    const auto squared = [&](std::uint32_t i, const point3& p) {
+        return geometry::squared_distance(by[i].based, p);
+    };
+    // Its parts are near no others than it is.
+    near_.resize(whole.near_end);
+    std::uint32_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t n = whole.near_begin; n < whole.near_end; ++n) {
+        const std::uint32_t i = near_[n];
+        if (!are_near(by[i].box, box, distance)) continue;
+        near_.push_back(i);
+        if (const double d = squared(i, middle); d < least) least = d, best = i;
+    }
+    whole.near_begin = whole.near_end;
+    whole.near_end = static_cast<std::uint32_t>(near_.size());
+    if (!(least <= limit * limit)) return false;
+    double furthest = 0.0;
+    for (std::uint32_t k = 0; k < whole.count; ++k) {
+        const double d = squared(best, whole.corners[k]);
+        furthest = std::max(furthest, d);
+        if (d > limit * limit &&
+            std::none_of(near_.begin() + whole.near_begin, near_.end(), [&](std::uint32_t i) {
+                return squared(i, whole.corners[k]) <= limit * limit;
             }))
             return false;
-    point3 middle;
-    for (std::size_t k = 0; k < whole.count; ++k) middle = base::plus(middle, whole.corners[k]);
-    middle = base::scaled(middle, 1.0 / whole.count);
-    double least = std::numeric_limits<double>::infinity();
-    std::uint32_t best = near_.front();
-    for (const std::uint32_t i : near_)
-        if (const double d = geometry::squared_distance(by[i].based, middle); d < least)
-            least = d, best = i;
-    if (!cut_along(whole, by[best].corners)) halve(whole);
+    }
+    if (furthest <= limit * limit)
+        use_of(best, std::sqrt(furthest) + blur);
+    else if (!cut_along(whole, by[best].corners))
+        halve(whole);
     return true;
 }
 
 bool covering::cover(const triangle3& t, std::span<const target> by, double distance) {
     used_.clear();
     left_.clear();
-    at_all_.clear();
+    near_.clear();
     piece whole;
     std::copy(t.begin(), t.end(), whole.corners.begin());
     whole.count = 3;
+    for (std::uint32_t i = 0; i < by.size(); ++i) near_.push_back(i);
+    whole.near_end = static_cast<std::uint32_t>(near_.size());
     left_.push_back(whole);
-    aabb<double, 3> box;
-    for (const point3& p : t) box.include(p);
-    for (std::uint32_t i = 0; i < by.size(); ++i)
-        if (are_near(by[i].box, box, distance)) at_all_.push_back(i);
     for (int pieces = 0; !left_.empty(); ++pieces)
         if (pieces >= most_pieces || !settle(by, distance)) return false;
     return true;

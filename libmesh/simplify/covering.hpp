@@ -55,6 +55,7 @@ class covering {
         std::array<point3, 12> corners{};
         std::uint32_t count = 0;
         std::uint32_t cuts = 0;  ///< that a corner comes of, at most
+        std::uint32_t near_begin = 0, near_end = 0;  ///< in `near_`, what it is near
     };
     struct halves {
         piece behind, before;
@@ -67,7 +68,7 @@ class covering {
 
     double unit_;
     std::vector<piece> left_{};
-    std::vector<std::uint32_t> near_{}, at_all_{};
+    std::vector<std::uint32_t> near_{};
     std::vector<use> used_{};
 };
 
