@@ -224,7 +224,8 @@ void carry_sources::carry(mesh_file& file, const carried_elements& made) const {
 }
 
 void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_source,
-                          std::span<const std::uint32_t> vertex_source) const {
+                          std::span<const std::uint32_t> vertex_source,
+                          std::span<const std::uint32_t> face_of_new_vertex) const {
     const auto of_input = [](std::span<const std::uint32_t> indices) {
         std::vector<operand_element> elements(indices.size());
         for (std::size_t i = 0; i < indices.size(); ++i)
@@ -233,7 +234,9 @@ void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_s
     };
     const std::vector<operand_element> faces = of_input(face_source);
     const std::vector<operand_element> vertices = of_input(vertex_source);
-    carry(file, {faces, vertices});
+    const std::vector<operand_element> cut = of_input(face_of_new_vertex);
+    carry(file, {faces, vertices, cut});
+    if (!cut.empty()) file.attributes.corners = {};
 }
 
 std::vector<std::uint32_t> carry_sources::face_groups(bool by_values, bool by_input) const {

@@ -42,4 +42,16 @@ closest_on_triangle closest_point(const triangle3& t, const point3& p) {
         detail::geometry::based_triangle(t), p);
 }
 
+double detail::geometry::squared_distance(const based_triangle& t, const point3& p) {
+    // As `closest_on`, for what is above the triangle, without what that takes beside it.
+    const point3 from = base::minus(p, t.corner);
+    const double s = base::dot(from, t.base) * t.per_base;
+    const double r = base::dot(base::minus(from, base::scaled(t.base, s)), t.height) * t.per_height;
+    if (!(r >= 0.0 && s >= r * t.apex && 1.0 - s >= r * (1.0 - t.apex)))
+        return HWY_STATIC_DISPATCH(closest_on_one)(t, p).squared_distance;
+    const point3 gap =
+        base::minus(from, base::plus(base::scaled(t.base, s), base::scaled(t.height, r)));
+    return base::dot(gap, gap);
+}
+
 }  // namespace treeform

@@ -24,4 +24,13 @@ struct closest_on_triangle {
 /// \cost   some 70 operations, no allocation
 [[nodiscard]] TREEFORM_API closest_on_triangle closest_point(const triangle3& t, const point3& p);
 
+namespace detail::geometry {
+
+struct based_triangle;
+
+/// As `closest_point`, of a triangle that is asked for often.
+[[nodiscard]] double squared_distance(const based_triangle& t, const point3& p);
+
+}  // namespace detail::geometry
+
 }  // namespace treeform

@@ -3,132 +3,159 @@
 #include <libmesh/simplify/covering.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <utility>
 
 namespace treeform::detail::simplify {
 namespace {
 
-using polygon = std::vector<point3>;
+constexpr int most_pieces = 200;  ///< a triangle that needs more is not proven
 
-constexpr int most_pieces = 96;  ///< a triangle that needs more is not proven
-
-[[nodiscard]] point3 middle_of(const polygon& piece) {
-    point3 sum;
-    for (const point3& p : piece) sum = base::plus(sum, p);
-    return base::scaled(sum, 1.0 / static_cast<double>(piece.size()));
-}
-
-/// What is behind a plane, and what is in front of it. Points in the plane belong to both.
-[[nodiscard]] std::array<polygon, 2> halves_of(const polygon& piece, const point3& origin,
-                                               const point3& normal) {
-    std::array<polygon, 2> halves;
-    std::array<bool, 2> strictly{};
-    const auto height = [&](const point3& p) { return base::dot(base::minus(p, origin), normal); };
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-        const point3 &p = piece[i], &q = piece[(i + 1) % piece.size()];
-        const double a = height(p), b = height(q);
-        for (const std::size_t side : {0U, 1U}) {
-            if (side == 0 ? a <= 0.0 : a >= 0.0) halves[side].push_back(p);
-            strictly[side] = strictly[side] || (side == 0 ? a < 0.0 : a > 0.0);
-        }
-        if ((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0)) {
-            const point3 cut = base::plus(p, base::scaled(base::minus(q, p), a / (a - b)));
-            for (polygon& half : halves) half.push_back(cut);
-        }
-    }
-    for (const std::size_t side : {0U, 1U})
-        if (!strictly[side] && strictly[1 - side]) halves[side].clear();
-    return halves;
-}
-
-/// Two parts, across the longest edge.
-[[nodiscard]] std::array<polygon, 2> bisected(const polygon& piece) {
-    std::size_t longest = 0;
-    double most = -1.0;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-        const point3 way = base::minus(piece[(i + 1) % piece.size()], piece[i]);
-        if (base::dot(way, way) > most) most = base::dot(way, way), longest = i;
-    }
-    const point3 &p = piece[longest], &q = piece[(longest + 1) % piece.size()];
-    return halves_of(piece, base::scaled(base::plus(p, q), 0.5), base::minus(q, p));
-}
-
-/// Whether a triangle may be within the distance of a piece: their boxes are, along each axis.
-[[nodiscard]] bool may_be_near(const triangle3& t, const polygon& piece, double distance) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        double low = piece[0][axis], high = low;
-        for (const point3& p : piece) low = std::min(low, p[axis]), high = std::max(high, p[axis]);
-        const auto [least, most] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
-        if (least - high > distance || low - most > distance) return false;
-    }
+[[nodiscard]] bool are_near(const aabb<double, 3>& a, const aabb<double, 3>& b, double distance) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (a.min[axis] - b.max[axis] > distance || b.min[axis] - a.max[axis] > distance)
+            return false;
     return true;
 }
 
 }  // namespace
 
-covering cover(const triangle3& t, std::span<const triangle3> by, double distance) {
-    covering result;
-    std::vector<polygon> left{{t[0], t[1], t[2]}};
-    std::vector<std::size_t> near;
-    double worst = 0.0;
-    for (int pieces = 0; !left.empty(); ++pieces) {
-        if (pieces >= most_pieces) return {};
-        const polygon piece = std::move(left.back());
-        left.pop_back();
-        std::vector<double> nearest(piece.size(), std::numeric_limits<double>::infinity());
-        double best = nearest[0];
-        std::size_t whole = 0;
-        near.clear();
-        for (std::size_t i = 0; i < by.size(); ++i) {
-            if (!may_be_near(by[i], piece, distance)) continue;
-            near.push_back(i);
-            double furthest = 0.0;
-            for (std::size_t k = 0; k < piece.size(); ++k) {
-                const double d = closest_point(by[i], piece[k]).squared_distance;
-                nearest[k] = std::min(nearest[k], d);
-                furthest = std::max(furthest, d);
-            }
-            if (furthest < best) best = furthest, whole = i;
-        }
-        if (best <= distance * distance) {
-            worst = std::max(worst, best);
-            result.used.push_back(static_cast<std::uint32_t>(whole));
-            continue;
-        }
-        if (*std::ranges::max_element(nearest) > distance * distance) return {};
-        const point3 middle = middle_of(piece);
-        const triangle3& at = by[*std::ranges::min_element(near, {}, [&](std::size_t i) {
-            return closest_point(by[i], middle).squared_distance;
-        })];
-        const point3 normal = base::cross(base::minus(at[1], at[0]), base::minus(at[2], at[0]));
-        polygon inside = piece;
-        bool is_cut = false;
-        for (std::size_t i = 0; i < 3 && !inside.empty(); ++i) {
-            auto parts =
-                halves_of(inside, at[i], base::cross(base::minus(at[(i + 1) % 3], at[i]), normal));
-            is_cut = is_cut || (!parts[0].empty() && !parts[1].empty() && parts[0] != parts[1]);
-            if (parts[0] == parts[1]) continue;
-            if (!parts[1].empty()) left.push_back(std::move(parts[1]));
-            inside = std::move(parts[0]);
-        }
-        if (is_cut) {
-            if (!inside.empty()) left.push_back(std::move(inside));
-            continue;
-        }
-        if (inside.empty()) left.pop_back();  // all of it, outside
-        auto parts = bisected(piece);
-        for (polygon& part : parts)
-            if (!part.empty()) left.push_back(std::move(part));
+/// Points in the plane belong to both halves; a half of such points only is empty. Signs may be
+/// wrong, as long as there is one cut: halves cover the piece.
+covering::halves covering::halves_of(const piece& of, const point3& at, const point3& normal) {
+    std::array<double, 12> height{};
+    double lowest = 0.0, highest = 0.0;
+    for (std::size_t i = 0; i < of.count; ++i) {
+        height[i] = base::dot(base::minus(of.corners[i], at), normal);
+        lowest = std::min(lowest, height[i]);
+        highest = std::max(highest, height[i]);
     }
-    std::ranges::sort(result.used);
-    result.used.erase(std::unique(result.used.begin(), result.used.end()), result.used.end());
-    result.proven = true;
-    result.at_most = std::sqrt(worst);
-    return result;
+    std::size_t changes = 0;
+    for (std::size_t i = 0; i < of.count; ++i)
+        if ((height[i] < 0.0) != (height[i + 1 == of.count ? 0 : i + 1] < 0.0)) ++changes;
+    if (!(highest > 0.0) || changes > 2) return {of, {}};
+    if (!(lowest < 0.0)) return {{}, of};
+    halves parts;
+    for (std::size_t i = 0; i < of.count; ++i) {
+        const std::size_t next = i + 1 == of.count ? 0 : i + 1;
+        const point3 &p = of.corners[i], &q = of.corners[next];
+        const double a = height[i], b = height[next];
+        if (a <= 0.0) parts.behind.corners[parts.behind.count++] = p;
+        if (a >= 0.0) parts.before.corners[parts.before.count++] = p;
+        if ((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0)) {
+            const point3 cut = base::plus(p, base::scaled(base::minus(q, p), a / (a - b)));
+            parts.behind.corners[parts.behind.count++] = cut;
+            parts.before.corners[parts.before.count++] = cut;
+        }
+    }
+    for (piece* part : {&parts.behind, &parts.before}) {
+        part->cuts = of.cuts + 1;
+        part->near_begin = of.near_begin;
+        part->near_end = of.near_end;
+    }
+    return parts;
+}
+
+void covering::use_of(std::uint32_t number, double at_most) {
+    for (use& known : used_)
+        if (known.number == number) {
+            known.at_most = std::max(known.at_most, at_most);
+            return;
+        }
+    used_.push_back({number, at_most});
+}
+
+/// Cuts along planes through the sides of `at`, upright on it. Whether it is in parts then.
+bool covering::cut_along(const piece& whole, const triangle3& at) {
+    const point3 normal = base::cross(base::minus(at[1], at[0]), base::minus(at[2], at[0]));
+    const std::size_t before = left_.size();
+    piece inside = whole;
+    for (std::size_t i = 0; i < 3 && inside.count > 0; ++i) {
+        const halves parts =
+            halves_of(inside, at[i], base::cross(base::minus(at[(i + 1) % 3], at[i]), normal));
+        if (parts.before.count > 0) left_.push_back(parts.before);
+        inside = parts.behind;
+    }
+    if (inside.count > 0) left_.push_back(inside);
+    if (left_.size() - before > 1) return true;
+    left_.resize(before);
+    return false;
+}
+
+/// Across the longest edge.
+void covering::halve(const piece& whole) {
+    std::size_t longest = 0;
+    double most = -1.0;
+    const auto next = [&](std::size_t i) { return i + 1 == whole.count ? 0 : i + 1; };
+    for (std::size_t i = 0; i < whole.count; ++i) {
+        const point3 way = base::minus(whole.corners[next(i)], whole.corners[i]);
+        if (base::dot(way, way) > most) most = base::dot(way, way), longest = i;
+    }
+    const point3 &p = whole.corners[longest], &q = whole.corners[next(longest)];
+    const halves parts = halves_of(whole, base::scaled(base::plus(p, q), 0.5), base::minus(q, p));
+    if (parts.behind.count > 0) left_.push_back(parts.behind);
+    if (parts.before.count > 0) left_.push_back(parts.before);
+}
+
+/// Proves the last piece, or cuts it; false where it cannot be proven.
+bool covering::settle(std::span<const target> by, double distance) {
+    piece whole = left_.back();
+    left_.pop_back();
+    const double blur = unit_ * (40.0 + 9.0 * whole.cuts), limit = distance - blur;
+    if (!(limit > 0.0) || whole.count + 3 > whole.corners.size()) return false;
+    aabb<double, 3> box;
+    point3 middle;
+    for (std::size_t k = 0; k < whole.count; ++k) {
+        box.include(whole.corners[k]);
+        middle = base::plus(middle, whole.corners[k]);
+    }
+    middle = base::scaled(middle, 1.0 / whole.count);
+    const auto squared = [&](std::uint32_t i, const point3& p) {
+        return geometry::squared_distance(by[i].based, p);
+    };
+    // Its parts are near no others than it is.
+    near_.resize(whole.near_end);
+    std::uint32_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t n = whole.near_begin; n < whole.near_end; ++n) {
+        const std::uint32_t i = near_[n];
+        if (!are_near(by[i].box, box, distance)) continue;
+        near_.push_back(i);
+        if (const double d = squared(i, middle); d < least) least = d, best = i;
+    }
+    whole.near_begin = whole.near_end;
+    whole.near_end = static_cast<std::uint32_t>(near_.size());
+    if (!(least <= limit * limit)) return false;
+    double furthest = 0.0;
+    for (std::uint32_t k = 0; k < whole.count; ++k) {
+        const double d = squared(best, whole.corners[k]);
+        furthest = std::max(furthest, d);
+        if (d > limit * limit &&
+            std::none_of(near_.begin() + whole.near_begin, near_.end(), [&](std::uint32_t i) {
+                return squared(i, whole.corners[k]) <= limit * limit;
+            }))
+            return false;
+    }
+    if (furthest <= limit * limit)
+        use_of(best, std::sqrt(furthest) + blur);
+    else if (!cut_along(whole, by[best].corners))
+        halve(whole);
+    return true;
+}
+
+bool covering::cover(const triangle3& t, std::span<const target> by, double distance) {
+    used_.clear();
+    left_.clear();
+    near_.clear();
+    piece whole;
+    std::copy(t.begin(), t.end(), whole.corners.begin());
+    whole.count = 3;
+    for (std::uint32_t i = 0; i < by.size(); ++i) near_.push_back(i);
+    whole.near_end = static_cast<std::uint32_t>(near_.size());
+    left_.push_back(whole);
+    for (int pieces = 0; !left_.empty(); ++pieces)
+        if (pieces >= most_pieces || !settle(by, distance)) return false;
+    return true;
 }
 
 }  // namespace treeform::detail::simplify

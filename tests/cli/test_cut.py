@@ -111,6 +111,26 @@ class Cut(ToolTest):
         self.run_tool("hollow", part, "-f", "-o", "out.stl", status=2)
         self.run_tool("hollow", "--wall", "-1", part, "-f", "-o", "out.stl", status=2)
 
+    def test_fewer_faces_keep_values_and_their_borders(self):
+        points = [(x, y, 0) for x in range(9) for y in range(9)]
+        faces = []
+        for p in (9 * x + y for x in range(8) for y in range(8)):
+            faces += [(p, p + 9, p + 10), (p, p + 10, p + 1)]
+        rows = ["%d %d %d %d" % (*p, p[0] + 10 * p[1]) for p in points]
+        rows += ["3 %d %d %d %d" % (*f, f[0] >= 36) for f in faces]
+        self.put("sheet.ply", "ply\nformat ascii 1.0\nelement vertex 81\nproperty float x\n"
+                   "property float y\nproperty float z\nproperty float warm\nelement face 128\n"
+                   "property list uchar int vertex_indices\nproperty uchar side\nend_header\n"
+                   + "\n".join(rows) + "\n")
+        self.run_tool("simplify", "--distance", "0.001", "sheet.ply", "-o", "few.ply", "--ascii")
+        lines = self.read("few.ply").split("end_header\n")[1].split("\n")
+        vertices = [line.split() for line in lines if len(line.split()) == 4]
+        self.assertEqual(len(vertices), 6)
+        for x, y, _, warm in vertices:
+            self.assertEqual(float(warm), float(x) + 10 * float(y))
+        sides = [line.split()[-1] for line in lines if line.startswith("3 ")]
+        self.assertEqual(sorted(sides), ["0", "0", "1", "1"])
+
     def test_sections_are_written_in_four_formats(self):
         part = self.put_box()
         for name, start in (("s.svg", "<svg"), ("s.dxf", "0\nSECTION"), ("s.obj", "v "),

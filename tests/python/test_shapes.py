@@ -37,6 +37,13 @@ def test_fewer_faces_stay_within_the_distance():
     assert max(fewer.there_at_most, fewer.back_at_most) <= 0.05
     assert len(fewer.face_source) == len(fewer.mesh.faces)
     assert tf.deviation(SPHERES, fewer.mesh).max <= 0.05
+    heights = tf.Attributes()
+    heights.set_vertex("height", SPHERES.vertices[:, 2])
+    made = tf.simplify(tf.Mesh(SPHERES.vertices, SPHERES.faces, heights), 0.05)
+    assert np.abs(made.mesh.attributes.vertex["height"] - made.mesh.vertices[:, 2]).max() < 0.051
+    stays = made.vertex_source != tf.NONE
+    assert np.array_equal(made.mesh.vertices[stays], SPHERES.vertices[made.vertex_source[stays]])
+    assert np.array_equal(stays, made.face_of_new_vertex == tf.NONE)
     assert len(tf.simplify(SPHERES, 0.5, target_faces=600).mesh.faces) >= 598
 
 

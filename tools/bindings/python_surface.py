@@ -56,7 +56,7 @@ RESULTS = [
     Result("offset_result", "OffsetResult", "_shapes", "MadeMesh",
            doc="A solid at a distance from a mesh, around it or hollow.",
            inherited="mesh certificate", docs={"statistics": "What it took, and was measured."}),
-    Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh",
+    Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh", context="attributes",
            doc="A mesh with fewer faces.", inherited="mesh certificate"),
     Result("thickness_result", "Thickness", "_shapes"),
     Result("oriented_box", "OrientedBox", "_shapes", custom={"axes": [Attribute(
@@ -364,7 +364,8 @@ FUNCTIONS = [
              "tf::thicken($mesh, thickness, $side, options)", kind="long_work"),
     Function("simplify(mesh: Mesh, max_distance: float, options: simplify_options) "
              "-> SimplifyResult",
-             "tf::simplify($mesh, max_distance, options)", kind="long_work"),
+             "tf::simplify($mesh, max_distance, options)", "attributes of mesh",
+             kind="long_work"),
     Function("wall_thickness(mesh: Mesh, options: thickness_options) -> Thickness",
              "tf::wall_thickness($mesh, options)"),
     Function("oriented_box(points: Points) -> Optional[OrientedBox]",

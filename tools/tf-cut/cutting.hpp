@@ -117,8 +117,9 @@ struct cut_off {
     tf::mesh mesh{};
     std::vector<std::uint32_t> face_source{};
     std::vector<std::uint32_t> vertex_source{};
-    std::vector<std::uint32_t> cap{};  ///< as `cut_piece::cap`; empty of parts
-    std::optional<double> volume{};    ///< none of an open surface
+    std::vector<std::uint32_t> face_of_new_vertex{};  ///< of `simplify`
+    std::vector<std::uint32_t> cap{};                 ///< as `cut_piece::cap`; empty of parts
+    std::optional<double> volume{};                   ///< none of an open surface
     double area = 0.0;
     tf::certificate certificate{};
 };

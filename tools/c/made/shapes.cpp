@@ -74,6 +74,8 @@ void treeform_simplify_options_init(treeform_simplify_options* options, size_t s
 void glue::fill(keeper& kept, const tf::simplify_result& from, treeform_simplify_result& to) {
     to.mesh = arrays(from.mesh);
     to.face_source = or_null(from.face_source);
+    to.vertex_source = or_null(from.vertex_source);
+    to.face_of_new_vertex = or_null(from.face_of_new_vertex);
     to.collapses = from.collapses;
     to.refused_by_topology = from.refused_by_topology;
     to.refused_by_turning = from.refused_by_turning;

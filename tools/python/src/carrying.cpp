@@ -118,10 +118,11 @@ py::object carrying::to(const tf::mesh& made, const tf::carried_elements& elemen
 
 py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
                         std::span<const std::uint32_t> vertex_source,
+                        std::span<const std::uint32_t> face_of_new_vertex,
                         std::span<const std::uint32_t> cap) const {
     return carried(made, [&](tf::mesh_file& file) {
-        sources_.carry(file, face_source, vertex_source);
-        tf::texture_caps(file, cap, sources_.all().front());
+        sources_.carry(file, face_source, vertex_source, face_of_new_vertex);
+        if (!cap.empty()) tf::texture_caps(file, cap, sources_.all().front());
     });
 }
 

@@ -35,6 +35,7 @@ class carrying {
     [[nodiscard]] py::object to(const tf::mesh& made, const tf::carried_elements& elements) const;
     [[nodiscard]] py::object to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
                                 std::span<const std::uint32_t> vertex_source,
+                                std::span<const std::uint32_t> face_of_new_vertex = {},
                                 std::span<const std::uint32_t> cap = {}) const;
 
   private:

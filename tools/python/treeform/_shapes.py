@@ -120,6 +120,9 @@ class SimplifyResult(MadeMesh):
     refused_by_contact: Edges whose collapse would make faces meet.
     there_at_most: No point of the input is further from the result.
     back_at_most: No point of the result is further from the input.
+    vertex_source: (V,) vertex of the input that each is; `NONE`: new.
+    face_of_new_vertex: (V,) of a new vertex, the face of the input that is nearest to it; else
+        `NONE`.
     """
 
     face_source: Ids
@@ -130,6 +133,8 @@ class SimplifyResult(MadeMesh):
     refused_by_contact: int
     there_at_most: float
     back_at_most: float
+    vertex_source: Ids
+    face_of_new_vertex: Ids
 # end
 
 
@@ -137,10 +142,11 @@ def simplify(mesh: MeshLike, max_distance: float, *, target_faces: int = 0,
              feature_angle: float = 180.0, precision: str = "float64", check: bool = True,
              progress: Progress = None) -> SimplifyResult:
     """A mesh with fewer faces: no point of either surface is further than `max_distance` from the
-    other, which is proven face by face, and no faces are made to meet. It takes about a
-    millisecond a face.
+    other, which is proven face by face, and no faces are made to meet. Values of vertices are
+    interpolated, faces have those of their source, and values of corners are left out.
 
-    target_faces: stop at so many. feature_angle: edges whose faces turn by more degrees stay.
+    target_faces: stop at so many. feature_angle: edges whose faces turn by more degrees, and
+    borders, are simplified along themselves.
 
     >>> import treeform
     >>> few = treeform.simplify(treeform.read("data/two_spheres.stl"), 0.05)

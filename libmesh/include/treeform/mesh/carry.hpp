@@ -71,9 +71,11 @@ class carry_sources {
     TREEFORM_API void carry(mesh_file& file, const carried_elements& made) const;
 
     /// The same for what was made of a single input, with sources as in `resolve_result`:
-    /// `operand_element::none` stands for no source.
+    /// `operand_element::none` stands for no source. With `face_of_new_vertex`, as in
+    /// `simplify_result`, values of corners are not carried: faces reach far beyond their sources.
     TREEFORM_API void carry(mesh_file& file, std::span<const std::uint32_t> face_source,
-                            std::span<const std::uint32_t> vertex_source) const;
+                            std::span<const std::uint32_t> vertex_source,
+                            std::span<const std::uint32_t> face_of_new_vertex = {}) const;
 
     /// [F of all inputs, in order] A group for each face, for `boolean_options::face_groups`. With
     /// `by_values`, a group has one material and equal values in all columns that are carried; a

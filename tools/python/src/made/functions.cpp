@@ -76,10 +76,12 @@ py::object thicken(const held_mesh& mesh, double thickness, const std::string& s
 }
 
 py::object simplify(const held_mesh& mesh, double max_distance, tf::simplify_options options) {
+    const carrying attributes({&mesh});
     return as_python(run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::simplify(mesh.ref(), max_distance, options);
-    }));
+                         options.progress = report;
+                         return tf::simplify(mesh.ref(), max_distance, options);
+                     }),
+                     attributes);
 }
 
 py::object wall_thickness(const held_mesh& mesh, tf::thickness_options options) {

@@ -37,7 +37,7 @@ py::object object(of_result, tf::cut_piece&& from, const carrying& attributes);
 py::object object(of_result, tf::mesh_part&& from, const carrying& attributes);
 py::object object(of_result, tf::mass_properties&& from);
 py::object object(of_result, tf::offset_result&& from);
-py::object object(of_result, tf::simplify_result&& from);
+py::object object(of_result, tf::simplify_result&& from, const carrying& attributes);
 py::object object(of_result, tf::thickness_result&& from);
 py::object object(of_result, tf::oriented_box&& from);
 py::object object(of_result, tf::isoline&& from);

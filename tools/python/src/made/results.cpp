@@ -61,12 +61,14 @@ py::object object(of_result, tf::offset_result&& from) {
     return object_of("treeform._shapes", "OffsetResult", made);
 }
 
-py::object object(of_result, tf::simplify_result&& from) {
+py::object object(of_result, tf::simplify_result&& from, const carrying& attributes) {
     const py::object certificate = py::cast(from.certificate);
-    const py::object data = py::none();
+    const py::object data = data_of(from, attributes);
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
     made["face_source"] = as_python(std::move(from.face_source));
+    made["vertex_source"] = as_python(std::move(from.vertex_source));
+    made["face_of_new_vertex"] = as_python(std::move(from.face_of_new_vertex));
     made["collapses"] = as_python(std::move(from.collapses));
     made["refused_by_topology"] = as_python(std::move(from.refused_by_topology));
     made["refused_by_turning"] = as_python(std::move(from.refused_by_turning));

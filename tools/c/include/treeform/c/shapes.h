@@ -93,12 +93,13 @@ TREEFORM_C_API treeform_code treeform_thicken(const treeform_mesh* mesh, double 
 /// How to leave faces out.
 typedef struct treeform_simplify_options {
     size_t size;
-    /// Precision of points that are new. float32 values are stored as doubles; default float64
+    /// Precision of points. With float32, all are rounded first, and bounds count that; values are
+    /// stored as doubles; default float64
     treeform_precision precision;
     uint64_t target_faces;  ///< stop at so many faces
-    /// Edges whose faces turn by more degrees stay as they are; 180: none; default 180.0
+    /// Edges whose faces turn by more degrees are features; 180: none; default 180.0
     double feature_angle;
-    /// [F] or empty: edges between faces of different groups stay as they are; or null
+    /// [F] or empty: edges between faces of different groups are borders of both; or null
     const uint32_t* face_groups;
     size_t face_group_count;
     treeform_progress progress;
@@ -122,6 +123,10 @@ typedef struct treeform_simplify_result {
     /// Status ok: the result was looked at, and of what `treeform_find_solid_defects` counts
     /// nothing is more than it was. So a solid is one still. Else `not_certified`, or `cancelled`.
     const treeform_certificate* certificate;
+    /// [V] vertex of the input that each is; `TREEFORM_NONE`: new
+    const uint32_t* vertex_source;
+    /// [V] of a new vertex, the face of the input that is nearest to it; else none
+    const uint32_t* face_of_new_vertex;
 } treeform_simplify_result;
 // end
 

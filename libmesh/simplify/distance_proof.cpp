@@ -1,0 +1,228 @@
+#include <libmesh/simplify/distance_proof.hpp>
+#include <treeform/tree/search.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace treeform::detail::simplify {
+namespace {
+
+constexpr double rim_share = 0x1p-6;  ///< of the limit
+
+[[nodiscard]] aabb<double, 3> box_around(const triangle3& t, double margin) {
+    aabb<double, 3> box;
+    for (const point3& p : t) box.include(p);
+    for (std::size_t axis = 0; axis < 3; ++axis) box.min[axis] -= margin, box.max[axis] += margin;
+    return box;
+}
+
+[[nodiscard]] bool has(const ids& ascending, std::uint32_t value) {
+    return std::ranges::binary_search(ascending, value);
+}
+
+}  // namespace
+
+distance_proof::distance_proof(mesh_view given, const connected_faces& now, double largest,
+                               double limit)
+    : mates_(now.mates), limit_(limit), rounding_(0x1p-50 * largest), covering_(largest) {
+    faces_.resize(now.faces.size());
+    visited_.resize(faces_.size());
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        given_.push_back(base::triangle_of(given, now.source[f]));
+        bounded& face = faces_[f];
+        face.now = base::triangle_of(now.points, now.faces[f]);
+        face.near = {f};
+        box_.push_back(box_around(given_.back(), 0.0));
+        for (std::size_t i = 0; i < 3; ++i) {  // rounded to the precision
+            const point3 way = base::minus(face.now[i], given_[f][i]);
+            if (way == point3{}) continue;
+            face.there = std::max(face.there, (1.0 + 0x1p-50) * std::sqrt(base::dot(way, way)));
+            face.back = face.there;
+        }
+    }
+}
+
+/// Triangles of the input in lists of old faces.
+void distance_proof::find_affected(const change& c) {
+    affected_.clear();
+    ++visit_;
+    for (const std::uint32_t f : c.old)
+        for (const std::uint32_t t : faces_[f].near)
+            if (std::exchange(visited_[t], visit_) != visit_) affected_.push_back(t);
+}
+
+bool distance_proof::holds(const change& c, const dynamic_tree<3>& tree) {
+    made_.resize(c.kept.size());
+    raised_.clear();
+    for (std::size_t i = 0; i < made_.size(); ++i) {
+        made_[i].now = c.after[i];
+        made_[i].there = made_[i].back = 0.0;
+        made_[i].near.clear();
+    }
+    const bool by_step = c.same_rim && holds_by_step(c);
+    find_affected(c);
+    if (!by_step) return holds_anew(c, tree);
+    for (bounded& made : made_) {
+        const auto reach = box_around(made.now, std::max(made.there, made.back) + rounding_);
+        for (const std::uint32_t t : affected_)
+            if (overlaps(reach, box_[t])) made.near.push_back(t);
+    }
+    return true;
+}
+
+/// Old and new disks have one rim, and all faces of both face the eye: of each place in view, they
+/// cover it equally often, and where one does, so does the other.
+bool distance_proof::holds_by_step(const change& c) {
+    point3 along;
+    for (const triangle3& t : c.before) along = base::plus(along, normal_of(t));
+    if (!(base::dot(along, along) > 0.0)) return false;
+    const view_along view(along, c.after[0][0]);
+    const auto see = [&](const std::vector<triangle3>& all, std::vector<seen_triangle>& seen) {
+        seen.clear();
+        return std::ranges::all_of(all, [&](const triangle3& t) {
+            seen.push_back(view.see(t));
+            return view.faces_eye(t, seen.back());
+        });
+    };
+    if (!see(c.after, seen_after_) || !see(c.before, seen_before_)) return false;
+    for (std::size_t i = 0; i < made_.size(); ++i)
+        for (std::size_t j = 0; j < c.old.size(); ++j)
+            if (const std::optional<double> gap = gap_between(seen_before_[j], seen_after_[i])) {
+                made_[i].there = std::max(made_[i].there, faces_[c.old[j]].there + *gap);
+                made_[i].back = std::max(made_[i].back, faces_[c.old[j]].back + *gap);
+                if (made_[i].there > limit_ || made_[i].back > limit_) return false;
+            }
+    return true;
+}
+
+bool distance_proof::holds_anew(const change& c, const dynamic_tree<3>& tree) {
+    for (bounded& made : made_) made.there = made.back = 0.0;
+    find_targets(c, tree);
+    if (!covers_there(c)) return false;
+    for (std::size_t i = 0; i < made_.size(); ++i)
+        if (!is_under(i, c.after[i]) && !covers_back(i, c.after[i])) return false;
+    for (bounded& made : made_) {
+        std::ranges::sort(made.near);
+        made.near.erase(std::unique(made.near.begin(), made.near.end()), made.near.end());
+    }
+    return true;
+}
+
+/// New faces, and what others there are within the limit of triangles of the input.
+void distance_proof::find_targets(const change& c, const dynamic_tree<3>& tree) {
+    targets_.clear();
+    others_.clear();
+    for (const triangle3& t : c.after) targets_.emplace_back(t);
+    aabb<double, 3> around;
+    for (const std::uint32_t t : affected_) around.include(box_[t]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        around.min[axis] -= limit_, around.max[axis] += limit_;
+    search(tree, around, [&](std::uint32_t f) {
+        if (!has(c.old, f)) others_.push_back(f);
+    });
+    std::ranges::sort(others_);
+    for (const std::uint32_t f : others_) targets_.emplace_back(faces_[f].now);
+}
+
+bool distance_proof::covers_there(const change& c) {
+    if (const auto last = std::ranges::find(affected_, too_far_); last != affected_.end())
+        std::iter_swap(affected_.begin(), last);
+    for (const std::uint32_t t : affected_) {
+        too_far_ = t;
+        if (!covering_.cover(given_[t], targets_, limit_)) return false;
+        for (const covering::use& use : covering_.used())
+            if (use.number < c.kept.size()) {
+                bounded& made = made_[use.number];
+                made.there = std::max(made.there, use.at_most);
+                made.near.push_back(t);
+            } else {
+                raised_.push_back({others_[use.number - c.kept.size()], t, use.at_most});
+            }
+    }
+    return true;
+}
+
+/// Whether the input, seen along the face, covers it no further away than the limit. What is seen of
+/// it grows from a triangle that covers some of it, across all sides of those that cover more. The
+/// face is made smaller by `rim` first, so that what hardly meets it does not count.
+bool distance_proof::is_under(std::size_t i, const triangle3& t) {
+    const point3 normal = normal_of(t);
+    if (!(base::dot(normal, normal) > 0.0)) return false;
+    const view_along view(normal, t[0]);
+    seen_triangle seen = view.see(t);
+    if (!view.faces_eye(t, seen)) return false;
+    // On no line of a grid, where triangles end.
+    const point3 middle =
+        base::plus(base::scaled(seen.at[0], 0.3717),
+                   base::plus(base::scaled(seen.at[1], 0.3391), base::scaled(seen.at[2], 0.2892)));
+    double widest = 0.0;
+    for (const point3& p : seen.at) {
+        const point3 way = base::minus(middle, p);
+        widest = std::max(widest, std::sqrt(base::dot(way, way)));
+    }
+    const double rim = std::min(rim_share * limit_, 0.5 * widest);
+    for (point3& p : seen.at) p = base::plus(p, base::scaled(base::minus(middle, p), rim / widest));
+    waiting_.clear();
+    ++visit_;
+    double worst = 0.0;
+    const auto is_start = [&](std::uint32_t g) {
+        const seen_triangle at = view.see(given_[g]);
+        if (!is_seen_within(at, middle) || !view.faces_eye(given_[g], at)) return false;
+        const std::optional<double> gap = gap_between(at, seen);
+        return gap && *gap <= limit_;
+    };
+    const auto start = std::ranges::find_if(affected_, is_start);
+    if (start == affected_.end()) return false;
+    waiting_.push_back(*start);
+    visited_[*start] = visit_;
+    const std::size_t before = made_[i].near.size();
+    const auto fails = [&] {
+        made_[i].near.resize(before);
+        return false;
+    };
+    while (!waiting_.empty()) {
+        const std::uint32_t g = waiting_.back();
+        waiting_.pop_back();
+        const seen_triangle at = view.see(given_[g]);
+        const std::optional<double> gap = gap_between(at, seen);
+        if (!gap) continue;
+        if (*gap + rim > limit_ || !view.faces_eye(given_[g], at)) return fails();
+        worst = std::max(worst, *gap);
+        made_[i].near.push_back(g);
+        for (std::size_t side = 0; side < 3; ++side) {
+            const std::uint32_t mate = mates_[g][side];
+            const point3 &p = at.at[side], &q = at.at[(side + 1) % 3];
+            if (mate == no_face && gap_between({{p, q, q}, at.extent}, seen)) return fails();
+            if (mate == no_face || visited_[mate] == visit_) continue;
+            visited_[mate] = visit_;
+            waiting_.push_back(mate);
+        }
+    }
+    made_[i].back = worst + rim;
+    return true;
+}
+
+bool distance_proof::covers_back(std::size_t i, const triangle3& t) {
+    targets_.clear();
+    for (const std::uint32_t g : affected_) targets_.emplace_back(given_[g]);
+    if (!covering_.cover(t, targets_, limit_)) return false;
+    for (const covering::use& use : covering_.used()) {
+        made_[i].back = std::max(made_[i].back, use.at_most);
+        made_[i].near.push_back(affected_[use.number]);
+    }
+    return true;
+}
+
+void distance_proof::accept(const change& c) {
+    for (const std::uint32_t f : c.old) faces_[f].near.clear();
+    for (const auto& [other, t, there] : raised_) {
+        bounded& face = faces_[other];
+        face.there = std::max(face.there, there);
+        if (std::ranges::find(face.near, t) == face.near.end()) face.near.push_back(t);
+    }
+    for (std::size_t i = 0; i < made_.size(); ++i) std::swap(faces_[c.kept[i]], made_[i]);
+}
+
+}  // namespace treeform::detail::simplify
