@@ -60,6 +60,7 @@ plane_frame frame_across(point3 normal) {
 }  // namespace
 
 void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap, const carry_source& of) {
+    if (cap.empty()) return;
     const double scale = texture_scale(of);
     if (scale == 0.0) return;
     std::map<std::uint32_t, point3> normals;
