@@ -2,6 +2,8 @@
 #include <libmesh/geometry/based_triangle.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 // One triangle needs no lanes: the baseline of the processor will do.
@@ -43,12 +45,29 @@ closest_on_triangle closest_point(const triangle3& t, const point3& p) {
 }
 
 double detail::geometry::squared_distance(const based_triangle& t, const point3& p) {
-    // As `closest_on`, for what is above the triangle, without what that takes beside it.
+    // As `closest_on`, in plain doubles: without the places, and what is beside only where it is.
     const point3 from = base::minus(p, t.corner);
-    const double s = base::dot(from, t.base) * t.per_base;
-    const double r = base::dot(base::minus(from, base::scaled(t.base, s)), t.height) * t.per_height;
-    if (!(r >= 0.0 && s >= r * t.apex && 1.0 - s >= r * (1.0 - t.apex)))
-        return HWY_STATIC_DISPATCH(closest_on_one)(t, p).squared_distance;
+    double s = base::dot(from, t.base) * t.per_base;
+    double r = base::dot(base::minus(from, base::scaled(t.base, s)), t.height) * t.per_height;
+    const double rest = 1.0 - t.apex;
+    if (!(r >= 0.0 && s >= r * t.apex && 1.0 - s >= r * rest)) {
+        const double q = base::dot(t.height, t.height) * t.per_base;
+        const auto clamp = [](double x) { return std::min(std::max(x, 0.0), 1.0); };
+        const auto up = [&](double way, double apex) {
+            return clamp((way * apex + q * r) / std::max(apex * apex + q, 1e-300));
+        };
+        const double left = up(s, t.apex), right = up(1.0 - s, rest);
+        const std::array<std::array<double, 2>, 3> feet{
+            {{clamp(s), 0.0}, {left * t.apex, left}, {1.0 - right * rest, right}}};
+        const auto miss = [&](const std::array<double, 2>& at) {
+            return (s - at[0]) * (s - at[0]) + q * ((r - at[1]) * (r - at[1]));
+        };
+        const std::array<double, 3> misses{miss(feet[0]), miss(feet[1]), miss(feet[2])};
+        std::size_t best = misses[1] < misses[0] ? 1 : 0;
+        if (misses[2] < misses[best]) best = 2;
+        s = feet[best][0];
+        r = feet[best][1];
+    }
     const point3 gap =
         base::minus(from, base::plus(base::scaled(t.base, s), base::scaled(t.height, r)));
     return base::dot(gap, gap);

@@ -54,7 +54,7 @@ class covering {
     struct piece {
         std::array<point3, 12> corners{};
         std::uint32_t count = 0;
-        std::uint32_t cuts = 0;  ///< that a corner comes of, at most
+        std::uint32_t cuts = 0;                      ///< that a corner comes of, at most
         std::uint32_t near_begin = 0, near_end = 0;  ///< in `near_`, what it is near
     };
     struct halves {

@@ -26,17 +26,16 @@ constexpr double rim_share = 0x1p-6;  ///< of the limit
 
 distance_proof::distance_proof(mesh_view given, const connected_faces& now, double largest,
                                double limit)
-    : mates_(now.mates), limit_(limit), rounding_(0x1p-50 * largest), covering_(largest) {
+    : limit_(limit), rounding_(0x1p-50 * largest), covering_(largest) {
     faces_.resize(now.faces.size());
-    visited_.resize(faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-        given_.push_back(base::triangle_of(given, now.source[f]));
+        const triangle3 corners = base::triangle_of(given, now.source[f]);
+        given_.push_back({corners, box_around(corners, 0.0), now.mates[f]});
         bounded& face = faces_[f];
         face.now = base::triangle_of(now.points, now.faces[f]);
         face.near = {f};
-        box_.push_back(box_around(given_.back(), 0.0));
         for (std::size_t i = 0; i < 3; ++i) {  // rounded to the precision
-            const point3 way = base::minus(face.now[i], given_[f][i]);
+            const point3 way = base::minus(face.now[i], corners[i]);
             if (way == point3{}) continue;
             face.there = std::max(face.there, (1.0 + 0x1p-50) * std::sqrt(base::dot(way, way)));
             face.back = face.there;
@@ -50,7 +49,7 @@ void distance_proof::find_affected(const change& c) {
     ++visit_;
     for (const std::uint32_t f : c.old)
         for (const std::uint32_t t : faces_[f].near)
-            if (std::exchange(visited_[t], visit_) != visit_) affected_.push_back(t);
+            if (std::exchange(given_[t].visited, visit_) != visit_) affected_.push_back(t);
 }
 
 bool distance_proof::holds(const change& c, const dynamic_tree<3>& tree) {
@@ -67,7 +66,7 @@ bool distance_proof::holds(const change& c, const dynamic_tree<3>& tree) {
     for (bounded& made : made_) {
         const auto reach = box_around(made.now, std::max(made.there, made.back) + rounding_);
         for (const std::uint32_t t : affected_)
-            if (overlaps(reach, box_[t])) made.near.push_back(t);
+            if (overlaps(reach, given_[t].box)) made.near.push_back(t);
     }
     return true;
 }
@@ -116,7 +115,7 @@ void distance_proof::find_targets(const change& c, const dynamic_tree<3>& tree) 
     others_.clear();
     for (const triangle3& t : c.after) targets_.emplace_back(t);
     aabb<double, 3> around;
-    for (const std::uint32_t t : affected_) around.include(box_[t]);
+    for (const std::uint32_t t : affected_) around.include(given_[t].box);
     for (std::size_t axis = 0; axis < 3; ++axis)
         around.min[axis] -= limit_, around.max[axis] += limit_;
     search(tree, around, [&](std::uint32_t f) {
@@ -131,7 +130,7 @@ bool distance_proof::covers_there(const change& c) {
         std::iter_swap(affected_.begin(), last);
     for (const std::uint32_t t : affected_) {
         too_far_ = t;
-        if (!covering_.cover(given_[t], targets_, limit_)) return false;
+        if (!covering_.cover(given_[t].corners, targets_, limit_)) return false;
         for (const covering::use& use : covering_.used())
             if (use.number < c.kept.size()) {
                 bounded& made = made_[use.number];
@@ -168,15 +167,15 @@ bool distance_proof::is_under(std::size_t i, const triangle3& t) {
     ++visit_;
     double worst = 0.0;
     const auto is_start = [&](std::uint32_t g) {
-        const seen_triangle at = view.see(given_[g]);
-        if (!is_seen_within(at, middle) || !view.faces_eye(given_[g], at)) return false;
+        const seen_triangle at = view.see(given_[g].corners);
+        if (!is_seen_within(at, middle) || !view.faces_eye(given_[g].corners, at)) return false;
         const std::optional<double> gap = gap_between(at, seen);
         return gap && *gap <= limit_;
     };
     const auto start = std::ranges::find_if(affected_, is_start);
     if (start == affected_.end()) return false;
     waiting_.push_back(*start);
-    visited_[*start] = visit_;
+    given_[*start].visited = visit_;
     const std::size_t before = made_[i].near.size();
     const auto fails = [&] {
         made_[i].near.resize(before);
@@ -185,18 +184,18 @@ bool distance_proof::is_under(std::size_t i, const triangle3& t) {
     while (!waiting_.empty()) {
         const std::uint32_t g = waiting_.back();
         waiting_.pop_back();
-        const seen_triangle at = view.see(given_[g]);
+        const seen_triangle at = view.see(given_[g].corners);
         const std::optional<double> gap = gap_between(at, seen);
         if (!gap) continue;
-        if (*gap + rim > limit_ || !view.faces_eye(given_[g], at)) return fails();
+        if (*gap + rim > limit_ || !view.faces_eye(given_[g].corners, at)) return fails();
         worst = std::max(worst, *gap);
         made_[i].near.push_back(g);
         for (std::size_t side = 0; side < 3; ++side) {
-            const std::uint32_t mate = mates_[g][side];
+            const std::uint32_t mate = given_[g].mates[side];
             const point3 &p = at.at[side], &q = at.at[(side + 1) % 3];
             if (mate == no_face && gap_between({{p, q, q}, at.extent}, seen)) return fails();
-            if (mate == no_face || visited_[mate] == visit_) continue;
-            visited_[mate] = visit_;
+            if (mate == no_face || given_[mate].visited == visit_) continue;
+            given_[mate].visited = visit_;
             waiting_.push_back(mate);
         }
     }
@@ -206,7 +205,7 @@ bool distance_proof::is_under(std::size_t i, const triangle3& t) {
 
 bool distance_proof::covers_back(std::size_t i, const triangle3& t) {
     targets_.clear();
-    for (const std::uint32_t g : affected_) targets_.emplace_back(given_[g]);
+    for (const std::uint32_t g : affected_) targets_.emplace_back(given_[g].corners);
     if (!covering_.cover(t, targets_, limit_)) return false;
     for (const covering::use& use : covering_.used()) {
         made_[i].back = std::max(made_[i].back, use.at_most);

@@ -50,7 +50,7 @@ class distance_proof {
     /// Makes the change that was last asked for, and holds.
     void accept(const change& c);
 
-    [[nodiscard]] const triangle3& given(std::uint32_t t) const { return given_[t]; }
+    [[nodiscard]] const triangle3& given(std::uint32_t t) const { return given_[t].corners; }
     [[nodiscard]] const ids& near(std::uint32_t f) const { return faces_[f].near; }
     [[nodiscard]] double there(std::uint32_t f) const { return faces_[f].there; }
     [[nodiscard]] double back(std::uint32_t f) const { return faces_[f].back; }
@@ -61,6 +61,16 @@ class distance_proof {
         double there = 0.0, back = 0.0;
         ids near{};  ///< triangles of the input some of whose points belong to it, or that it is near
     };
+    struct input_triangle {
+        triangle3 corners{};
+        aabb<double, 3> box{};
+        std::array<std::uint32_t, 3> mates{};
+        std::uint32_t visited = 0;  ///< the last visit
+    };
+    struct raised {
+        std::uint32_t face, given;
+        double there;
+    };
     [[nodiscard]] bool holds_by_step(const change& c);
     [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
     void find_targets(const change& c, const dynamic_tree<3>& tree);
@@ -69,25 +79,19 @@ class distance_proof {
     [[nodiscard]] bool is_under(std::size_t i, const triangle3& t);
     void find_affected(const change& c);
 
-    std::vector<triangle3> given_{};
-    std::vector<aabb<double, 3>> box_{};  ///< of these
-    std::vector<std::array<std::uint32_t, 3>> mates_;
+    std::vector<input_triangle> given_{};
     double limit_;
     double rounding_;  ///< of boxes
     std::vector<bounded> faces_{};
     covering covering_;
-    ids affected_{};               ///< triangles of the input in lists of old faces, ascending
-    std::vector<bounded> made_{};  ///< [kept] of the change
-    struct raised {
-        std::uint32_t face, given;
-        double there;
-    };
+    ids affected_{};                ///< triangles of the input in lists of old faces
+    std::vector<bounded> made_{};   ///< [kept] of the change
     std::vector<raised> raised_{};  ///< other faces that points went to
     std::vector<target> targets_{};
     ids others_{};  ///< faces that targets are, after those made
     std::vector<seen_triangle> seen_before_{}, seen_after_{};
     std::uint32_t too_far_ = 0;  ///< triangle of the input where the last proof failed, or ended
-    ids visited_{}, waiting_{};
+    ids waiting_{};
     std::uint32_t visit_ = 0;
 };
 

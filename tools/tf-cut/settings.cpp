@@ -24,11 +24,10 @@ void add_shape_modes(command_line& line) {
     line.mode({.names = "simplify",
                .text = "fewer faces, both surfaces within a distance, proven",
                .usage = "simplify --distance D [OPTIONS] INPUT...",
-               .more =
-                   "No faces are made to meet. Borders, also of materials and values of faces,\n"
-                   "are kept. Values of vertices are interpolated.\n\nExamples:\n"
-                   "  $ tf-cut simplify data/sphere.ply --distance 0.01 -o fewer.ply\n"
-                   "  data/sphere.ply: 1 piece: 458 faces, volume 4.12809\n",
+               .more = "No faces are made to meet. Borders, also of materials and values, are\n"
+                       "kept; values of vertices are interpolated.\n\nExamples:\n"
+                       "  $ tf-cut simplify data/sphere.ply --distance 0.01 -o fewer.ply\n"
+                       "  data/sphere.ply: 1 piece: 458 faces, volume 4.12809\n",
                .without = without});
     line.mode(
         {.names = "offset",

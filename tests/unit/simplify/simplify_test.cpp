@@ -141,7 +141,7 @@ bool same(const tf::simplify_result& a, const tf::simplify_result& b) {
 }  // namespace
 
 TEST_CASE("A torus stays a clean solid, within the distance both ways") {
-    const tf::mesh torus = fine_torus(24);
+    const tf::mesh torus = fine_torus(16);
     for (const double distance : {0.0, 0.01, 0.1}) {
         const tf::simplify_result made = tf::simplify(torus, distance);
         MESSAGE(distance << ": " << made.mesh.faces.size() << " faces");
