@@ -279,7 +279,8 @@ std::uint64_t* simplifying::attempt(std::uint32_t p, std::uint32_t q, const plac
         while (*old != f) ++old, ++before;
         const point3 now = normal_of(change_.after.back()), then = normal_of(*before);
         const double both = base::dot(now, now) * base::dot(then, then);
-        if (!(base::dot(now, then) > 0.2 * std::sqrt(both))) return &result_.refused_by_turning;
+        if (base::dot(then, then) > 0.0 && !(base::dot(now, then) > 0.2 * std::sqrt(both)))
+            return &result_.refused_by_turning;
     }
     for (const triangle3& t : change_.after)
         if (collinear(t[0], t[1], t[2])) return &result_.refused_by_turning;
@@ -343,6 +344,7 @@ std::uint32_t simplifying::nearest_given(std::uint32_t p) const {
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t f : star_[p])
         for (const std::uint32_t t : proof_.near(f)) {
+            if (squared_distance(proof_.box_of_given(t), points_[p]) > least) continue;
             const double d = closest_point(proof_.given(t), points_[p]).squared_distance;
             if (std::tie(d, t) < std::tie(least, nearest)) least = d, nearest = t;
         }

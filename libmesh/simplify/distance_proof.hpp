@@ -51,6 +51,9 @@ class distance_proof {
     void accept(const change& c);
 
     [[nodiscard]] const triangle3& given(std::uint32_t t) const { return given_[t].corners; }
+    [[nodiscard]] const aabb<double, 3>& box_of_given(std::uint32_t t) const {
+        return given_[t].box;
+    }
     [[nodiscard]] const ids& near(std::uint32_t f) const { return faces_[f].near; }
     [[nodiscard]] double there(std::uint32_t f) const { return faces_[f].there; }
     [[nodiscard]] double back(std::uint32_t f) const { return faces_[f].back; }

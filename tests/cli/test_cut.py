@@ -130,6 +130,10 @@ class Cut(ToolTest):
             self.assertEqual(float(warm), float(x) + 10 * float(y))
         sides = [line.split()[-1] for line in lines if line.startswith("3 ")]
         self.assertEqual(sorted(sides), ["0", "0", "1", "1"])
+        self.put("flag.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+        run = self.run_tool("simplify", "--distance", "0.1", "flag.obj", "-o", "few.obj")
+        self.assertIn("texture coordinates and normals of corners are not carried over", run.err)
+        self.assertNotIn("vt", self.read("few.obj"))
 
     def test_sections_are_written_in_four_formats(self):
         part = self.put_box()
