@@ -9,6 +9,7 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/round/displacement.hpp>
 #include <libmesh/round/drop_unused_points.hpp>
+#include <libmesh/round/flatten.hpp>
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/remove_slivers.hpp>
 #include <libmesh/round/round_surface.hpp>
@@ -108,7 +109,7 @@ class rounding {
         const double step = std::ldexp(1.0, exponent - (to_float32() ? 24 : 53));
         const double limit = std::min(options_.max_displacement, longest_reach * largest);
         visits_ = fewest_visits + visits_a_face * faces_given_;
-        double reach = first_reach * step;
+        double reach = (getenv("FR")?atof(getenv("FR")):first_reach) * step;
         if (!(reach <= limit)) return;
         remember_places();
         if (options_.rest) {
@@ -118,7 +119,14 @@ class rounding {
             return;
         }
         for (int round = 1; reach <= limit; ++round) {
+            if (!getenv("SF")) {
+            if (flatten_parts(reach) || is_cancelled()) return;
             if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
+            } else {
+            if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
+            if (flatten_parts(reach) || is_cancelled()) return;
+            }
+            if (getenv("TRACE")) fprintf(stderr, "round %d visits %zu pairs %zu\n", round, (size_t)visits_, pairs_.size());
             if (round % rounds_of_reach == 0) reach *= 4.0;
             const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
             if (result_.surface.faces.size() > most) return;
@@ -156,19 +164,60 @@ class rounding {
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
         joined_ += left.moved;
-        std::vector<std::uint8_t> certified;
-        for (std::size_t f = 0; f < left.faces.size(); ++f) {
-            if (!certified_.empty())
-                certified.push_back(left.is_new[f] != 0 ? std::uint8_t{0}
-                                                        : certified_[left.face_of[f]]);
-            left.face_of[f] = result_.face_of[left.face_of[f]];
+        take_changed(left);
+        return check();
+    }
+
+    /// Whether the surface is certified with flat parts that their rims alone describe; else it is
+    /// as before, unless less meets.
+    bool flatten_parts(double reach) {
+        std::vector<std::uint32_t> bad;
+        for (const face_pair& pair : pairs_) bad.insert(bad.end(), {pair.a, pair.b});
+        std::ranges::sort(bad);
+        bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+        std::vector<std::uint8_t> at(result_.surface.points.size(), 0), fixed(certified_);
+        for (const std::uint32_t f : bad)
+            for (const std::uint32_t p : result_.surface.faces[f]) at[p] = 1;
+        bad.clear();
+        for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f) {
+            const auto& [p, q, r] = result_.surface.faces[f];
+            if ((at[p] | at[q] | at[r]) == 0) continue;
+            bad.push_back(f);
+            if (!fixed.empty()) fixed[f] = 0;
         }
-        result_.surface.faces = std::move(left.faces);
-        result_.face_of = std::move(left.face_of);
+        std::optional<detail::round::flattened> made = detail::round::flatten(
+            result_.surface, bad,
+            {.reach = reach, .solid = options_.solid, .fixed = fixed});
+        if (!made) return false;
+        detail::round::flattened& flat = *made;
+        if (getenv("TRACE")) fprintf(stderr,"flatten reach %g bad %zu parts %zu faces %zu -> %zu pairs %zu", reach, bad.size(), (size_t)flat.parts, result_.surface.faces.size(), flat.faces.size(), pairs_.size());
+        if (flat.parts == 0) return false;
+        joined_ += reach;
+        result_.surface.points = std::move(flat.points);
+        if (to_float32())
+            for (point3& p : result_.surface.points) p = to_single(p);
+        point_of_.resize(result_.surface.points.size(), rounded_surface::none);
+        take_changed(flat);
+        bool r=check();
+        if (getenv("TRACE")) fprintf(stderr," -> %zu ok %d\n", pairs_.size(),r);
+        return r;
+    }
+
+    /// Other faces between the same points.
+    template <class Changed>
+    void take_changed(Changed& changed) {
+        std::vector<std::uint8_t> certified;
+        for (std::size_t f = 0; f < changed.faces.size(); ++f) {
+            if (!certified_.empty())
+                certified.push_back(changed.is_new[f] != 0 ? std::uint8_t{0}
+                                                           : certified_[changed.face_of[f]]);
+            changed.face_of[f] = result_.face_of[changed.face_of[f]];
+        }
+        result_.surface.faces = std::move(changed.faces);
+        result_.face_of = std::move(changed.face_of);
         certified_ = std::move(certified);
         moved_ = std::numeric_limits<double>::infinity();
         vanished_ = true;
-        return check();
     }
 
     /// Where all points were, to the nearest doubles, and the faces between them.
