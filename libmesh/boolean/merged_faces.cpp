@@ -7,8 +7,8 @@
 #include <libmesh/base/running_sums.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
-#include <libmesh/round/region_triangles.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/round/region_triangles.hpp>
 #include <libmesh/weld/edge_uses.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -204,7 +204,8 @@ class merger {
         std::vector<std::vector<face>> made(changed.size());
         for_chunks(changed.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t r = begin; r < end; ++r) {
-                round::flat_region region{.first_face = changed[r], .plane = surface_.faces[changed[r]]};
+                round::flat_region region{.first_face = changed[r],
+                                          .plane = surface_.faces[changed[r]]};
                 for (const std::uint32_t f : faces_of[r])
                     for (const std::uint32_t p : surface_.faces[f])
                         if (spare_[p] == 0) region.points.push_back(p);

@@ -1,7 +1,7 @@
-#include <libmesh/round/region_triangles.hpp>
 #include <libmesh/cut/layer_loops.hpp>
 #include <libmesh/cut/slabs.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/round/region_triangles.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

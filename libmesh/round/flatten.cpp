@@ -1,9 +1,12 @@
 #include <libmesh/base/point_math.hpp>
-#include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/stars.hpp>
+#include <libmesh/geometry/closest_point.hpp>
+#include <libmesh/round/cancelled_faces.hpp>
 #include <libmesh/round/flatten.hpp>
+#include <libmesh/round/joined_points.hpp>
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/region_triangles.hpp>
+#include <libmesh/round/straight_rims.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
 #include <treeform/tree/search.hpp>
 
@@ -11,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -23,69 +27,73 @@ namespace treeform::detail::round {
 namespace {
 
 constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
-constexpr int most_attempts = 20, most_crossings = 100;
+constexpr int most_attempts = 40, most_crossings = 100;
 
 using numbers = std::vector<std::uint32_t>;
-using side = std::array<std::uint32_t, 2>;  ///< from and to
 
 /// Connected faces near one plane, and what comes in their place.
 struct flat_part {
     numbers faces{};  ///< the first is the largest
     bool is_straight = true;
-    std::vector<side> rim{};
+    std::vector<rim_side> rim{};
     std::vector<face> made{};
-};
-
-/// What runs along an edge: the parts on its left and right, as seen from the lower end.
-struct rim_edge {
-    side ends;
-    std::uint32_t left, right;  ///< or `nothing`, where it is not the same one part on each side
+    std::vector<rim_side> made_of{};  ///< the rim
 };
 
 class flattening {
   public:
-    flattening(mesh_view surface, std::span<const std::uint32_t> begin_at,
+    flattening(mesh_view surface, std::span<const face_pair> meeting,
                const flatten_options& options)
         : options_(options),
           given_(surface.faces),
-          faces_(surface.faces.begin(), surface.faces.end()),
-          begin_at_(begin_at) {
+          faces_(surface.faces.begin(), surface.faces.end()) {
         exact_.given.assign(surface.points.begin(), surface.points.end());
+        std::vector<std::uint8_t> meets(surface.points.size(), 0);
+        for (const face_pair& pair : meeting)
+            for (const std::uint32_t f : {pair.a, pair.b})
+                for (const std::uint32_t p : given_[f]) meets[p] = 1;
+        for (std::uint32_t f = 0; f < given_.size(); ++f)
+            if (std::ranges::any_of(given_[f], [&](std::uint32_t p) { return meets[p] != 0; }))
+                begin_at_.push_back(f);
     }
 
     std::optional<flattened> run() {
         join_points();
         find_edges();
-        split_edges();
         grow_parts();
+        split_edges();
         for (int i = 0; i < most_attempts; ++i) {
-            const bool all = make_parts();
-            if (getenv("TRACE")) { size_t st=0; for (auto& q:parts_) st+=q.is_straight; fprintf(stderr,"[%zu parts %zu straight %zu loose all %d]",parts_.size(),st,loose_.size(),all); }
-            if (all) return collect();
+            if (make_parts()) return collect();
         }
         return std::nullopt;
     }
 
   private:
-    [[nodiscard]] bool is_fixed(std::uint32_t f) const {
-        return !options_.fixed.empty() && options_.fixed[f] != 0;
+    [[nodiscard]] bool is_fixed(std::uint32_t f) const { return fixed_[f] != 0; }
+    [[nodiscard]] bool may_grow_into(std::uint32_t f) const {
+        return options_.certified.empty() || options_.certified[f] == 0;
+    }
+
+    /// Whether an edge has to stay as it is: a face that stays has it.
+    [[nodiscard]] bool is_held(std::uint32_t p, std::uint32_t q) const {
+        if (blocked_.contains(name(p, q))) return true;
+        if (p >= stars_->size()) return false;
+        return std::ranges::any_of((*stars_)[p], [&](std::uint32_t f) {
+            return is_fixed(f) && std::ranges::find(faces_[f], q) != faces_[f].end();
+        });
     }
     [[nodiscard]] bool is_there(std::uint32_t f) const {
         return base::has_three_corners(faces_[f]);
     }
     [[nodiscard]] const point3& at(std::uint32_t p) const { return exact_.given[p]; }
-    [[nodiscard]] double distance(std::uint32_t p, std::uint32_t q) const {
-        const point3 way = base::minus(at(p), at(q));
-        return std::sqrt(base::dot(way, way));
-    }
     [[nodiscard]] point3 normal(std::uint32_t f) const {
         const auto& [a, b, c] = base::triangle_of(points_view(exact_.given), faces_[f]);
         return base::cross(base::minus(b, a), base::minus(c, a));
     }
-    [[nodiscard]] aabb<double, 3> around(std::uint32_t p, std::uint32_t q) const {
+    [[nodiscard]] aabb<double, 3> around(const point3& p, const point3& q) const {
         aabb<double, 3> box;
-        box.include(at(p));
-        box.include(at(q));
+        box.include(p);
+        box.include(q);
         for (std::size_t k = 0; k < 3; ++k) {
             box.min[k] -= options_.reach;
             box.max[k] += options_.reach;
@@ -96,48 +104,25 @@ class flattening {
     /// Corners of the faces to begin at that are within reach of each other become one: that of a
     /// face that stays, or the lowest.
     void join_points() {
-        is_held_.assign(exact_.given.size(), 0);
-        numbers near;
-        for (std::uint32_t f = 0; f < faces_.size(); ++f)
-            if (is_fixed(f))
-                for (const std::uint32_t p : faces_[f]) is_held_[p] = 1;
+        fixed_.assign(faces_.size(), 1);
+        for (const std::uint32_t f : begin_at_) fixed_[f] = 0;
+        find_held_points();
         for (const std::uint32_t f : begin_at_)
-            near.insert(near.end(), faces_[f].begin(), faces_[f].end());
-        std::ranges::sort(near);
-        near.erase(std::unique(near.begin(), near.end()), near.end());
-        const dynamic_tree<3> tree(near, [&](std::uint32_t p) {
-            aabb<double, 3> box;
-            box.include(at(p));
-            return box;
-        });
-        std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> pairs;
-        for (const std::uint32_t p : near)
-            search(tree, around(p, p), [&](std::uint32_t i) {
-                const std::uint32_t q = near[i];
-                if (p < q && distance(p, q) <= options_.reach)
-                    pairs.emplace_back(distance(p, q), p, q);
-            });
-        std::ranges::sort(pairs);
-        now_ = base::numbers_below(exact_.given.size());
-        const auto root = [&](std::uint32_t p) {
-            while (now_[p] != p) p = now_[p] = now_[now_[p]];
-            return p;
-        };
-        for (const auto& [length, p, q] : pairs) {
-            std::uint32_t a = root(p), b = root(q);
-            if (a == b || distance(a, b) > options_.reach ||
-                (is_held_[a] != 0 && is_held_[b] != 0))
-                continue;
-            if (is_held_[b] != 0 || (is_held_[a] == 0 && b < a)) std::swap(a, b);
-            now_[b] = a;
-        }
-        for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-            if (is_fixed(f)) continue;
-            for (std::uint32_t& p : faces_[f]) p = root(p);
-            if (is_there(f)) loose_.push_back(f);
-        }
-        std::erase_if(near, [&](std::uint32_t p) { return root(p) != p; });
-        near_ = std::move(near);
+            near_.insert(near_.end(), faces_[f].begin(), faces_[f].end());
+        std::ranges::sort(near_);
+        near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+        const numbers now = joined_points(exact_.given, near_, is_held_, options_.reach);
+        for (const std::uint32_t f : begin_at_)
+            for (std::uint32_t& p : faces_[f]) p = now[p];
+        stars_.emplace(exact_.given.size(), faces_);
+        std::erase_if(near_, [&](std::uint32_t p) { return now[p] != p; });
+    }
+
+    void find_held_points() {
+        is_held_.assign(exact_.given.size(), 0);
+        for (std::uint32_t f = 0; f < faces_.size(); ++f)
+            if (is_fixed(f) && is_there(f))
+                for (const std::uint32_t p : faces_[f]) is_held_[p] = 1;
     }
 
     [[nodiscard]] static std::uint64_t name(std::uint32_t p, std::uint32_t q) {
@@ -146,17 +131,17 @@ class flattening {
 
     /// Of loose faces: what is across each side, and which edges faces that stay have, too.
     void find_edges() {
+        numbers all;
+        for (std::uint32_t f = 0; f < faces_.size(); ++f)
+            if (is_there(f) && (!is_fixed(f) || may_grow_into(f))) all.push_back(f);
         neighbor_.assign(faces_.size(), {nothing, nothing, nothing});
-        near_edges(mesh_view{exact_.given, faces_}, loose_)
+        near_edges(mesh_view{exact_.given, faces_}, all)
             .for_each([&](std::span<const near_edges::use> uses) {
                 if (uses.size() != 2 || uses[0].way == uses[1].way) return;
-                const std::uint32_t f = loose_[uses[0].place], g = loose_[uses[1].place];
+                const std::uint32_t f = all[uses[0].place], g = all[uses[1].place];
                 neighbor_[f][side_at(f, uses[0].edge)] = g;
                 neighbor_[g][side_at(g, uses[0].edge)] = f;
             });
-        for (std::uint32_t f = 0; f < faces_.size(); ++f)
-            for (std::size_t i = 0; is_fixed(f) && i < 3; ++i)
-                held_edges_.insert(name(faces_[f][i], faces_[f][(i + 1) % 3]));
     }
 
     [[nodiscard]] std::size_t side_at(std::uint32_t f, std::uint64_t edge) const {
@@ -175,14 +160,15 @@ class flattening {
             for (std::size_t i = 0; i < 3 && is_there(f) && !is_fixed(f); ++i) {
                 const std::uint32_t p = std::min(faces_[f][i], faces_[f][(i + 1) % 3]),
                                     q = std::max(faces_[f][i], faces_[f][(i + 1) % 3]);
-                if (held_edges_.contains(name(p, q))) continue;
+                if (is_held(p, q)) continue;
                 const auto [way, is_first] = way_of_.try_emplace(name(p, q));
                 if (!is_first) continue;
                 const point3 along = base::minus(at(q), at(p));
                 std::vector<std::pair<double, std::uint32_t>> on;
-                search(tree, around(p, q), [&](std::uint32_t n) {
+                search(tree, around(at(p), at(q)), [&](std::uint32_t n) {
                     const std::uint32_t r = near_[n];
-                    if (r == p || r == q || off(r, p, q) > options_.reach) return;
+                    if (r == p || r == q || distance_to_edge(at(r), at(p), at(q)) > options_.reach)
+                        return;
                     on.emplace_back(base::dot(base::minus(at(r), at(p)), along), r);
                 });
                 std::ranges::sort(on);
@@ -203,13 +189,22 @@ class flattening {
         part_of_.assign(faces_.size(), nothing);
         for (const auto& [square, f] : seeds)
             if (part_of_[f] == nothing && square < 0.0) grow(f, std::sqrt(-square));
-        for (const std::uint32_t f : loose_)
-            if (part_of_[f] == nothing) add_part(f);
+        std::vector<std::uint8_t> is_near(exact_.given.size(), 0);
+        for (const flat_part& part : parts_)
+            for (const std::uint32_t f : part.faces)
+                for (const std::uint32_t p : faces_[f]) is_near[p] = 1;
+        for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+            if (!is_there(f) || part_of_[f] != nothing) continue;
+            const auto& [p, q, r] = faces_[f];
+            if ((is_near[p] | is_near[q] | is_near[r]) != 0) add_part(f);
+        }
+        find_held_points();
     }
 
     void add_part(std::uint32_t f) {
         part_of_[f] = static_cast<std::uint32_t>(parts_.size());
-        parts_.push_back({.faces = {f}});
+        fixed_[f] = 0;
+        parts_.emplace_back().faces.push_back(f);
     }
 
     void grow(std::uint32_t seed, double length) {
@@ -226,18 +221,9 @@ class flattening {
                 if (g == nothing || part_of_[g] != nothing) continue;
                 if (!std::ranges::all_of(faces_[g], is_near)) continue;
                 part_of_[g] = number;
+                fixed_[g] = 0;
                 faces.push_back(g);
             }
-    }
-
-    [[nodiscard]] double off(std::uint32_t p, std::uint32_t a, std::uint32_t b) const {
-        const point3 way = base::minus(at(b), at(a)),
-                     to = base::minus(at(p), at(a));
-        const double square = base::dot(way, way);
-        const double along =
-            square > 0.0 ? std::clamp(base::dot(to, way) / square, 0.0, 1.0) : 0.0;
-        const point3 rest = base::minus(to, base::scaled(way, along));
-        return std::sqrt(base::dot(rest, rest));
     }
 
     /// Calls `visit(from, to)` for the pieces of the sides of a face.
@@ -258,97 +244,25 @@ class flattening {
         }
     }
 
-    /// The sides of all parts, without those that run back and forth.
+    /// The sides of all parts, straight where they may be, and with crossings.
     void find_rims() {
-        for (flat_part& part : parts_) {
-            std::vector<side> all;
+        std::vector<std::vector<rim_side>> rims;
+        std::vector<std::uint8_t> may;
+        for (const flat_part& part : parts_) {
+            std::vector<rim_side> all;
             for (const std::uint32_t f : part.faces)
                 for_sides(f, [&](std::uint32_t p, std::uint32_t q) { all.push_back({p, q}); });
-            std::ranges::sort(all);
-            part.rim = without_opposites(all);
+            rims.push_back(without_opposites(all));
+            may.push_back(part.is_straight ? 1 : 0);
         }
-    }
-
-    [[nodiscard]] static std::vector<side> without_opposites(const std::vector<side>& sorted) {
-        std::vector<side> left;
-        for (std::size_t i = 0, next = 0; i < sorted.size(); i = next) {
-            next = i;
-            while (next < sorted.size() && sorted[next] == sorted[i]) ++next;
-            const auto [first, last] =
-                std::ranges::equal_range(sorted, side{sorted[i][1], sorted[i][0]});
-            const auto back = static_cast<std::size_t>(last - first);
-            for (std::size_t k = back; k < next - i; ++k) left.push_back(sorted[i]);
-        }
-        return left;
-    }
-
-    /// Points on a straight way between two parts, and nothing else, go.
-    void straighten_rims() {
-        std::vector<std::pair<side, std::uint32_t>> all;
-        for (std::uint32_t p = 0; p < parts_.size(); ++p)
-            for (const side& s : parts_[p].rim) all.emplace_back(s, p);
-        std::ranges::sort(all);
-        const auto parts_at = [&](const side& s) {
-            return std::ranges::equal_range(all, s, {}, &std::pair<side, std::uint32_t>::first);
-        };
-        std::vector<rim_edge> edges;
         std::vector<std::uint8_t> stays(is_held_);
-        for (const auto& [ends, part] : all) {
-            const auto mine = parts_at(ends), others = parts_at({ends[1], ends[0]});
-            if (mine.size() == 1 && others.size() == 1 && parts_[part].is_straight &&
-                parts_[others.front().second].is_straight)
-                edges.push_back({ends, part, others.front().second});
-            else
-                stays[ends[0]] = stays[ends[1]] = 1;
-        }
-        const auto edges_at = [&](std::uint32_t p) {
-            return std::ranges::equal_range(edges, p, {},
-                                            [](const rim_edge& e) { return e.ends[0]; });
-        };
-        for (const rim_edge& e : edges) {
-            const auto here = edges_at(e.ends[0]);
-            if (here.size() != 2 || here[0].left != here[1].right || here[0].right != here[1].left)
-                stays[e.ends[0]] = 1;
-        }
-        for (flat_part& part : parts_)
-            std::erase_if(part.rim, [&](const side& s) {
-                const auto here = edges_at(s[0]);
-                return std::ranges::any_of(here, [&](const rim_edge& e) { return e.ends == s; });
-            });
-        std::vector<std::uint8_t> seen(edges.size(), 0);
-        const auto walk = [&](const rim_edge& start) {
-            numbers way{start.ends[0]};
-            for (const rim_edge* e = &start;;) {
-                const auto i = static_cast<std::size_t>(e - edges.data());
-                if (seen[i] != 0) break;
-                seen[i] = 1;
-                const std::uint32_t to = e->ends[1];
-                way.push_back(to);
-                const auto here = edges_at(to);
-                for (const rim_edge& back : here)
-                    if (back.ends[1] == e->ends[0])
-                        seen[static_cast<std::size_t>(&back - edges.data())] = 1;
-                if (stays[to] != 0) break;
-                e = here[0].left == start.left ? &here[0] : &here[1];
-            }
-            way = simplified(way);
-            for (std::size_t k = 0; k + 1 < way.size(); ++k) {
-                parts_[start.left].rim.push_back({way[k], way[k + 1]});
-                parts_[start.right].rim.push_back({way[k + 1], way[k]});
-            }
-        };
-        for (const rim_edge& e : edges)
-            if (seen[static_cast<std::size_t>(&e - edges.data())] == 0 && stays[e.ends[0]] != 0)
-                walk(e);
-        for (const rim_edge& e : edges)
-            if (seen[static_cast<std::size_t>(&e - edges.data())] == 0) walk(e);
-        for (flat_part& part : parts_) {
-            part.rim = with_crossings(part.rim);
-        }
+        stays.resize(exact_.given.size(), 0);
+        straighten(rims, exact_.given, std::move(stays), may, options_.reach);
+        for (std::size_t p = 0; p < parts_.size(); ++p) parts_[p].rim = with_crossings(rims[p]);
     }
 
-    [[nodiscard]] std::vector<side> with_crossings(const std::vector<side>& rim) const {
-        std::vector<side> all, open(rim);
+    [[nodiscard]] std::vector<rim_side> with_crossings(const std::vector<rim_side>& rim) const {
+        std::vector<rim_side> all, open(rim);
         while (!open.empty()) {
             const auto [p, q] = open.back();
             open.pop_back();
@@ -360,12 +274,30 @@ class flattening {
                 open.push_back({crossing->second, q});
             }
         }
-        std::ranges::sort(all);
         return without_opposites(all);
     }
 
+    /// Whether a side is, or becomes by crossings, one with `of` among its pieces.
+    [[nodiscard]] bool leads_to(std::uint32_t p, std::uint32_t q, const rim_side& of) const {
+        if (name(p, q) == name(of[0], of[1])) return true;
+        const auto crossing = crossing_of_.find(name(p, q));
+        return crossing != crossing_of_.end() &&
+               (leads_to(p, crossing->second, of) || leads_to(crossing->second, q, of));
+    }
+
+    /// Faces that stay, but have this edge, are parts by themselves from now on.
+    void loosen(const rim_side& s) {
+        if (s[0] >= stars_->size() || !is_held(s[0], s[1])) return;
+        for (const std::uint32_t f : (*stars_)[s[0]])
+            if (is_fixed(f) && std::ranges::find(faces_[f], s[1]) != faces_[f].end()) {
+                add_part(f);
+                parts_.back().is_straight = false;
+                is_grown_ = true;
+            }
+    }
+
     /// Gives both sides a point where they pass each other; false when they are too far apart.
-    bool add_crossing(const side& s, const side& t) {
+    bool add_crossing(const rim_side& s, const rim_side& t) {
         const point3 a = at(s[0]), c = at(t[0]);
         const point3 u = base::minus(at(s[1]), a), v = base::minus(at(t[1]), c),
                      w = base::minus(c, a);
@@ -375,166 +307,187 @@ class flattening {
         const point3 x = base::plus(a, base::scaled(u, base::dot(base::cross(w, v), n) / square));
         const point3 y = base::plus(c, base::scaled(v, base::dot(base::cross(w, u), n) / square));
         const point3 way = base::minus(x, y);
-        if (getenv("TRACE2")) fprintf(stderr,"cross %u-%u %u-%u gap %g sq %g held %d %d lens %g %g\n",s[0],s[1],t[0],t[1],std::sqrt(base::dot(way,way)),square,held_edges_.contains(name(s[0],s[1])),held_edges_.contains(name(t[0],t[1])),distance(s[0],s[1]),distance(t[0],t[1]));
         if (!(base::dot(way, way) <= options_.reach * options_.reach)) return false;
-        for (const side& e : {s, t})
-            if (held_edges_.contains(name(e[0], e[1]))) return false;
+        const point3 middle = base::scaled(base::plus(x, y), 0.5);
+        const auto put = [&](const rim_side& e, std::uint32_t p) {
+            loosen(e);
+            if (is_held(e[0], e[1]) || leads_to(e[0], p, e) || leads_to(p, e[1], e)) return false;
+            crossing_of_[name(e[0], e[1])] = p;
+            return is_grown_ = true;
+        };
+        const auto is_at = [&](std::uint32_t p) {
+            const point3 to = base::minus(at(p), middle);
+            return base::dot(to, to) <= options_.reach * options_.reach;
+        };
+        for (const std::uint32_t p : s)
+            if (is_at(p)) return p != t[0] && p != t[1] && put(t, p);
+        for (const std::uint32_t p : t)
+            if (is_at(p)) return p != s[0] && p != s[1] && put(s, p);
+        loosen(s);
+        loosen(t);
+        if (is_held(s[0], s[1]) || is_held(t[0], t[1])) return false;
         const auto made = static_cast<std::uint32_t>(exact_.given.size());
-        exact_.given.push_back(base::scaled(base::plus(x, y), 0.5));
-        for (const side& e : {s, t}) crossing_of_[name(e[0], e[1])] = made;
+        exact_.given.push_back(middle);
+        put(s, made);
+        put(t, made);
         return true;
     }
 
-    /// \source Douglas and Peucker, The Canadian Cartographer 10 (1973)
-    [[nodiscard]] numbers simplified(const numbers& all) const {
-        std::vector<std::uint8_t> keep(all.size(), 0);
-        keep.front() = keep.back() = 1;
-        std::vector<std::pair<std::size_t, std::size_t>> open{{0, all.size() - 1}};
-        while (!open.empty()) {
-            const auto [begin, end] = open.back();
-            open.pop_back();
-            std::size_t furthest = begin;
-            double most = options_.reach;
-            for (std::size_t i = begin + 1; i < end; ++i)
-                if (const double d = off(all[i], all[begin], all[end]); d > most) {
-                    most = d;
-                    furthest = i;
-                }
-            if (furthest == begin) continue;
-            keep[furthest] = 1;
-            open.emplace_back(begin, furthest);
-            open.emplace_back(furthest, end);
-        }
-        numbers kept;
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (keep[i] != 0) kept.push_back(all[i]);
-        return all.front() == all.back() && kept.size() < 4 ? all : kept;
-    }
-
-    /// False where parts could not be made, so that more of their rims, or all of their faces, will
-    /// stay.
+    /// False where parts could not be made, or others have to be made once more for them.
     bool make_parts() {
         find_rims();
-        straighten_rims();
-        const std::size_t crossings = crossing_of_.size();
+        is_grown_ = false;
         numbers failed;
         for (std::uint32_t p = 0; p < parts_.size(); ++p)
             if (!make(parts_[p])) failed.push_back(p);
-        for (const std::uint32_t p : failed) {
-            if (getenv("TRACE2")) { fprintf(stderr,"FAIL part %u faces %zu straight %d rim %zu\n",p,parts_[p].faces.size(),parts_[p].is_straight,parts_[p].rim.size());
-              if (parts_[p].rim.size()<40) for (auto& s: parts_[p].rim) fprintf(stderr,"   %u %u  %.17g %.17g %.17g\n",s[0],s[1],at(s[0]).x,at(s[0]).y,at(s[0]).z); }
-            if (parts_[p].is_straight) {
-                parts_[p].is_straight = false;
-                continue;
-            }
-            const numbers faces = std::move(parts_[p].faces);
-            if (faces.size() == 1) {
-                for (const side& s : parts_[p].rim) crossing_of_.erase(name(s[0], s[1]));
-                for (std::size_t i = 0; i < 3; ++i) {
-                    const std::uint64_t edge =
-                        name(faces_[faces[0]][i], faces_[faces[0]][(i + 1) % 3]);
-                    way_of_.erase(edge);
-                    crossing_of_.erase(edge);
-                    held_edges_.insert(edge);
-                }
-                parts_[p].faces = faces;
-                continue;
-            }
-            parts_[p].faces = {faces[0]};
-            for (std::size_t i = 1; i < faces.size(); ++i) {
-                add_part(faces[i]);
-                parts_.back().is_straight = false;
-            }
+        for (const std::uint32_t p : failed) expect_less(parts_[p]);
+        return failed.empty() && !is_grown_;
+    }
+
+    /// Of a part that could not be made, the rim will stay; else it falls apart into its faces; a
+    /// face keeps its edges as they were.
+    void expect_less(flat_part& part) {
+        if (part.is_straight) {
+            part.is_straight = false;
+            return;
         }
-        return failed.empty() && crossing_of_.size() == crossings;
+        for (std::size_t i = 1; i < part.faces.size(); ++i) {
+            add_part(part.faces[i]);
+            parts_.back().is_straight = false;
+        }
+        if (part.faces.size() > 1) {
+            part.faces.erase(part.faces.begin() + 1, part.faces.end());
+            return;
+        }
+        for (const rim_side& s : part.rim) crossing_of_.erase(name(s[0], s[1]));
+        const face& f = faces_[part.faces[0]];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint64_t edge = name(f[i], f[(i + 1) % 3]);
+            way_of_.erase(edge);
+            crossing_of_.erase(edge);
+            blocked_.insert(edge);
+        }
     }
 
     /// Whether the rim is that of triangles.
     bool make(flat_part& part) {
-        part.made.clear();
-        if (part.rim.empty()) return true;
-        const face& seed = faces_[part.faces[0]];
-        if (part.rim.size() == 3 && part.faces.size() == 1 && part.rim[0][0] != part.rim[1][0]) {
-            face sorted = seed;
-            std::ranges::sort(sorted);
-            if (part.rim[0][0] == sorted[0] && part.rim[1][0] == sorted[1] &&
-                part.rim[2][0] == sorted[2]) {
-                part.made = {seed};
-                return true;
-            }
-        }
-        for (int i = 0;; ++i) {
-            flat_region region{.first_face = part.faces[0], .plane = seed};
-            for (const auto& [from, to] : part.rim) {
-                region.points.push_back(from);
-                region.points.push_back(to);
-                region.rim.push_back({from, to, flat_region::no_line});
-            }
+        if (part.rim == part.made_of) return true;
+        part.made_of.clear();
+        for (int i = 0; i < most_crossings; ++i) {
             try {
-                part.made = triangles_of(exact_, region);
-                break;
+                part.made = triangles(part);
             } catch (const sides_cross& found) {
-                if (i == most_crossings || !add_crossing(part.rim[found.a], part.rim[found.b]))
-                    return false;
+                if (!add_crossing(part.rim[found.a], part.rim[found.b])) return false;
                 part.rim = with_crossings(part.rim);
-                if (part.rim.empty()) return true;
-            } catch (const std::logic_error& e) {
-                if (getenv("TRACE2")) fprintf(stderr,"why: %s\n",e.what());
+                continue;
+            } catch (const std::logic_error&) {
                 return false;
             }
+            std::vector<rim_side> sides;
+            for (const face& f : part.made)
+                for (std::size_t k = 0; k < 3; ++k) sides.push_back({f[k], f[(k + 1) % 3]});
+            if (without_opposites(sides) != part.rim) return false;
+            part.made_of = part.rim;
+            return true;
         }
-        std::vector<side> sides;
-        for (const face& f : part.made)
-            for (std::size_t i = 0; i < 3; ++i) sides.push_back({f[i], f[(i + 1) % 3]});
-        std::ranges::sort(sides);
-        if (getenv("TRACE2") && without_opposites(sides) != part.rim) fprintf(stderr,"why: rim differs\n");
-        return without_opposites(sides) == part.rim;
+        return false;
+    }
+
+    [[nodiscard]] std::vector<face> triangles(const flat_part& part) const {
+        if (part.rim.empty()) return {};
+        const face& seed = faces_[part.faces[0]];
+        if (part.faces.size() == 1 && part.rim == sides_of(seed)) return {seed};
+        flat_region region{.first_face = part.faces[0], .plane = seed};
+        for (const auto& [from, to] : part.rim) {
+            region.points.push_back(from);
+            region.points.push_back(to);
+            region.rim.push_back({from, to, flat_region::no_line});
+        }
+        return triangles_of(exact_, region);
+    }
+
+    [[nodiscard]] static std::vector<rim_side> sides_of(const face& f) {
+        return without_opposites({{f[0], f[1]}, {f[1], f[2]}, {f[2], f[0]}});
     }
 
     [[nodiscard]] flattened collect() const {
         flattened result;
         result.points = exact_.given;
-        const auto put = [&](const face& corners, std::uint32_t of, bool is_new) {
-            result.faces.push_back(corners);
-            result.face_of.push_back(of);
-            result.is_new.push_back(is_new ? 1 : 0);
-        };
+        std::vector<face> made;
+        numbers of;
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
             if (is_fixed(f)) {
-                put(faces_[f], f, false);
+                result.faces.push_back(faces_[f]);
+                result.face_of.push_back(f);
+                result.is_new.push_back(0);
                 continue;
             }
-            if (part_of_[f] == nothing) continue;
+            if (part_of_[f] == nothing || parts_[part_of_[f]].faces[0] != f) continue;
             const flat_part& part = parts_[part_of_[f]];
-            if (f != part.faces.front()) continue;
             ++result.parts;
-            for (const face& made : part.made) put(made, f, made != given_[f]);
+            const numbers sources = sources_of(part);
+            made.insert(made.end(), part.made.begin(), part.made.end());
+            of.insert(of.end(), sources.begin(), sources.end());
+        }
+        const std::vector<std::uint8_t> gone = cancelled_faces(made, options_.solid);
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            if (gone[i] != 0) continue;
+            result.faces.push_back(made[i]);
+            result.face_of.push_back(of[i]);
+            result.is_new.push_back(made[i] != given_[of[i]] ? 1 : 0);
         }
         return result;
+    }
+
+    /// For each face made, the one of the part that its middle is next to.
+    [[nodiscard]] numbers sources_of(const flat_part& part) const {
+        numbers sources(part.made.size(), part.faces[0]);
+        if (part.faces.size() == 1) return sources;
+        const dynamic_tree<3> tree(part.faces, [&](std::uint32_t f) {
+            aabb<double, 3> box;
+            for (const std::uint32_t p : given_[f]) box.include(at(p));
+            return box;
+        });
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            const auto& [a, b, c] = base::triangle_of(points_view(exact_.given), part.made[i]);
+            const point3 middle = base::scaled(base::plus(a, base::plus(b, c)), 1.0 / 3.0);
+            double least = std::numeric_limits<double>::infinity();
+            search(tree, around(middle, middle), [&](std::uint32_t n) {
+                const double away =
+                    closest_point(
+                        base::triangle_of(points_view(exact_.given), given_[part.faces[n]]), middle)
+                        .squared_distance;
+                if (away > least || (away == least && part.faces[n] > sources[i])) return;
+                least = away;
+                sources[i] = part.faces[n];
+            });
+        }
+        return sources;
     }
 
     flatten_options options_;
     std::span<const face> given_;
     std::vector<face> faces_;
-    std::span<const std::uint32_t> begin_at_;
-    exact_surface exact_{};  ///< the points alone
-    numbers now_{};          ///< [V] what each point has become
-    numbers near_{};         ///< points that edges may get, ascending
-    numbers loose_{};        ///< faces that may change, ascending
-    std::vector<std::uint8_t> is_held_{};  ///< [V] by faces that stay
-    std::set<std::uint64_t> held_edges_{};
+    numbers begin_at_{};                 ///< faces at corners of those that meet, ascending
+    exact_surface exact_{};              ///< the points alone
+    numbers near_{};                     ///< points that edges may get, ascending
+    std::vector<std::uint8_t> fixed_{};  ///< [F] 1 for faces that stay
+    std::optional<base::stars> stars_{};
+    std::vector<std::uint8_t> is_held_{};        ///< [V] by faces that stay
+    std::set<std::uint64_t> blocked_{};          ///< edges that would not split
     std::map<std::uint64_t, numbers> way_of_{};  ///< what is on edges, from their lower ends
     std::map<std::uint64_t, std::uint32_t> crossing_of_{};  ///< sides of rims
     std::vector<std::array<std::uint32_t, 3>> neighbor_{};
-    std::vector<flat_part> parts_{};
-    numbers part_of_{};  ///< of each face, or none
+    std::deque<flat_part> parts_{};  ///< stay where they are
+    numbers part_of_{};              ///< of each face, or none
+    bool is_grown_ = false;          ///< there are crossings, or parts, that rims do not know yet
 };
 
 }  // namespace
 
-std::optional<flattened> flatten(mesh_view surface, std::span<const std::uint32_t> begin_at,
+std::optional<flattened> flatten(mesh_view surface, std::span<const face_pair> meeting,
                                  const flatten_options& options) {
-    return flattening(surface, begin_at, options).run();
+    return flattening(surface, meeting, options).run();
 }
 
 }  // namespace treeform::detail::round

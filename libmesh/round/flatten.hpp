@@ -3,6 +3,7 @@
 /// Parts of a surface that all but lie in one plane get as few corners as their rims need.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +15,7 @@ namespace treeform::detail::round {
 struct flatten_options {
     double reach = 0.0;  ///< how far corners may be from a plane, a straight rim, and each other
     bool solid = true;   ///< the faces bound a solid: what covers each other back to back goes
-    std::span<const std::uint8_t> fixed{};  ///< [F] 1 for faces that are to stay; or empty
+    std::span<const std::uint8_t> certified{};  ///< [F] 1 for faces that no part grows into
 };
 
 struct flattened {
@@ -26,21 +27,29 @@ struct flattened {
     std::uint64_t parts = 0;           ///< with other faces than before
 };
 
-/// Where faces that were meant to lie in one plane do so but for rounding, as of a CAD part that
-/// was turned, cutting them along each other makes many pieces, as far apart as rounding moves
-/// them. Each flat part, as it grows over edges from the largest face listed that is not in one
-/// yet, becomes triangles between the corners of its rim. Before that, short edges go; rims between
-/// two parts become straight where they are within reach of that. A part whose rim crosses itself
-/// then keeps all of its rim, or stays as it is.
+/// Where faces that were meant to lie in one plane do so but for rounding, as of a CAD part that was
+/// turned, cutting them along each other makes many pieces, as far apart as rounding moves them.
+/// Around the faces that meet:
+/// - points that are within reach of each other become one;
+/// - edges get the points that are within reach of them;
+/// - each flat part, grown over edges from the largest of these faces that is not in one yet,
+///   becomes triangles between what its rim winds around, seen along an axis. What covers each other
+///   back to back cancels. Rims between two parts become straight where all is within reach of that,
+///   and where sides of a rim cross, both get a point.
+/// A part that cannot be made so keeps its rim, then falls apart into its faces. Nothing, where that
+/// does not end.
 ///
-/// Points stay where they are. A closed surface stays closed. Whether less meets afterwards is for
-/// the caller to see.
+/// The sum of the boundaries stays what it was, so that a closed surface stays closed; points stay
+/// where they are. Whether less meets afterwards is for the caller to see.
 ///
-/// \param  begin_at  faces, ascending
-/// \cost   O(F log F), and O(n^1.5) for the n corners of a rim
+/// \param  meeting  pairs of faces that meet
+/// \cost   O(F), O(n log n) for the n corners there, and O(n^1.5) for those of a rim; each at most
+///         40 times
 /// \same   on any number of threads
+/// \source Devillers, Lazard and Lenhart, 3D Snap Rounding, SoCG 2018, for points that go into edges
+///         near them
 [[nodiscard]] std::optional<flattened> flatten(mesh_view surface,
-                                               std::span<const std::uint32_t> begin_at,
+                                               std::span<const face_pair> meeting,
                                                const flatten_options& options);
 
 }  // namespace treeform::detail::round

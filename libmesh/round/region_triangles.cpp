@@ -1,12 +1,13 @@
 #include <libmesh/arrange/planar_box.hpp>
 #include <libmesh/arrange/planar_triangulation.hpp>
-#include <libmesh/round/region_triangles.hpp>
 #include <libmesh/exact/implicit_point.hpp>
+#include <libmesh/round/region_triangles.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -170,7 +171,6 @@ class triangulator {
         std::vector<face> result;
         for (std::uint32_t t = 0; t < winding.size(); ++t) {
             if (winding[t] == 0) continue;
-            if (winding[t] > 1 || winding[t] < -1) fail();
             face made{};
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::uint32_t vertex = plane.corners(t)[i];
@@ -178,7 +178,7 @@ class triangulator {
                 made[i] = ids_[vertex - frame_size];
             }
             if (winding[t] < 0) std::swap(made[1], made[2]);
-            result.push_back(made);
+            result.insert(result.end(), static_cast<std::size_t>(std::abs(winding[t])), made);
         }
         return result;
     }

@@ -41,6 +41,7 @@ constexpr std::size_t most_listed = 100;
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
+constexpr std::size_t pairs_cut_a_face = 8, fewest_cut = 100;
 /// Pairs of faces that are held against each other for that, of all rounds, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
 constexpr std::uint64_t visits_a_face = 1024, fewest_visits = std::uint64_t{1} << 20;
@@ -109,7 +110,7 @@ class rounding {
         const double step = std::ldexp(1.0, exponent - (to_float32() ? 24 : 53));
         const double limit = std::min(options_.max_displacement, longest_reach * largest);
         visits_ = fewest_visits + visits_a_face * faces_given_;
-        double reach = (getenv("FR")?atof(getenv("FR")):first_reach) * step;
+        double reach = first_reach * step;
         if (!(reach <= limit)) return;
         remember_places();
         if (options_.rest) {
@@ -119,22 +120,41 @@ class rounding {
             return;
         }
         for (int round = 1; reach <= limit; ++round) {
-            if (!getenv("SF")) {
+            const state before = now();
             if (flatten_parts(reach) || is_cancelled()) return;
-            if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
-            } else {
-            if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
-            if (flatten_parts(reach) || is_cancelled()) return;
+            if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
+            if (pairs_.size() > faces_given_ / pairs_cut_a_face + fewest_cut) {
+                go_back(before);
+                reach *= 4.0;
+                continue;
             }
-            if (getenv("TRACE")) fprintf(stderr, "round %d visits %zu pairs %zu\n", round, (size_t)visits_, pairs_.size());
-            if (round % rounds_of_reach == 0) reach *= 4.0;
-            const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
-            if (result_.surface.faces.size() > most) return;
-            if (pairs_.size() > most) continue;
+            if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
             ++result_.rounds;
             if (!cut_again() || !settle()) return;
             if (check() || is_cancelled()) return;
+            if (round % rounds_of_reach == 0) reach *= 4.0;
         }
+    }
+
+    /// What a round changes before it cuts.
+    struct state {
+        mesh surface;
+        std::vector<std::uint32_t> face_of, point_of;
+        std::vector<std::uint8_t> certified;
+        std::vector<face_pair> pairs;
+        treeform::certificate certificate;
+    };
+    [[nodiscard]] state now() const {
+        return {result_.surface, result_.face_of, point_of_,
+                certified_,      pairs_,          result_.certificate};
+    }
+    void go_back(const state& before) {
+        result_.surface = before.surface;
+        result_.face_of = before.face_of;
+        point_of_ = before.point_of;
+        certified_ = before.certified;
+        pairs_ = before.pairs;
+        result_.certificate = before.certificate;
     }
 
     /// Certified faces at edges where the rest of the surface is, or where it ends, are to stay.
@@ -154,7 +174,7 @@ class rounding {
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
             if (certified_.empty() || certified_[f] == 0) bad.push_back({f, f});
         detail::round::slivers_removed left =
-            detail::round::remove_slivers(result_.surface, bad,
+            detail::round::remove_slivers(result_.surface, pairs_,
                                           {.reach = reach,
                                            .thin = height,
                                            .solid = options_.solid,
@@ -171,36 +191,24 @@ class rounding {
     /// Whether the surface is certified with flat parts that their rims alone describe; else it is
     /// as before, unless less meets.
     bool flatten_parts(double reach) {
-        std::vector<std::uint32_t> bad;
-        for (const face_pair& pair : pairs_) bad.insert(bad.end(), {pair.a, pair.b});
-        std::ranges::sort(bad);
-        bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-        std::vector<std::uint8_t> at(result_.surface.points.size(), 0), fixed(certified_);
-        for (const std::uint32_t f : bad)
-            for (const std::uint32_t p : result_.surface.faces[f]) at[p] = 1;
-        bad.clear();
-        for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f) {
-            const auto& [p, q, r] = result_.surface.faces[f];
-            if ((at[p] | at[q] | at[r]) == 0) continue;
-            bad.push_back(f);
-            if (!fixed.empty()) fixed[f] = 0;
-        }
         std::optional<detail::round::flattened> made = detail::round::flatten(
-            result_.surface, bad,
-            {.reach = reach, .solid = options_.solid, .fixed = fixed});
+            result_.surface, pairs_,
+            {.reach = reach / 2, .solid = options_.solid, .certified = certified_});
         if (!made) return false;
         detail::round::flattened& flat = *made;
-        if (getenv("TRACE")) fprintf(stderr,"flatten reach %g bad %zu parts %zu faces %zu -> %zu pairs %zu", reach, bad.size(), (size_t)flat.parts, result_.surface.faces.size(), flat.faces.size(), pairs_.size());
         if (flat.parts == 0) return false;
-        joined_ += reach;
+        const state before = now();
         result_.surface.points = std::move(flat.points);
         if (to_float32())
             for (point3& p : result_.surface.points) p = to_single(p);
         point_of_.resize(result_.surface.points.size(), rounded_surface::none);
         take_changed(flat);
-        bool r=check();
-        if (getenv("TRACE")) fprintf(stderr," -> %zu ok %d\n", pairs_.size(),r);
-        return r;
+        const bool certified = check();
+        if (!certified && !is_cancelled() && pairs_.size() >= before.pairs.size())
+            go_back(before);
+        else
+            joined_ += reach;
+        return certified;
     }
 
     /// Other faces between the same points.
