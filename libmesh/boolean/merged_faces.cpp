@@ -7,8 +7,8 @@
 #include <libmesh/base/running_sums.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/boolean/merged_faces.hpp>
-#include <libmesh/boolean/region_triangles.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/round/region_triangles.hpp>
 #include <libmesh/weld/edge_uses.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -204,21 +204,22 @@ class merger {
         std::vector<std::vector<face>> made(changed.size());
         for_chunks(changed.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t r = begin; r < end; ++r) {
-                flat_region region{.first_face = changed[r], .plane = surface_.faces[changed[r]]};
+                round::flat_region region{.first_face = changed[r],
+                                          .plane = surface_.faces[changed[r]]};
                 for (const std::uint32_t f : faces_of[r])
                     for (const std::uint32_t p : surface_.faces[f])
                         if (spare_[p] == 0) region.points.push_back(p);
                 const auto at = creases_of[r];
                 for (std::size_t i = 0; i < at.size(); ++i)
                     if (i == 0 || at[i] != at[i - 1]) add_rim(creases_[at[i]], region);
-                made[r] = triangles_of(surface_, region);
+                made[r] = round::triangles_of(surface_, region);
             }
         });
         return joined(number, made);
     }
 
     /// The sides of a crease that a region has, with the lines that are straight in one piece.
-    void add_rim(const crease& c, flat_region& region) const {
+    void add_rim(const crease& c, round::flat_region& region) const {
         std::vector<std::uint32_t> at;
         for (std::size_t u = 0; u < c.uses.size(); ++u) {
             if (region_[c.face(u)] != region.first_face) continue;

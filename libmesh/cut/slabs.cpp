@@ -1,7 +1,7 @@
-#include <libmesh/boolean/region_triangles.hpp>
 #include <libmesh/cut/layer_loops.hpp>
 #include <libmesh/cut/slabs.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/round/region_triangles.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -156,7 +156,7 @@ class slab_cutter {
         };
         exact_surface flat;
         for (const slab_corner& c : corners) flat.constructed.push_back(point(c));
-        boolean::flat_region region;
+        round::flat_region region;
         region.axis = 0;
         for (int axis = 1; axis < 3; ++axis)
             if (std::abs(levels_.normal[static_cast<std::size_t>(axis)]) >
@@ -164,13 +164,13 @@ class slab_cutter {
                 region.axis = axis;
         region.orientation = levels_.normal[static_cast<std::size_t>(region.axis)] > 0.0 ? 1 : -1;
         for (const auto& [from, to] : rim) {
-            region.rim.push_back({number(from), number(to), boolean::flat_region::no_line});
+            region.rim.push_back({number(from), number(to), round::flat_region::no_line});
             region.points.push_back(region.rim.back().from);
             region.points.push_back(region.rim.back().to);
         }
         std::vector<slab_face> lid;
         const auto cap = static_cast<std::uint32_t>(mesh_.faces.size() + k);
-        for (const auto& [a, b, c] : boolean::triangles_of(flat, region))
+        for (const auto& [a, b, c] : round::triangles_of(flat, region))
             lid.push_back({{corners[a], corners[b], corners[c]}, cap});
         return lid;
     }

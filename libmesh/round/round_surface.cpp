@@ -9,6 +9,7 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/round/displacement.hpp>
 #include <libmesh/round/drop_unused_points.hpp>
+#include <libmesh/round/flatten.hpp>
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/remove_slivers.hpp>
 #include <libmesh/round/round_surface.hpp>
@@ -40,6 +41,7 @@ constexpr std::size_t most_listed = 100;
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
+constexpr std::size_t pairs_cut_a_face = 8, fewest_cut = 100;
 /// Pairs of faces that are held against each other for that, of all rounds, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
 constexpr std::uint64_t visits_a_face = 1024, fewest_visits = std::uint64_t{1} << 20;
@@ -118,15 +120,41 @@ class rounding {
             return;
         }
         for (int round = 1; reach <= limit; ++round) {
+            const state before = now();
+            if (flatten_parts(reach) || is_cancelled()) return;
+            if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
+            if (pairs_.size() > faces_given_ / pairs_cut_a_face + fewest_cut) {
+                go_back(before);
+                reach *= 4.0;
+                continue;
+            }
             if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
-            if (round % rounds_of_reach == 0) reach *= 4.0;
-            const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
-            if (result_.surface.faces.size() > most) return;
-            if (pairs_.size() > most) continue;
             ++result_.rounds;
             if (!cut_again() || !settle()) return;
             if (check() || is_cancelled()) return;
+            if (round % rounds_of_reach == 0) reach *= 4.0;
         }
+    }
+
+    /// What a round changes before it cuts.
+    struct state {
+        mesh surface;
+        std::vector<std::uint32_t> face_of, point_of;
+        std::vector<std::uint8_t> certified;
+        std::vector<face_pair> pairs;
+        treeform::certificate certificate;
+    };
+    [[nodiscard]] state now() const {
+        return {result_.surface, result_.face_of, point_of_,
+                certified_,      pairs_,          result_.certificate};
+    }
+    void go_back(const state& before) {
+        result_.surface = before.surface;
+        result_.face_of = before.face_of;
+        point_of_ = before.point_of;
+        certified_ = before.certified;
+        pairs_ = before.pairs;
+        result_.certificate = before.certificate;
     }
 
     /// Certified faces at edges where the rest of the surface is, or where it ends, are to stay.
@@ -146,7 +174,7 @@ class rounding {
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
             if (certified_.empty() || certified_[f] == 0) bad.push_back({f, f});
         detail::round::slivers_removed left =
-            detail::round::remove_slivers(result_.surface, bad,
+            detail::round::remove_slivers(result_.surface, pairs_,
                                           {.reach = reach,
                                            .thin = height,
                                            .solid = options_.solid,
@@ -156,19 +184,48 @@ class rounding {
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
         joined_ += left.moved;
+        take_changed(left);
+        return check();
+    }
+
+    /// Whether the surface is certified with flat parts that their rims alone describe; else it is
+    /// as before, unless less meets.
+    bool flatten_parts(double reach) {
+        std::optional<detail::round::flattened> made = detail::round::flatten(
+            result_.surface, pairs_,
+            {.reach = reach / 2, .solid = options_.solid, .certified = certified_});
+        if (!made) return false;
+        detail::round::flattened& flat = *made;
+        if (flat.parts == 0) return false;
+        const state before = now();
+        result_.surface.points = std::move(flat.points);
+        if (to_float32())
+            for (point3& p : result_.surface.points) p = to_single(p);
+        point_of_.resize(result_.surface.points.size(), rounded_surface::none);
+        take_changed(flat);
+        const bool certified = check();
+        if (!certified && !is_cancelled() && pairs_.size() >= before.pairs.size())
+            go_back(before);
+        else
+            joined_ += reach;
+        return certified;
+    }
+
+    /// Other faces between the same points.
+    template <class Changed>
+    void take_changed(Changed& changed) {
         std::vector<std::uint8_t> certified;
-        for (std::size_t f = 0; f < left.faces.size(); ++f) {
+        for (std::size_t f = 0; f < changed.faces.size(); ++f) {
             if (!certified_.empty())
-                certified.push_back(left.is_new[f] != 0 ? std::uint8_t{0}
-                                                        : certified_[left.face_of[f]]);
-            left.face_of[f] = result_.face_of[left.face_of[f]];
+                certified.push_back(changed.is_new[f] != 0 ? std::uint8_t{0}
+                                                           : certified_[changed.face_of[f]]);
+            changed.face_of[f] = result_.face_of[changed.face_of[f]];
         }
-        result_.surface.faces = std::move(left.faces);
-        result_.face_of = std::move(left.face_of);
+        result_.surface.faces = std::move(changed.faces);
+        result_.face_of = std::move(changed.face_of);
         certified_ = std::move(certified);
         moved_ = std::numeric_limits<double>::infinity();
         vanished_ = true;
-        return check();
     }
 
     /// Where all points were, to the nearest doubles, and the faces between them.

@@ -1,16 +1,18 @@
 #include <libmesh/arrange/planar_box.hpp>
 #include <libmesh/arrange/planar_triangulation.hpp>
-#include <libmesh/boolean/region_triangles.hpp>
 #include <libmesh/exact/implicit_point.hpp>
+#include <libmesh/round/region_triangles.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
-namespace treeform::detail::boolean {
+namespace treeform::detail::round {
 namespace {
 
 constexpr std::uint32_t frame_size = 3;  ///< vertices that hold the region, and are not of it
@@ -36,7 +38,7 @@ class triangulator {
     using edge = std::array<std::uint32_t, 2>;
 
     [[noreturn]] static void fail() {
-        throw std::logic_error("treeform::boolean: a flat part of the surface has no rim");
+        throw std::logic_error("treeform: a flat part of the surface has no rim");
     }
 
     [[nodiscard]] implicit_point point(std::uint32_t p) const {
@@ -93,7 +95,9 @@ class triangulator {
             of_point.erase(std::unique(of_point.begin(), of_point.end()), of_point.end());
         }
         return {std::move(points), std::move(lines), axis_, orientation_,
-                [](std::uint32_t, std::uint32_t) -> implicit_point { fail(); }};
+                [this](std::uint32_t line, std::uint32_t other) -> implicit_point {
+                    throw sides_cross(side_on(line), side_on(other));
+                }};
     }
 
     /// Lines with a name are those of the sides that have it, each other side has one of its own.
@@ -109,6 +113,11 @@ class triangulator {
                     ? own++
                     : static_cast<std::uint32_t>(
                           std::lower_bound(names.begin(), names.end(), side.line) - names.begin()));
+    }
+
+    [[nodiscard]] std::size_t side_on(std::uint32_t line) const {
+        return static_cast<std::size_t>(std::ranges::find(line_of_side_, line) -
+                                        line_of_side_.begin());
     }
 
     /// A triangle that strictly holds all points in projection, wherever in their balls they are.
@@ -128,41 +137,48 @@ class triangulator {
         std::sort(rim_.begin(), rim_.end());
     }
 
-    [[nodiscard]] bool is_rim(std::uint32_t a, std::uint32_t b) const {
-        return std::binary_search(rim_.begin(), rim_.end(), edge{a, b}) ||
-               std::binary_search(rim_.begin(), rim_.end(), edge{b, a});
+    /// How often the region is more on the left of the way between two vertices than on its right.
+    [[nodiscard]] std::ptrdiff_t step_over(std::uint32_t a, std::uint32_t b) const {
+        const auto count = [&](const edge& e) {
+            const auto [first, last] = std::equal_range(rim_.begin(), rim_.end(), e);
+            return last - first;
+        };
+        return count({a, b}) - count({b, a});
     }
 
-    /// What is reached from the left of the rim without crossing it.
+    /// What the rim winds around, from where it winds around nothing.
     [[nodiscard]] std::vector<face> inside(const arrange::planar_triangulation& plane) const {
-        std::vector<std::uint8_t> seen(plane.triangle_count(), 0);
-        std::vector<std::uint32_t> open;
-        const auto enter = [&](std::uint32_t t) {
-            if (seen[t] == 0) open.push_back(t);
-            seen[t] = 1;
+        constexpr std::ptrdiff_t unknown = std::numeric_limits<std::ptrdiff_t>::max();
+        std::vector<std::ptrdiff_t> winding(plane.triangle_count(), unknown);
+        std::vector<std::uint32_t> open{0};
+        const auto is_at_frame = [&](std::uint32_t t) {
+            return std::ranges::min(plane.corners(t)) < frame_size;
         };
-        for (const auto& [from, to] : rim_) enter(plane.left_of(from, to));
+        while (!is_at_frame(open[0])) ++open[0];
+        winding[open[0]] = 0;
         while (!open.empty()) {
             const std::uint32_t t = open.back();
             open.pop_back();
             const auto corners = plane.corners(t);
             for (std::size_t i = 0; i < 3; ++i) {
-                if (is_rim(corners[i], corners[(i + 1) % 3])) continue;
                 const std::uint32_t beyond = plane.across(t, i);
-                if (beyond == arrange::planar_triangulation::none) fail();
-                enter(beyond);
+                if (beyond == arrange::planar_triangulation::none || winding[beyond] != unknown)
+                    continue;
+                winding[beyond] = winding[t] - step_over(corners[i], corners[(i + 1) % 3]);
+                open.push_back(beyond);
             }
         }
         std::vector<face> result;
-        for (std::uint32_t t = 0; t < seen.size(); ++t) {
-            if (seen[t] == 0) continue;
+        for (std::uint32_t t = 0; t < winding.size(); ++t) {
+            if (winding[t] == 0) continue;
             face made{};
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::uint32_t vertex = plane.corners(t)[i];
                 if (vertex < frame_size) fail();
                 made[i] = ids_[vertex - frame_size];
             }
-            result.push_back(made);
+            if (winding[t] < 0) std::swap(made[1], made[2]);
+            result.insert(result.end(), static_cast<std::size_t>(std::abs(winding[t])), made);
         }
         return result;
     }
@@ -182,4 +198,4 @@ std::vector<face> triangles_of(const exact_surface& surface, const flat_region& 
     return triangulator(surface, region).run();
 }
 
-}  // namespace treeform::detail::boolean
+}  // namespace treeform::detail::round

@@ -5,11 +5,13 @@
 #include <libmesh/round/round_surface.hpp>
 #include <treeform/mesh/mesh.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
-namespace treeform::detail::boolean {
+namespace treeform::detail::round {
 
 /// A connected part of a plane, perhaps with holes and slits.
 struct flat_region {
@@ -33,6 +35,13 @@ struct flat_region {
     std::vector<side> rim{};
 };
 
+/// Two sides of a rim cross each other.
+struct sides_cross : std::logic_error {
+    sides_cross(std::size_t a, std::size_t b)
+        : std::logic_error("treeform: sides of a flat part of the surface cross"), a(a), b(b) {}
+    std::size_t a, b;  ///< by number
+};
+
 /// The region as triangles between its points, near-Delaunay, oriented as `plane`.
 ///
 /// \pre    no side has a point of the region but its ends, and all ends are among the points
@@ -41,4 +50,4 @@ struct flat_region {
 [[nodiscard]] std::vector<face> triangles_of(const exact_surface& surface,
                                              const flat_region& region);
 
-}  // namespace treeform::detail::boolean
+}  // namespace treeform::detail::round
