@@ -3,7 +3,7 @@
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/offset/distance_bounds.hpp>
 #include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 /// Proof that a triangle is within a distance of others.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <cstdint>
 #include <functional>

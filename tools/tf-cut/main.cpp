@@ -321,9 +321,8 @@ auto suitable(const char* option, const Make& make) {
 
 exit_status make_section(tools::job& work, const usable_input& input, cut_settings s) {
     if (s.layers > 0.0) {
-        s.heights = suitable("--layers", [&] {
-            return tf::layer_heights(input.file.mesh.points, s.plane, s.layers);
-        });
+        s.heights = suitable(
+            "--layers", [&] { return s.plane.layer_heights(input.file.mesh.points, s.layers); });
         work.entry["planes"]["heights"] = s.heights;
     }
     tf::section_result made;

@@ -237,13 +237,13 @@ TEST_CASE("deviation: distances come back to the points of the file, with colors
     REQUIRE(back.size() == file.mesh.points.size());
     for (std::size_t i = 0; i + 1 < back.size(); ++i) CHECK(back[i] == file.mesh.points[i].x - 0.5);
     CHECK(std::isnan(back.back()));
-    tf::color_distances(file, back, -0.5, 0.5);
+    tf::deviation_result::color(file, back, -0.5, 0.5);
     const tf::element* const rows = file.attributes.find("vertex");
     REQUIRE(rows != nullptr);
     const tf::column *const red = rows->find("red"), *const blue = rows->find("blue");
     for (std::size_t i = 0; i + 1 < back.size(); ++i)
         CHECK((red->number(i) > blue->number(i)) == (back[i] > 0.0));
     CHECK(red->number(back.size() - 1) == 128.0);
-    CHECK_THROWS_AS(tf::color_distances(file, distances, -1, 1), std::invalid_argument);
-    CHECK_THROWS_AS(tf::color_distances(file, back, 0.5, 1), std::invalid_argument);
+    CHECK_THROWS_AS(tf::deviation_result::color(file, distances, -1, 1), std::invalid_argument);
+    CHECK_THROWS_AS(tf::deviation_result::color(file, back, 0.5, 1), std::invalid_argument);
 }

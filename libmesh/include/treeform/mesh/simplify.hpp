@@ -6,7 +6,6 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -57,10 +56,10 @@ struct simplify_result {
 /// Both surfaces are within `max_distance` of each other: each face is proven so, none is sampled.
 /// No two faces are made to meet, exactly, on the coordinates returned; where faces of the input
 /// meet, they are left to do so. A distance below what doubles can prove, some 2^-47 of the largest
-/// coordinate, collapses nothing. Borders, edges of one face or more than two or of faces that do not
-/// run both ways, edges of features and groups, and vertices whose faces are no fan stay as they are.
-/// A closed, oriented manifold stays one. What lies inside of what is looked at in the end alone: the
-/// certificate says if that has changed.
+/// coordinate, collapses nothing. Borders, edges of one face or more than two or of faces that do
+/// not run both ways, edges of features and groups, and vertices whose faces are no fan stay as
+/// they are. A closed, oriented manifold stays one. What lies inside of what is looked at in the
+/// end alone: the certificate says if that has changed.
 ///
 /// Corners with equal coordinates are one vertex; faces with two equal corners go.
 ///
