@@ -158,7 +158,7 @@ class stream_files {
   private:
     [[nodiscard]] bool leads() const { return tiles_.communicator.rank == 0; }
 
-    /// Of a team, the first one has the files.
+    /// Of several ranks, the root has the files.
     [[nodiscard]] fs::path add(const fs::path& path, bool force) {
         return leads() ? outputs_.add(path, force) : path;
     }
