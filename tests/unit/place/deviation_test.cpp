@@ -109,6 +109,18 @@ TEST_CASE("deviation: a file that repeats its corners is closed all the same") {
     CHECK(found.distances[0] == -0.25);
 }
 
+TEST_CASE("deviation: points of `b` that no face uses change nothing on the way back") {
+    const tf::mesh a = ball(2, 1.0), b = box(1, 1, 1);
+    tf::mesh more = b;
+    more.points.insert(more.points.begin(), 5, tf::point3{90, 0, 0});
+    for (tf::face& f : more.faces)
+        for (std::uint32_t& corner : f) corner += 5;
+    const auto expected = found_for(a, b), found = found_for(a, more);
+    REQUIRE((expected.back && found.back));
+    CHECK(found.back->sampled == expected.back->sampled);
+    CHECK(found.back->at_most == expected.back->at_most);
+}
+
 TEST_CASE("deviation: each distance and side is that of the point alone") {
     test::random source(1);
     const tf::mesh b = ball(4, 1.0);
