@@ -3,7 +3,7 @@
 /// A line along an axis through a face of an arrangement, however small the face is.
 
 #include <libmesh/exact/implicit_point.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
 
 #include <array>

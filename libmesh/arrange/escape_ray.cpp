@@ -1,7 +1,6 @@
 #include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
 
 #include <algorithm>
 #include <array>

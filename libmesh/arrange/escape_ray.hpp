@@ -6,7 +6,7 @@
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
 
 #include <array>

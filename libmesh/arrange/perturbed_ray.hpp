@@ -4,7 +4,7 @@
 
 #include <libmesh/exact/implicit_point.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <optional>
 

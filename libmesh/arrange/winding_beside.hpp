@@ -3,7 +3,7 @@
 /// How often a surface winds around what is right beside a face.
 
 #include <libmesh/arrange/corner_line.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/tree.hpp>

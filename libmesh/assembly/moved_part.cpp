@@ -88,7 +88,7 @@ std::vector<point3> moved_part::points() const {
     return moved;
 }
 
-part_standing moved_part::as_moved(const moved_part& other) const {
+part_relation moved_part::as_moved(const moved_part& other) const {
     const std::vector<point3> a = points(), b = other.points();
     const place::shape &of_a = part_->shape(), &of_b = other.part_->shape();
     const tree<3> tree_a = build_face_tree(mesh_view{a, of_a.mesh().faces}),
@@ -96,9 +96,9 @@ part_standing moved_part::as_moved(const moved_part& other) const {
     const auto how = place::relation_of(
         place::shape(of_a.prepared(), a, tree_a, of_a.vertices(), move_.mirrors()),
         place::shape(of_b.prepared(), b, tree_b, of_b.vertices(), other.move_.mirrors()));
-    return {how.relation == mesh_relation::penetrating ? standing::penetrating
-            : how.relation == mesh_relation::touching  ? standing::touching
-                                                       : standing::separate};
+    return {how.relation == mesh_relation::penetrating ? mesh_relation::penetrating
+            : how.relation == mesh_relation::touching  ? mesh_relation::touching
+                                                       : mesh_relation::separate};
 }
 
 /// Whether `p` is inside the solid that is moved; none where rounding might have a say.
@@ -139,7 +139,7 @@ std::optional<bool> moved_part::holds_part_of(const moved_part& other) const {
     return false;
 }
 
-part_standing moved_part::standing_to(const moved_part& other, double clearance) const {
+part_relation moved_part::relation_to(const moved_part& other, double clearance) const {
     const place::shape &a = part_->shape(), &b = other.part_->shape();
     if (intersects(a.prepared(), b.prepared(), {move_, other.move_})) {
         mesh_intersection_options crossing;
@@ -148,20 +148,20 @@ part_standing moved_part::standing_to(const moved_part& other, double clearance)
         crossing.first_only = true;
         crossing.kinds = pair_kind::crossing;
         const auto through = mesh_intersections(a.prepared(), b.prepared(), crossing);
-        if (!through.pairs.empty()) return {standing::penetrating};
+        if (!through.pairs.empty()) return {mesh_relation::penetrating};
         return as_moved(other);
     }
     const auto inside = holds_part_of(other), around = other.holds_part_of(*this);
-    if ((inside && *inside) || (around && *around)) return {standing::penetrating};
+    if ((inside && *inside) || (around && *around)) return {mesh_relation::penetrating};
     if (!inside || !around) {
-        const part_standing how = as_moved(other);
-        if (how.standing != standing::separate) return how;
+        const part_relation how = as_moved(other);
+        if (how.relation != mesh_relation::separate) return how;
     }
-    if (clearance == 0.0) return {standing::separate};
+    if (clearance == 0.0) return {mesh_relation::separate};
     const double apart =
         treeform::distance(a.prepared(), b.prepared(), {move_, other.move_, clearance});
-    return apart < clearance ? part_standing{standing::closer_than_clearance, apart}
-                             : part_standing{standing::clear};
+    return apart < clearance ? part_relation{mesh_relation::closer_than_clearance, apart}
+                             : part_relation{mesh_relation::clear};
 }
 
 }  // namespace treeform::detail::assembly

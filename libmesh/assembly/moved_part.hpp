@@ -5,8 +5,7 @@
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -32,8 +31,8 @@ class resting_part {
     std::vector<point3> corners_;
 };
 
-struct part_standing {
-    treeform::standing standing = standing::separate;
+struct part_relation {
+    mesh_relation relation = mesh_relation::separate;
     double distance = 0.0;
 };
 
@@ -46,12 +45,12 @@ class moved_part {
     [[nodiscard]] bool near(const moved_part& other, double distance) const;
 
     /// Exactly, for the corners as moved; a distance only with a clearance.
-    [[nodiscard]] part_standing standing_to(const moved_part& other, double clearance) const;
+    [[nodiscard]] part_relation relation_to(const moved_part& other, double clearance) const;
 
   private:
     [[nodiscard]] std::optional<bool> holds(const point3& p) const;
     [[nodiscard]] std::optional<bool> holds_part_of(const moved_part& other) const;
-    [[nodiscard]] part_standing as_moved(const moved_part& other) const;
+    [[nodiscard]] part_relation as_moved(const moved_part& other) const;
     [[nodiscard]] std::vector<point3> points() const;
 
     const resting_part* part_;

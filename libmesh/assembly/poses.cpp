@@ -28,7 +28,7 @@ struct looked_at {
 };
 
 bool is_clash(const pose_clash& one, double clearance) {
-    return one.how != standing::touching || clearance > 0.0;
+    return one.how != mesh_relation::touching || clearance > 0.0;
 }
 
 class pose_inspection {
@@ -52,9 +52,10 @@ class pose_inspection {
                     continue;
                 }
                 if (std::binary_search(ignored_.begin(), ignored_.end(), part_pair{i, j})) continue;
-                const auto how = moved[i].standing_to(moved[j], options_.clearance);
-                if (how.standing == standing::separate || how.standing == standing::clear) continue;
-                const pose_clash one{i, j, how.standing, how.distance};
+                const auto how = moved[i].relation_to(moved[j], options_.clearance);
+                if (how.relation == mesh_relation::separate || how.relation == mesh_relation::clear)
+                    continue;
+                const pose_clash one{i, j, how.relation, how.distance};
                 if (options_.first_only && !is_clash(one, options_.clearance)) continue;
                 found.clashes.push_back(one);
                 if (options_.first_only) return found;

@@ -3,7 +3,6 @@
 /// The tree over the faces of a mesh, which queries of meshes take.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/tree.hpp>
 

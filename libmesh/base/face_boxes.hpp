@@ -4,7 +4,6 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <cstdint>
 

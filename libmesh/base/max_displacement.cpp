@@ -1,6 +1,6 @@
 #include <libmesh/base/double_double.hpp>
 #include <libmesh/base/max_displacement.hpp>
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 /// How far points were moved.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 namespace treeform::detail {
 

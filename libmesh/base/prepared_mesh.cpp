@@ -1,6 +1,6 @@
 #include <libmesh/base/point_faces.hpp>
 #include <libmesh/base/prepared_slots.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <array>

@@ -2,7 +2,7 @@
 /// \file
 /// Meshes that were given in any form, as prepared meshes.
 
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstddef>
 #include <optional>

@@ -3,7 +3,7 @@
 /// The typed slots of a prepared mesh. The type is low, what a slot holds is not its business: each
 /// floor names a slot with its own type and fills it.
 
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 
 #include <cstddef>

@@ -9,7 +9,7 @@
 #include <libmesh/boolean/near_labels.hpp>
 #include <libmesh/boolean/undecided_part.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <array>
 #include <memory>

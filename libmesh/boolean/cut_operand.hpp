@@ -5,7 +5,6 @@
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -2,7 +2,7 @@
 /// \file
 /// Faces that are not near a cut, in sets that an operation treats alike.
 
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 
 #include <array>

@@ -8,7 +8,7 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <array>

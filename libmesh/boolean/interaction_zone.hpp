@@ -5,7 +5,6 @@
 #include <libmesh/boolean/cut_operand.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <array>

@@ -6,7 +6,7 @@
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/tree.hpp>

@@ -224,13 +224,13 @@ point3 section_result::in_space(const section_layer& layer, const point2& p) con
     return result;
 }
 
-std::vector<double> layer_heights(points_view points, const oriented_plane& plane,
-                                  double thickness) {
-    const point3 n = plane.frame().normal;
+std::vector<double> oriented_plane::layer_heights(points_view points, double thickness) const {
+    const point3 n = frame().normal;
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    const double zero = n.x * plane.at.x + n.y * plane.at.y + n.z * plane.at.z;
+    const double zero = n.x * at.x + n.y * at.y + n.z * at.z;
     if (!std::isfinite(zero))
-        throw std::invalid_argument("treeform::layer_heights: the plane is not finite");
+        throw std::invalid_argument(
+            "treeform::oriented_plane::layer_heights: the plane is not finite");
     for (const point3& p : points) {
         const double height = n.x * p.x + n.y * p.y + n.z * p.z - zero;
         if (!std::isfinite(height)) continue;
@@ -239,7 +239,8 @@ std::vector<double> layer_heights(points_view points, const oriented_plane& plan
     }
     if (!(thickness > 0.0) || (high - low) / thickness > 0x1p24)
         throw std::invalid_argument(
-            "treeform::layer_heights: a thickness that is not positive, or of which there would be "
+            "treeform::oriented_plane::layer_heights: a thickness that is not positive, or of "
+            "which there would be "
             "more than 2^24 layers");
     std::vector<double> heights;
     for (std::size_t i = 0;; ++i) {

@@ -3,7 +3,7 @@
 /// A triangle put on its longest edge: what the distance from many points to it is computed from.
 
 #include <libmesh/base/point_math.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <cstddef>
 

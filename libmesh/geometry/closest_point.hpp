@@ -3,7 +3,7 @@
 /// The point of a triangle that is nearest to a given point.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 namespace treeform {

@@ -2,7 +2,7 @@
 /// \file
 /// When a triangle in straight motion first meets another; the order of contacts, exactly.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <optional>
 

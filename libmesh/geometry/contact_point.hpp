@@ -3,7 +3,7 @@
 /// Where a named contact of two triangles is, for pictures and reports.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 namespace treeform {

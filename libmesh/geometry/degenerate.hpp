@@ -4,7 +4,6 @@
 
 #include <libmesh/geometry/view_axis.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
 
 #include <optional>
 

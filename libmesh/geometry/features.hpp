@@ -2,7 +2,7 @@
 /// \file
 /// Arithmetic on the names of a triangle's parts, and the list contacts are gathered in.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <array>
 #include <cassert>

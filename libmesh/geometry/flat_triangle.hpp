@@ -2,7 +2,7 @@
 /// \file
 /// A degenerate triangle as the segment or point that it is.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <array>
 #include <optional>

@@ -6,7 +6,7 @@
 #include <libmesh/geometry/flat_triangle.hpp>
 #include <libmesh/geometry/plane_interval.hpp>
 #include <libmesh/geometry/view_axis.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>

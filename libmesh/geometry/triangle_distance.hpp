@@ -3,7 +3,7 @@
 /// The distance of two triangles, and where they are nearest.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 namespace treeform {

@@ -4,7 +4,7 @@
 #include <libmesh/geometry/plane_interval.hpp>
 #include <libmesh/geometry/signs.hpp>
 #include <libmesh/geometry/view_axis.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <optional>
 

@@ -3,7 +3,6 @@
 /// Along which axis a triangle can be looked at without losing a dimension.
 
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
 
 #include <optional>
 

@@ -5,9 +5,9 @@
 #include <libmesh/intersect/block_planes.hpp>
 #include <libmesh/intersect/two_mesh_pairs.hpp>
 #include <libmesh/nearness/triangle_blocks.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/buffer.hpp>
-#include <treeform/tree/transform.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <cstddef>

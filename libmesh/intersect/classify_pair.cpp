@@ -1,7 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <libmesh/intersect/check_pairs.hpp>
 #include <libmesh/intersect/meetings.hpp>
 #include <libmesh/intersect/same_points.hpp>
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -2,8 +2,8 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/contact_point.hpp>
 #include <libmesh/intersect/check_pairs.hpp>
-#include <treeform/mesh/curves.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <utility>

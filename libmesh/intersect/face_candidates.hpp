@@ -4,9 +4,9 @@
 
 #include <libmesh/intersect/two_mesh_pairs.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/answers.hpp>
-#include <treeform/tree/transform.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <cstddef>

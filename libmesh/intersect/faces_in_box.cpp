@@ -1,7 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

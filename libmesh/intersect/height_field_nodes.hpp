@@ -4,7 +4,7 @@
 
 #include <libmesh/intersect/pair_filter.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <span>

@@ -4,8 +4,8 @@
 
 #include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/aabb.hpp>
 
 #include <array>

@@ -5,7 +5,7 @@
 /// Every decision rests on the sign of the polynomial of `orient3d` (libmesh/exact), computed in
 /// its order of operations and held against its bound; what that bound leaves open stays open.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/answers.hpp>
 
 #include <array>

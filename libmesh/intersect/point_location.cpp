@@ -10,7 +10,6 @@
 #include <libmesh/weld/joined_faces.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/ray.hpp>

@@ -2,8 +2,8 @@
 /// \file
 /// Rays against one mesh whose tree is known.
 
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/raycast.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/tree.hpp>
 

@@ -12,7 +12,7 @@
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/detail/box_in_space.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <atomic>
 #include <chrono>

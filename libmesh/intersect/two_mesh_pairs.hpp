@@ -5,7 +5,7 @@
 
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/intersect/narrow_phase.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <libmesh/io/extension.hpp>
 #include <libmesh/io/sink.hpp>
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/nearness/bounding_cylinders.hpp>
 #include <libmesh/nearness/triangle_blocks.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 
 namespace treeform::detail::nearness {

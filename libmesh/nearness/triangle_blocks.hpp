@@ -3,10 +3,10 @@
 /// Triangles in the leaf order of a tree, eight side by side.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/detail/export.hpp>
-#include <treeform/tree/transform.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <array>

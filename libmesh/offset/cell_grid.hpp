@@ -3,7 +3,6 @@
 /// Cubes that the points at a distance from a mesh are in.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 
 #include <array>
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include <libmesh/offset/distance_bounds.hpp>
 #include <libmesh/offset/near_places.hpp>
 #include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,6 @@
 /// How near to a mesh, and how far from it, another one is: all of its points.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
 namespace treeform::detail::offset {

@@ -2,7 +2,6 @@
 #include <libmesh/offset/drains.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/raycast.hpp>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,6 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/offset.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 
 namespace treeform::detail::offset {
 

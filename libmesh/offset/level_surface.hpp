@@ -4,7 +4,6 @@
 
 #include <libmesh/offset/cell_grid.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
 namespace treeform::detail::offset {

@@ -9,11 +9,11 @@
 #include <libmesh/offset/level_surface.hpp>
 #include <libmesh/offset/moved_surface.hpp>
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/rounding.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <libmesh/place/align_starts.hpp>
 #include <libmesh/place/align_target.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <cstddef>
 

@@ -81,8 +81,8 @@ void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const
 
 }  // namespace
 
-contact_classes classify_contacts(const mesh_ref& given_moving, const mesh_refs& given_fixed,
-                                  const placement& at) {
+contact_classes contact_classes::of(const mesh_ref& given_moving, const mesh_refs& given_fixed,
+                                    const placement& at) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;

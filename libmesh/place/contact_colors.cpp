@@ -106,12 +106,12 @@ std::vector<contact_class> contact_classes::in_files(const body_set& moving) con
     return in_files(moving, {});
 }
 
-void color_contacts(mesh_file& file, std::span<const contact_class> classes,
-                    const contact_color_options& options) {
+void contact_classes::color(mesh_file& file, std::span<const contact_class> classes,
+                            const contact_color_options& options) {
     const bool cloud = file.mesh.faces.empty() && !classes.empty();
     if (classes.size() != (cloud ? file.mesh.points.size() : file.mesh.faces.size()))
         throw std::invalid_argument(
-            "treeform::color_contacts: a class for each triangle is needed");
+            "treeform::contact_classes::color: a class for each triangle is needed");
     if (options.split_polygons && !cloud) file.split_polygons();
     row_classes of_row;
     for (const contact_class c : classes) of_row.push_back(static_cast<std::uint8_t>(c));

@@ -265,11 +265,11 @@ convex_hull_result convex_hull(points_view points, const progress_callback& prog
     return hull;
 }
 
-std::vector<std::uint32_t> corners_of(const convex_hull_result& hull, const hull_side& side,
-                                      points_view points) {
+std::vector<std::uint32_t> convex_hull_result::corners_of(const hull_side& side,
+                                                          points_view points) const {
     using edge = std::pair<std::uint32_t, std::uint32_t>;
     std::vector<edge> edges;
-    for (const face& f : hull.faces_of(side))
+    for (const face& f : faces_of(side))
         for (std::size_t i = 0; i < 3; ++i) edges.emplace_back(f[i], f[(i + 1) % 3]);
     std::sort(edges.begin(), edges.end());
     // An edge inside the side is there in both directions; those of the rim follow each other.

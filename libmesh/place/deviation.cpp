@@ -102,15 +102,15 @@ directed_distance directed(mesh_view of, std::span<const double> distances) {
     return found;
 }
 
-/// The points of `mesh` that faces use.
-std::vector<point3> used_points(mesh_view mesh) {
+/// The numbers of the points of `mesh` that faces use.
+std::vector<std::uint32_t> used_points(mesh_view mesh) {
     std::vector<bool> used(mesh.points.size());
     for (const face& f : mesh.faces)
         for (const std::uint32_t corner : f) used[corner] = true;
-    std::vector<point3> points;
+    std::vector<std::uint32_t> numbers;
     for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i]) points.push_back(mesh.points[i]);
-    return points;
+        if (used[i]) numbers.push_back(static_cast<std::uint32_t>(i));
+    return numbers;
 }
 
 /// The least of these magnitudes that a share of them do not exceed. Changes their order.
@@ -230,13 +230,15 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
     r.histogram = histogram_of(r, options.bins);
     if (options.band) r.band = counts_in(*options.band, r.distances);
     if (options.both_ways && !from.faces.empty()) {
-        const mesh used{used_points(to), {}};
-        const auto back = distances_to(
-            a, to.points.size() == used.points.size() ? to.points : used.points, work, 0.55, 0.98);
+        const std::vector<std::uint32_t> used = used_points(to);
+        std::vector<point3> points;
+        points.reserve(used.size());
+        for (const std::uint32_t i : used) points.push_back(to.points[i]);
+        const auto back = distances_to(a, points, work, 0.55, 0.98);
         if (work.cancelled()) return stopped();
-        std::vector<double> distances(back.order.size());
-        for (std::size_t i = 0; i < back.order.size(); ++i)
-            distances[back.order[i]] = back.distance[i];
+        std::vector<double> distances(to.points.size());
+        for (std::size_t i = 0; i < used.size(); ++i)
+            distances[used[back.order[i]]] = back.distance[i];
         r.back = directed(to, distances);
     }
     work.reach(1.0);

@@ -9,16 +9,16 @@
 namespace treeform {
 namespace {
 
-using color = std::array<double, 3>;
+using rgb = std::array<double, 3>;
 
-constexpr color lowest{33.0, 102.0, 172.0}, zero{247.0, 247.0, 247.0}, highest{178.0, 24.0, 43.0};
-constexpr color unknown{128.0, 128.0, 128.0};
+constexpr rgb lowest{33.0, 102.0, 172.0}, zero{247.0, 247.0, 247.0}, highest{178.0, 24.0, 43.0};
+constexpr rgb unknown{128.0, 128.0, 128.0};
 
-color color_of(double d, double low, double high) {
+rgb color_of(double d, double low, double high) {
     if (std::isnan(d)) return unknown;
     const double end = d < 0.0 ? low : high;
     const double share = d == 0.0 ? 0.0 : end == 0.0 ? 1.0 : std::min(d / end, 1.0);
-    color mixed{};
+    rgb mixed{};
     for (std::size_t k = 0; k < 3; ++k)
         mixed[k] = zero[k] + share * ((d < 0.0 ? lowest : highest)[k] - zero[k]);
     return mixed;
@@ -43,17 +43,18 @@ std::vector<double> body_set::distances_in_file(std::size_t number,
     return all;
 }
 
-void color_distances(mesh_file& file, std::span<const double> distances, double low, double high) {
+void deviation_result::color(mesh_file& file, std::span<const double> distances, double low,
+                             double high) {
     if (distances.size() != file.mesh.points.size())
         throw std::invalid_argument(
-            "treeform::color_distances: a distance for each point is needed");
+            "treeform::deviation_result::color: a distance for each point is needed");
     if (!(low <= 0.0 && 0.0 <= high))
-        throw std::invalid_argument("treeform::color_distances: 0 is not from low to high");
+        throw std::invalid_argument("treeform::deviation_result::color: 0 is not from low to high");
     element& rows = file.attributes.obtain("vertex", distances.size());
     std::array<std::vector<std::uint8_t>, 3> channels;
     for (auto& one : channels) one.reserve(distances.size());
     for (const double d : distances) {
-        const color mixed = color_of(d, low, high);
+        const rgb mixed = color_of(d, low, high);
         for (std::size_t k = 0; k < 3; ++k)
             channels[k].push_back(static_cast<std::uint8_t>(std::lround(mixed[k])));
     }

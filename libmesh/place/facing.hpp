@@ -3,7 +3,7 @@
 /// Which way the faces of a closed mesh look: out of what is inside, or into it.
 
 #include <libmesh/place/shape.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstdint>
 #include <vector>

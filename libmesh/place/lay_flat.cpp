@@ -9,9 +9,9 @@
 #include <libmesh/place/quickhull.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/stability.hpp>
-#include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/pack.hpp>
 
 #include <algorithm>
 #include <array>
@@ -282,7 +282,7 @@ matrix3 turn_down(const candidates& c, const hull_side& side, bool keep_spin) {
     matrix3 m = shortest_turn_down(side.normal);
     if (keep_spin) return m;
     std::vector<point3> edges;
-    const std::vector<std::uint32_t> corners = corners_of(c.hull, side, c.points);
+    const std::vector<std::uint32_t> corners = c.hull.corners_of(side, c.points);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const point3 &from = c.points[corners[i]],
                      &to = c.points[corners[(i + 1) % corners.size()]];

@@ -5,8 +5,8 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/turn_motion.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/slide.hpp>
 
 #include <algorithm>
@@ -171,9 +171,9 @@ class feature_mover {
         const prepared_mesh shape = prepared(std::move(there));
         placement at = measured(shape, 0.8, 1.0);
         if (work_.cancelled()) return at;
-        const bool near = options_.clearance > 0.0 && at.at_place != standing::clear;
+        const bool near = options_.clearance > 0.0 && at.at_place != mesh_relation::clear;
         at.certificate.precision = options_.precision;
-        if (at.at_place == standing::penetrating || near) {
+        if (at.at_place == mesh_relation::penetrating || near) {
             at.end = near ? placement_end::starts_too_near : placement_end::starts_penetrating;
             at.certificate.status = status::no_place;
             at.points.assign(moving_.view().points.begin(), moving_.view().points.end());

@@ -1,6 +1,6 @@
 #include <libmesh/base/words.hpp>
 #include <treeform/mesh/align.hpp>
-#include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ std::string loose_in_words(std::size_t motions) {
 
 }  // namespace
 
-const char* name_of(standing how) {
+const char* name_of(mesh_relation how) {
     constexpr std::array<const char*, 5> names{"separate", "touching", "penetrating",
                                                "closer-than-clearance", "clear"};
     return names[static_cast<std::size_t>(how)];
@@ -66,9 +66,9 @@ const char* name_of(standing how) {
 std::string placement::relation_in_words(const body_set& moving, const body_set& fixed) const {
     const placement& at = *this;
     std::string how = name_of(at.at_place);
-    if (at.on_bed) return how + (at.at_place == standing::clear ? " of the bed" : " the bed");
+    if (at.on_bed) return how + (at.at_place == mesh_relation::clear ? " of the bed" : " the bed");
     if (!at.nearest) return how;
-    if (at.at_place == standing::touching || at.at_place == standing::penetrating)
+    if (at.at_place == mesh_relation::touching || at.at_place == mesh_relation::penetrating)
         return meeting_in_words(at, moving, fixed);
     return how + ", " + brief(at.nearest->how.distance) + " from " + fixed.label(at.nearest->fixed);
 }
@@ -93,7 +93,7 @@ std::string placement::message(std::span<const std::string> names) const {
             return too_far(*this);
         case placement_end::no_coordinates:
             if (effort.cut > 0)
-                return "no way out was found within " + counted(effort.bound, "pair", "pairs") +
+                return "no move apart was found within " + counted(effort.bound, "pair", "pairs") +
                        " of faces";
             return floats ? "rounded to float32 there is no such place"
                           : "there is no such place in coordinates that can be written";
@@ -140,7 +140,7 @@ placement laid_flat::as_placement() const {
                  .matrix = matrix,
                  .bed = bed,
                  .on_bed = true,
-                 .at_place = standing::touching};
+                 .at_place = mesh_relation::touching};
     if (contact) at.contacts = {*contact};
     at.contact_count = at.contacts.size();
     return at;

@@ -4,8 +4,8 @@
 #include <libmesh/place/filling.hpp>
 #include <libmesh/place/pack_shapes.hpp>
 #include <libmesh/place/shape.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 /// Parts to be packed, each in all its turns.
 
 #include <libmesh/place/plate.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <cstddef>

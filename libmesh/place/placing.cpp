@@ -7,7 +7,7 @@
 #include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/certificate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -105,26 +105,26 @@ placement placing::finished() {
     return std::move(result_);
 }
 
-standing placing::standing_of(const std::optional<nearest_fixed>& near) const {
+mesh_relation placing::relation_of(const std::optional<nearest_fixed>& near) const {
     const double c = options_.clearance;
-    if (!near) return c > 0.0 ? standing::clear : standing::separate;
+    if (!near) return c > 0.0 ? mesh_relation::clear : mesh_relation::separate;
     switch (near->how.relation.relation) {
         case mesh_relation::penetrating:
-            return standing::penetrating;
+            return mesh_relation::penetrating;
         case mesh_relation::touching:
-            return standing::touching;
+            return mesh_relation::touching;
         default:
             break;
     }
-    if (!(c > 0.0)) return standing::separate;
-    return near->how.distance < c ? standing::closer_than_clearance : standing::clear;
+    if (!(c > 0.0)) return mesh_relation::separate;
+    return near->how.distance < c ? mesh_relation::closer_than_clearance : mesh_relation::clear;
 }
 
 void placing::look_at_start() {
     if (!among_.empty() && box_)
         result_.nearest = among_.nearest(moving_, *box_, radius(0.0), work_.part(0.0, 0.2));
     over();
-    result_.at_start = result_.at_place = standing_of(result_.nearest);
+    result_.at_start = result_.at_place = relation_of(result_.nearest);
 }
 
 /// How far to look for the nearest mesh. On the way along a direction only those matter that are
@@ -136,13 +136,13 @@ double placing::radius(double more) const {
 
 bool placing::stuck_at_start() {
     switch (result_.at_start) {
-        case standing::penetrating:
+        case mesh_relation::penetrating:
             result_.end = placement_end::starts_penetrating;
             return true;
-        case standing::closer_than_clearance:
+        case mesh_relation::closer_than_clearance:
             result_.end = placement_end::starts_too_near;
             return true;
-        case standing::touching:
+        case mesh_relation::touching:
             if (options_.clearance > 0.0)
                 result_.end = placement_end::starts_touching;
             else
@@ -227,7 +227,7 @@ void placing::slide(const point3& direction) {
 /// From below the bed, back along the direction up to it, where nothing can be in the way.
 void placing::lift(const point3& motion, double above) {
     const bool below = box_->min.z < *options_.bed;
-    result_.at_start = below ? standing::penetrating : standing::closer_than_clearance;
+    result_.at_start = below ? mesh_relation::penetrating : mesh_relation::closer_than_clearance;
     result_.at_place = result_.at_start;
     result_.below_bed = -above;
     if (!among_.empty()) {
@@ -271,8 +271,8 @@ void placing::mate() {
 }
 
 void placing::separate() {
-    const bool near = result_.at_start == standing::penetrating ||
-                      (options_.clearance > 0.0 && result_.at_start != standing::clear);
+    const bool near = result_.at_start == mesh_relation::penetrating ||
+                      (options_.clearance > 0.0 && result_.at_start != mesh_relation::clear);
     if (!near) return stay();
     // The way out of what is near, if nothing else is there; else out of more.
     double reach = options_.clearance;
@@ -341,11 +341,12 @@ void placing::look_at_place() {
                 among_.nearest(at, box, radius(box.diagonal() * 0x1p-10), work_.part(0.85, 1.0));
             over();
         }
-        result_.at_place = standing_of(result_.nearest);
+        result_.at_place = relation_of(result_.nearest);
     }
     if (result_.on_bed) on_bed_at_place(there);
     if (among_.empty() || !result_.contacts.empty()) return;
-    if (result_.at_place == standing::touching || result_.at_place == standing::penetrating)
+    if (result_.at_place == mesh_relation::touching ||
+        result_.at_place == mesh_relation::penetrating)
         result_.contacts = contacts_at(at, among_, options_.limit, result_.contact_count);
 }
 
@@ -354,7 +355,7 @@ void placing::on_bed_at_place(mesh_view there) {
         result_.contacts.push_back(*contact);
         ++result_.contact_count;
     }
-    if (result_.at_place == standing::separate) result_.at_place = standing::touching;
+    if (result_.at_place == mesh_relation::separate) result_.at_place = mesh_relation::touching;
 }
 
 }  // namespace treeform::detail::place

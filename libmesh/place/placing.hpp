@@ -5,8 +5,8 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/surroundings.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -70,7 +70,7 @@ class placing {
     }
     void in_range(const function_ref<void()>& find);
     [[nodiscard]] placement finished();
-    [[nodiscard]] standing standing_of(const std::optional<nearest_fixed>& near) const;
+    [[nodiscard]] mesh_relation relation_of(const std::optional<nearest_fixed>& near) const;
     [[nodiscard]] double radius(double more) const;
     [[nodiscard]] bool placed() const { return result_.end <= placement_end::moved_apart; }
     void look_at_start();

@@ -5,7 +5,6 @@
 #include <libmesh/place/plate_raster.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <array>

@@ -4,7 +4,6 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <optional>

@@ -79,7 +79,7 @@ std::vector<side_stability> stabilities(points_view points, const convex_hull_re
         const point3& n = side.normal;
         const double height = std::max(0.0, -dot(n, minus(center, side.center)));
         double least = std::numeric_limits<double>::infinity();
-        const std::vector<std::uint32_t> corners = corners_of(hull, side, points);
+        const std::vector<std::uint32_t> corners = hull.corners_of(side, points);
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const point3& from = points[corners[i]];
             const point3 along = minus(points[corners[(i + 1) % corners.size()]], from);

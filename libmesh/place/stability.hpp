@@ -3,8 +3,8 @@
 /// How firmly a mesh stands on the sides of its convex hull.
 
 #include <treeform/mesh/convex_hull.hpp>
-#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/pack.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -5,7 +5,6 @@
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/tree.hpp>
 

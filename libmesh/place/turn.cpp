@@ -6,7 +6,7 @@
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/surroundings.hpp>
 #include <libmesh/place/turn_motion.hpp>
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 
 #include <algorithm>
@@ -55,12 +55,13 @@ class turning {
     [[nodiscard]] turn_result run() {
         result_.at = measured(moving_, 0.0, 0.2);
         if (cancelled() || moving_.view().faces.empty()) return ended(placement_end::nothing_met);
-        const standing start = result_.at.at_place;
-        if (start == standing::penetrating) return ended(placement_end::starts_penetrating);
-        if (start == standing::closer_than_clearance) return ended(placement_end::starts_too_near);
-        if (start == standing::touching && options_.clearance > 0.0)
+        const mesh_relation start = result_.at.at_place;
+        if (start == mesh_relation::penetrating) return ended(placement_end::starts_penetrating);
+        if (start == mesh_relation::closer_than_clearance)
+            return ended(placement_end::starts_too_near);
+        if (start == mesh_relation::touching && options_.clearance > 0.0)
             return ended(placement_end::starts_touching);
-        if (start == standing::touching) return settle(0.0, placement_end::stays);
+        if (start == mesh_relation::touching) return settle(0.0, placement_end::stays);
         return search();
     }
 
@@ -110,9 +111,9 @@ class turning {
     }
 
     [[nodiscard]] bool good(const placement& there) const {
-        return there.at_place == standing::clear ||
-               (!(options_.clearance > 0.0) && there.at_place != standing::penetrating &&
-                there.at_place != standing::closer_than_clearance);
+        return there.at_place == mesh_relation::clear ||
+               (!(options_.clearance > 0.0) && there.at_place != mesh_relation::penetrating &&
+                there.at_place != mesh_relation::closer_than_clearance);
     }
 
     /// At the angle, or the first before it that is good in coordinates to be written.

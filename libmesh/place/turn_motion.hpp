@@ -6,7 +6,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include <libmesh/base/work_progress.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
-#include <treeform/mesh/raycast.hpp>
 
 #include <algorithm>
 #include <atomic>

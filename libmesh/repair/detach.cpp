@@ -4,7 +4,7 @@
 #include <libmesh/repair/detach.hpp>
 #include <libmesh/round/surface_faults.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/certificate.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 
 #include <libmesh/repair/working_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -23,10 +23,10 @@
 #include <libmesh/topology/is_manifold.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/rounding.hpp>
 
 #include <algorithm>
 #include <utility>

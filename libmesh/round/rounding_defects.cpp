@@ -1,6 +1,6 @@
 #include <libmesh/base/nearest_float.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/prepared_ref.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/rounding.hpp>
 
 #include <algorithm>
 #include <stdexcept>

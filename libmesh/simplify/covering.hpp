@@ -3,7 +3,7 @@
 /// Proof that a triangle is within a distance of others.
 
 #include <libmesh/geometry/based_triangle.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
 
 #include <array>

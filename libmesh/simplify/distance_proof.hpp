@@ -6,7 +6,7 @@
 #include <libmesh/simplify/covering.hpp>
 #include <libmesh/simplify/seen_along.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
 
 #include <array>

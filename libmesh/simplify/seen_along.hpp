@@ -3,7 +3,7 @@
 /// Triangles as seen along a direction, and how far apart two are where one covers the other.
 
 #include <libmesh/base/point_math.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <array>
 #include <optional>

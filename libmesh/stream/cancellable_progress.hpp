@@ -38,7 +38,7 @@ class cancellable_progress {
 
     std::function<bool(std::string_view, double)> progress_;
     std::mutex one_at_a_time_{};
-    std::string step_{"look"};
+    std::string step_{"survey"};
     double share_ = 0.0;
 };
 

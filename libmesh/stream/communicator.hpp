@@ -4,7 +4,7 @@
 /// whose.
 
 #include <libmesh/stream/state_record.hpp>
-#include <treeform/mesh/process_team.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +26,7 @@ struct share {
 
 class communicator {
   public:
-    explicit communicator(const process_team& all) : all_(all) {}
+    explicit communicator(const treeform::communicator& all) : all_(all) {}
 
     [[nodiscard]] std::size_t size() const { return all_.size; }
     [[nodiscard]] std::size_t rank() const { return all_.rank; }
@@ -103,7 +103,7 @@ class communicator {
     }
 
   private:
-    process_team all_;
+    treeform::communicator all_;
 };
 
 }  // namespace treeform::detail::stream

@@ -37,7 +37,7 @@ edge_files<Edge>::edge_files(const work_folder& folder, const communicator& all,
       name_(std::move(name)),
       most_(static_cast<std::size_t>(std::max<std::uint64_t>(memory / sizeof(Edge), 4096))) {
     constexpr std::uint64_t most_buckets = 1024;
-    constexpr std::uint64_t buckets_of_each = 8;  // of a team, so that shares are alike
+    constexpr std::uint64_t buckets_of_each = 8;  // of the ranks, so that shares are alike
     const std::uint64_t least = all.is_alone() ? 1 : buckets_of_each * all.size();
     const std::uint64_t buckets =
         std::min(std::max(uses / (most_ / 4 * 3) + 1, least), most_buckets);

@@ -27,7 +27,7 @@ class new_numbers {
     tiles_welded& welded_;
     tile_steps::leaders leaders_;
     std::uint64_t before_ = 0;               ///< kept points of lower ranks
-    std::optional<row_merge> of_dropped_{};  ///< of a team: points and their numbers
+    std::optional<row_merge> of_dropped_{};  ///< of several ranks: points and their numbers
 };
 
 }  // namespace treeform::detail::stream

@@ -195,7 +195,7 @@ point_survey survey(joined_points& points, const communicator& all, const share&
             if (tolerance) places.consider(cube_of(p, *tolerance), p);
         }
         const auto count = static_cast<double>(points.count().value_or(s.points));
-        pace.show("look", static_cast<double>(s.points) / count);
+        pace.show("survey", static_cast<double>(s.points) / count);
     }
     s.warnings = points.warnings();
     s.las_moved = points.moved();

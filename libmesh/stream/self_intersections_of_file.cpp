@@ -39,7 +39,7 @@ struct stream_search::state {
         return status::ok;
     }
 
-    detail::stream::communicator lone{process_team{}};
+    detail::stream::communicator lone{treeform::communicator{}};
     detail::stream::cancellable_progress pace;
     work_folder folder;
     detail::stream::tile_search search;
@@ -85,7 +85,7 @@ stream_search_result stream_search::finish() {
 
 void stream_search::remove_folder() { state_->folder.remove(); }
 
-bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
+bool stream_search::accepts(const fs::path& input, std::string_view format) {
     const auto in = detail::io::source::open(input);
     const auto found = detail::io::detect(in, detail::io::plain_extension(format),
                                           detail::io::extension_of(input));
@@ -96,7 +96,7 @@ bool is_searched_in_tiles(const fs::path& input, std::string_view format) {
 stream_search_result self_intersections_of_file(const fs::path& input,
                                                 const stream_search_options& options) {
     detail::stream::cancellable_progress pace(options.progress);
-    const detail::stream::communicator all(options.team);
+    const detail::stream::communicator all(options.communicator);
     if (!all.is_root()) all.barrier();  // the first one makes the folder
     work_folder folder(folder_of(input, options), "search",
                        all.is_root() ? work_folder::use::alone : work_folder::use::member);

@@ -105,7 +105,7 @@ class tile_faces {
     const tile_task& task_;
     tile_steps& steps_;
     std::vector<io::row_place>
-        parts_{};  ///< of a team: where that of each begins, and the last one ends
+        parts_{};  ///< of several ranks: where that of each begins, and the last one ends
     std::size_t rows_at_once_ = rows_a_block;
     std::uint64_t left_out_ = 0;  ///< faces of fewer than three corners
     std::size_t most_corners_ = 0;

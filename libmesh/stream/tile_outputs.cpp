@@ -406,7 +406,7 @@ class giving_back {
     std::optional<points_out> result_{};
     std::optional<text_out> map_{};
     std::optional<new_numbers> numbers_{};
-    const communicator lone_{process_team{}};
+    const communicator lone_{treeform::communicator{}};
     bool is_divided_ = false;
     std::uint64_t first_ = 0;  ///< number of the block's first point
     std::uint64_t given_ = 0;

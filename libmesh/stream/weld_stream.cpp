@@ -115,16 +115,16 @@ work_folder::use use_of(const weld_stream_options& o, const detail::stream::comm
 stream_error::stream_error(reason why, fs::path path, const std::string& text, std::uint64_t needed)
     : std::runtime_error(text), why_(why), path_(std::move(path)), needed_(needed) {}
 
-cloud_outline outline(const cloud_inputs& inputs, const process_team& team) {
-    const cloud_inputs all = named(inputs);
-    const detail::stream::joined_points points(all, false, detail::stream::communicator(team));
+cloud_outline cloud_inputs::outline(const treeform::communicator& ranks) const {
+    const cloud_inputs all = named(*this);
+    const detail::stream::joined_points points(all, false, detail::stream::communicator(ranks));
     return {points.header(), points.count(), detail::stream::has_rows_behind(points.header())};
 }
 
 struct stream_weld::state {
     state(cloud_inputs inputs, weld_stream_options options)
         : task(task_of(std::move(inputs), std::move(options))),
-          all(task.options.team),
+          all(task.options.communicator),
           source(task.inputs, task.options.as_las, all),
           keys(source.header(), task.options),
           pace(task.options.progress),
@@ -186,7 +186,7 @@ struct stream_weld::state {
         cloud_inputs input{.paths = {path}, .format = outputs.welded->options.format};
         const fs::path whole = folder.file("whole.ply");
         if (!again.same.empty() &&
-            !have_same_values(source.header(), outline(input, o.team).header, again.same)) {
+            !have_same_values(source.header(), input.outline(o.communicator).header, again.same)) {
             weld_stream_outputs as_read{.unfinished = outputs.unfinished};
             as_read.welded = {whole,
                               {.precision = outputs.welded->options.precision, .keep_names = true}};
@@ -207,7 +207,7 @@ struct stream_weld::state {
     [[nodiscard]] static weld_stream_result run(stream_weld& work,
                                                 const weld_stream_outputs& outputs) {
         weld_stream_result result;
-        result.status = work.look();
+        result.status = work.take_survey();
         if (result.status == status::ok) result.status = work.scatter();
         if (result.status == status::ok) result.status = work.weld();
         if (result.status == status::ok) result.status = work.write(outputs);
@@ -220,7 +220,7 @@ struct stream_weld::state {
 
     detail::stream::tile_task task;
     detail::stream::communicator all;
-    detail::stream::communicator lone{process_team{}};
+    detail::stream::communicator lone{treeform::communicator{}};
     detail::stream::joined_points source;
     detail::stream::point_keys keys;
     detail::stream::cancellable_progress pace;
@@ -244,7 +244,7 @@ stream_weld::~stream_weld() = default;
 stream_weld::stream_weld(stream_weld&&) noexcept = default;
 stream_weld& stream_weld::operator=(stream_weld&&) noexcept = default;
 
-status stream_weld::look() {
+status stream_weld::take_survey() {
     state& s = *state_;
     return state::until_cancelled([&] {
         if (s.task.options.shared && !s.steps.has_tiles()) {

@@ -21,7 +21,7 @@ class TREEFORM_API work_folder {
         alone,
         shared,
         member
-    };  ///< of a team, whose first one holds it
+    };  ///< of several ranks, the root holds it
 
     /// Makes the folder, or takes over what an earlier run has left. `job` is one word for what is
     /// done there.

@@ -2,7 +2,7 @@
 /// \file
 /// Some faces of a mesh.
 
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 
 #include <cstdint>
 #include <span>

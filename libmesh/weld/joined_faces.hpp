@@ -3,7 +3,6 @@
 /// Faces whose corners with equal coordinates are one.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/weld/near_pairs.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <cmath>
 #include <limits>

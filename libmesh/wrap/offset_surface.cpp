@@ -1,7 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/wrap/offset_surface.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/search.hpp>
 

@@ -7,9 +7,9 @@
 #include <libmesh/wrap/carving.hpp>
 #include <libmesh/wrap/offset_surface.hpp>
 #include <libmesh/wrap/pinched_vertices.hpp>
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/rounding.hpp>
-#include <treeform/mesh/wrap.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Selection algorithms of the paper that choose their pivot as a median: slower in this build than
-/// those of treeform/tree/strategy/select.hpp.
+/// those of treeform/tree/strategy.hpp.
 
 #include <treeform/tree/detail/partition_around.hpp>
 

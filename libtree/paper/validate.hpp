@@ -4,7 +4,7 @@
 
 #include <libtree/paper/nary_tree.hpp>
 #include <treeform/tree/aabb.hpp>
-#include <treeform/tree/validate.hpp>
+#include <treeform/tree/build.hpp>
 
 #include <cstddef>
 #include <optional>

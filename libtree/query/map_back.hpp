@@ -2,8 +2,8 @@
 /// \file
 /// Carrying boxes into the frame of a tree that is treated as transformed, against its move.
 
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/frame_map.hpp>
-#include <treeform/tree/transform.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>

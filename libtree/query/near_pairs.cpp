@@ -1,6 +1,6 @@
 #include <treeform/tree/detail/squared_radius.hpp>
 #include <treeform/tree/point_search.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <atomic>

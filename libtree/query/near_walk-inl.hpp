@@ -9,7 +9,7 @@
 #endif
 
 #include <treeform/tree/detail/near_query.hpp>
-#include <treeform/tree/strategy/nearness_order.hpp>
+#include <treeform/tree/strategy.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <hwy/highway.h>

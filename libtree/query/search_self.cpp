@@ -1,6 +1,6 @@
 #include <libtree/query/candidate_sink.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 #include <treeform/tree/detail/bounded_sweep.hpp>
 #include <treeform/tree/detail/frame_map.hpp>
-#include <treeform/tree/sweep.hpp>
+#include <treeform/tree/ray.hpp>
 
 #include <hwy/highway.h>
 

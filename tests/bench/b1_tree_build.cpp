@@ -9,7 +9,6 @@
 #include <libtree/paper/nary_tree.hpp>
 #include <libtree/paper/validate.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/validate.hpp>
 
 #include <cmath>
 #include <limits>

@@ -17,7 +17,7 @@
 #include <treeform/tf.hpp>
 #include <treeform/tree/nearness.hpp>
 #include <treeform/tree/point_search.hpp>
-#include <treeform/tree/strategy/nearness_order.hpp>
+#include <treeform/tree/strategy.hpp>
 
 #include <fmt/core.h>
 

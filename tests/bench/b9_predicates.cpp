@@ -5,7 +5,7 @@
 #include "bench/triangle_askers.hpp"
 #include "bench/workload.hpp"
 #include <libmesh/exact/plane_predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <array>
 #include <string>

@@ -10,7 +10,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <fmt/core.h>
 #include <support/solids.hpp>

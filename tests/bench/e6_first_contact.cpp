@@ -8,8 +8,8 @@
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
 #include <libmesh/geometry/contact_order.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <fmt/core.h>

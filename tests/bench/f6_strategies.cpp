@@ -6,8 +6,9 @@
 #include "bench/page.hpp"
 #include <libtree/paper/medians.hpp>
 #include <libtree/paper/nary_tree.hpp>
+#include <libtree/paper/selections.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/strategy/select.hpp>
+#include <treeform/tree/strategy.hpp>
 
 #include <fmt/core.h>
 

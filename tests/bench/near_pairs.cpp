@@ -4,7 +4,7 @@
 #include "support/random.hpp"
 #include <libtree/paper/nary_search.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <cmath>

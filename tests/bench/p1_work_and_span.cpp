@@ -12,7 +12,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/weld.hpp>
 

@@ -8,9 +8,9 @@
 #include <libtree/paper/nary_search.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
-#include <treeform/tree/strategy/nearness_order.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/tree/strategy.hpp>
 
 #include <algorithm>
 #include <array>

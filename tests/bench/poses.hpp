@@ -4,7 +4,7 @@
 
 #include "bench/models.hpp"
 #include "bench/workload.hpp"
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <cstddef>
 #include <functional>

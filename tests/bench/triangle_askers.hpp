@@ -7,7 +7,6 @@
 #include "support/stress_families.hpp"
 #include <libmesh/geometry/contact_order.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
 
 #include <cstddef>
 #include <functional>

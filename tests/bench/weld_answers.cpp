@@ -2,7 +2,7 @@
 
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/search_self.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <algorithm>
 #include <array>

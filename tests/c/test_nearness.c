@@ -104,7 +104,7 @@ static void test_relations(void) {
     treeform_measure_options options;
     treeform_depth_options depth_options;
     treeform_relation* relation = NULL;
-    treeform_standing how = 9;
+    treeform_mesh_relation how = 9;
     double depth = 0.0, move[3];
     treeform_search_effort effort;
     int calls = 0;

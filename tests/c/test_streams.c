@@ -122,13 +122,13 @@ static void test_teams(void) {
     treeform_weld_stream_result* result = NULL;
     treeform_search_result* found = NULL;
     int calls = 0;
-    treeform_team team = {1, 2, fail, NULL};
+    treeform_communicator team = {1, 2, fail, NULL};
     team.data = &calls;
     inputs[0] = write_grid("team.xyz");
     treeform_weld_stream_options_init(&options, sizeof options);
-    CHECK(options.team == NULL);
+    CHECK(options.communicator == NULL);
     options.folder = path_in_work("team_tiles");
-    options.team = &team;
+    options.communicator = &team;
     ENDS(TREEFORM_CANCELLED, "", treeform_weld_stream(inputs, 1, output, &options, &result));
     CHECK(calls == 1 && result == NULL);
     team.rank = 2;
@@ -144,7 +144,7 @@ static void test_teams(void) {
     treeform_free(result);
     treeform_search_file_options_init(&search, sizeof search);
     search.folder = path_in_work("team_search");
-    search.team = &team;
+    search.communicator = &team;
     OK(treeform_self_intersections_of_file("data/two_spheres.stl", &search, &found));
     CHECK(found->found->count == 78 && calls == 1);
     treeform_free(found);

@@ -2,8 +2,8 @@
 /// Pairs of faces without a common corner that a mesh's search finds, against all pairs.
 
 #include "bytes.hpp"
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

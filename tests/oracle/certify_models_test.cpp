@@ -13,7 +13,7 @@
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <doctest/doctest.h>
 #include <support/certified.hpp>

@@ -98,7 +98,8 @@ struct tally {
 };
 
 /// One pair: whether it clashes or touches is what CGAL says.
-void compare(const cgal_part& a, const cgal_part& b, std::optional<tf::standing> how, tally& sum) {
+void compare(const cgal_part& a, const cgal_part& b, std::optional<tf::mesh_relation> how,
+             tally& sum) {
     ++sum.pairs;
     const bool meet = a.meets(b);
     sum.meeting += meet ? 1 : 0;
@@ -107,10 +108,10 @@ void compare(const cgal_part& a, const cgal_part& b, std::optional<tf::standing>
         return;
     }
     if (a.holds_part_of(b) || b.holds_part_of(a)) {
-        REQUIRE(how == tf::standing::penetrating);
+        REQUIRE(how == tf::mesh_relation::penetrating);
         ++sum.inside;
     } else if (how) {  // only a solid that CGAL cannot ask may hold a part
-        REQUIRE(how == tf::standing::penetrating);
+        REQUIRE(how == tf::mesh_relation::penetrating);
         REQUIRE((!a.side || !b.side));
         ++sum.not_asked;
     }
@@ -140,7 +141,7 @@ TEST_CASE("clash: of all pairs of a kitchen's parts, those meet that do by CGAL"
         for (std::uint32_t j = i + 1; j < parts.size(); ++j) {
             CAPTURE(i);
             CAPTURE(j);
-            std::optional<tf::standing> how;
+            std::optional<tf::mesh_relation> how;
             if (next < found.pairs.size() && found.pairs[next].a == i && found.pairs[next].b == j)
                 how = found.pairs[next++].how;
             compare(*theirs[i], *theirs[j], how, sum);
@@ -188,7 +189,7 @@ TEST_CASE("check_poses: of a Franka arm in 100 poses, those links meet that do b
             for (std::uint32_t j = i + 1; j < parts.size(); ++j) {
                 CAPTURE(i);
                 CAPTURE(j);
-                std::optional<tf::standing> how;
+                std::optional<tf::mesh_relation> how;
                 const auto& all = found.poses[p];
                 if (next < all.size() && all[next].a == i && all[next].b == j)
                     how = all[next++].how;

@@ -4,7 +4,7 @@
 
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

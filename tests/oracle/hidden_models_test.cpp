@@ -8,7 +8,7 @@
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

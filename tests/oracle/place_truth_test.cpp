@@ -12,7 +12,7 @@
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <doctest/doctest.h>
 #include <support/models.hpp>

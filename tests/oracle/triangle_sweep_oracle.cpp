@@ -5,7 +5,7 @@
 /// are and are passed over).
 
 #include <libmesh/geometry/contact_order.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -14,7 +14,7 @@
 #include "support/settings.hpp"
 #include "support/stress_families.hpp"
 #include "support/unfiltered.hpp"
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

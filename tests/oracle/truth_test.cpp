@@ -4,10 +4,10 @@
 
 #include <libmesh/base/nearest_float.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -3,8 +3,8 @@
 /// as much. What CGAL finds in ours: nothing that meets, nothing open.
 
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/wrap.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -78,7 +78,7 @@ KINDS = {"mesh": "mesh", "moving": "mesh", "onto": "mesh", "fixed": "mesh", "a":
          "direction": "vector", "at": "vector", "normal": "vector", "axis": "vector", "origin": "vector", "motion": "vector",
          "move_a": "matrix", "matrix": "matrix", "meshes": "several", "move_b": "matrix", "start": "matrix", "parts": "several",
          "ignored": "several", "kinds": "several", "steps": "several", "across": "several",
-         "same": "several", "team": "several", "found": "found", "of_moving": "feature",
+         "same": "several", "communicator": "several", "found": "found", "of_moving": "feature",
          "of_fixed": "feature"}
 NOTHING = {"onto", "fixed"}  # may be None
 
@@ -134,8 +134,8 @@ def test_files_that_cannot_be():
     for path in ("", "/no/such/place/x.xyz"):
         with pytest.raises((tf.FileError, ValueError)):
             tf.weld_stream(path, "out.xyz", 1.0)
-    with pytest.raises(ValueError, match="team"):
-        tf.weld_stream("x.xyz", "out.xyz", 1.0, team=3)
+    with pytest.raises(ValueError, match="communicator"):
+        tf.weld_stream("x.xyz", "out.xyz", 1.0, communicator=3)
     with pytest.raises(ValueError, match="relative: True or False"):
         tf.weld_stream("x.xyz", "out.xyz", 1.0, relative="x")
     with pytest.raises(ValueError, match=r"label: the shape is \(\), not \(n,\)"):

@@ -102,7 +102,7 @@ def test_poses_are_as_one_by_one():
     parts = [sphere(2), CUBE, box([0, 0, 0], [2, 0.5, 0.5])]
     poses = matrices(rng.random((120, 3)) * 3).reshape(40, 3, 4, 4)
     found = tf.check_poses(parts, poses, 0.1)
-    there = {(p, a, b): tf.STANDINGS[h] for p, (a, b), h
+    there = {(p, a, b): tf.RELATIONS[h] for p, (a, b), h
              in zip(found.pose.tolist(), found.parts.tolist(), found.how)}
     bad = np.zeros(40, bool)
     for p in range(0, 40):

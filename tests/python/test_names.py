@@ -20,7 +20,7 @@ NAMES = dict(line.split() for line in (HERE / "names.txt").read_text().splitline
              if line and not line.startswith("#"))
 # What operations return or raise: documented, but without an example of their own.
 RESULTS = {name for name in tf.__all__ if inspect.isclass(getattr(tf, name))} - set(NAMES)
-VALUES = {"KINDS", "STANDINGS", "NONE", "MeshLike", "__version__"}
+VALUES = {"KINDS", "RELATIONS", "NONE", "MeshLike", "__version__"}
 
 
 def test_the_list_is_that_of_the_package():

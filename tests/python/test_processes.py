@@ -33,7 +33,7 @@ def member(work, rank, size, pipe, results):
     pipe.send(None)
 
 
-def in_team(size, work):
+def in_communicator(size, work):
     """What `work(team)` returns in each of so many processes."""
     results = SPAWN.Queue()
     pipes = [SPAWN.Pipe() for _ in range(size)]
@@ -67,7 +67,7 @@ class Search:
 
     def __call__(self, team):
         path = self.path[team.rank] if isinstance(self.path, list) else self.path
-        found = tf.self_intersections_of_file(path, team=team, **self.options)
+        found = tf.self_intersections_of_file(path, communicator=team, **self.options)
         return found.pairs_in_file, found.tiles
 
 
@@ -77,7 +77,7 @@ class Weld:
 
     def __call__(self, team):
         path = self.path[team.rank] if isinstance(self.path, list) else self.path
-        return tf.weld_stream(path, self.out, 0.1, team=team, **self.options)
+        return tf.weld_stream(path, self.out, 0.1, communicator=team, **self.options)
 
 
 @pytest.fixture
@@ -89,7 +89,7 @@ def cloud(tmp_path):
 def test_a_team_searches_a_file(tmp_path):
     tf.write(tmp_path / "soup.ply", soup(3, 400))
     whole = tf.self_intersections_of_file(tmp_path / "soup.ply")
-    first, *others = in_team(3, Search(tmp_path / "soup.ply", faces_per_tile=50))
+    first, *others = in_communicator(3, Search(tmp_path / "soup.ply", faces_per_tile=50))
     assert first[1] > 3 and np.array_equal(first[0], whole.pairs_in_file)
     assert all(len(pairs) == 0 for pairs, _ in others)
     assert [path.name for path in tmp_path.iterdir()] == ["soup.ply"]
@@ -97,7 +97,7 @@ def test_a_team_searches_a_file(tmp_path):
 
 def test_a_team_welds_a_cloud(tmp_path, cloud):
     whole = tf.weld_stream(cloud, tmp_path / "whole.ply", 0.1)
-    made = in_team(3, Weld(cloud, tmp_path / "thin.ply", points_per_tile=2000))
+    made = in_communicator(3, Weld(cloud, tmp_path / "thin.ply", points_per_tile=2000))
     assert made[0].tiles > 5 and made[0].kept == whole.kept < 20_000
     assert (tmp_path / "thin.ply").read_bytes() == (tmp_path / "whole.ply").read_bytes()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["cloud.ply", "thin.ply", "whole.ply"]
@@ -105,7 +105,7 @@ def test_a_team_welds_a_cloud(tmp_path, cloud):
 
 def test_where_one_fails_all_do(tmp_path, cloud):
     paths = [cloud, tmp_path / "none.ply"]
-    first, second = in_team(2, Weld(paths, tmp_path / "thin.ply", folder=tmp_path / "tiles"))
+    first, second = in_communicator(2, Weld(paths, tmp_path / "thin.ply", folder=tmp_path / "tiles"))
     assert first[0] == "Error" and "process 1: " in first[1] and "none.ply" in first[1]
     assert second[0] == "FileError" and "none.ply" in second[1]
     assert not (tmp_path / "thin.ply").exists()
@@ -121,7 +121,7 @@ class Impatient(Weld):
             return False
 
         try:
-            return tf.weld_stream(self.path, self.out, 0.1, team=team, points_per_tile=2000,
+            return tf.weld_stream(self.path, self.out, 0.1, communicator=team, points_per_tile=2000,
                                   progress=progress if team.rank == 1 else None)
         except KeyboardInterrupt as error:
             raise RuntimeError("stopped by hand") from error
@@ -131,7 +131,7 @@ class Impatient(Weld):
 def test_where_one_is_interrupted_nobody_waits(tmp_path, cloud, error):
     work = Impatient(cloud, tmp_path / "thin.ply")
     work.error = error
-    first, second, third = in_team(3, work)
+    first, second, third = in_communicator(3, work)
     ready = (tmp_path / "thin.ply").exists()  # before the others heard of that
     for other in (first, third):
         assert ready or other == ("Error", "process 1: interrupted")

@@ -153,7 +153,7 @@ def test_poses_are_those_of_the_tool(folder, clearance):
     theirs = [(row["pose"], pair["a"], pair["b"], pair["status"], pair["distance"])
               for row in map(json.loads, done.stdout.splitlines()) for pair in row["pairs"]]
     made = tf.check_poses([PARTS[n] for n in names], poses, clearance)
-    own = [(int(pose), names[a], names[b], tf.STANDINGS[how].replace("_", "-"), far)
+    own = [(int(pose), names[a], names[b], tf.RELATIONS[how].replace("_", "-"), far)
            for pose, (a, b), how, far in zip(made.pose, made.parts, made.how, made.distance)]
     assert own == theirs and 0 < made.clashing < 40
 

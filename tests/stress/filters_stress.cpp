@@ -10,8 +10,8 @@
 
 #include <libmesh/exact/implicit_point.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

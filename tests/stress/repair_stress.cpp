@@ -6,11 +6,11 @@
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>

@@ -14,7 +14,7 @@
 /// seed.
 
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

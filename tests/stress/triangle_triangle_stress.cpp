@@ -6,7 +6,7 @@
 
 #include "support/settings.hpp"
 #include "support/stress_families.hpp"
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -4,9 +4,9 @@
 
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/wrap.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -3,7 +3,6 @@
 /// Parts whose boxes overlap and that do not meet: rings in each other, L shapes, chains.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/solids.hpp>

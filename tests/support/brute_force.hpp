@@ -6,7 +6,6 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/reference_intersection.hpp>

@@ -3,9 +3,9 @@
 /// A dynamic tree and what should be in it.
 
 #include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/node_bounds.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
-#include <treeform/tree/validate.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

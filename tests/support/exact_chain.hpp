@@ -10,7 +10,7 @@
 
 #include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <gmpxx.h>

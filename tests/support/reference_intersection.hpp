@@ -7,7 +7,7 @@
 /// `Integer` is a signed type that does not overflow: std::int64_t for coordinates up to 4 or so,
 /// a big integer otherwise. `reduce(point)` may divide out common factors.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>

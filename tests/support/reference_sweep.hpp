@@ -4,7 +4,7 @@
 /// t d in the convex hull of the differences of corners, found by trying every set of up to three
 /// of these nine points. Slow, and shares nothing with the library but the types of the question.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <gmpxx.h>
 #include <support/known_points.hpp>

@@ -5,7 +5,7 @@
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <support/random.hpp>
 

@@ -3,7 +3,7 @@
 /// Small meshes full of trouble, the same for the same random source.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/random.hpp>

@@ -4,7 +4,6 @@
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <deque>

@@ -9,7 +9,7 @@
 /// ones (a rotation, the same translations, a scale from 1e-30 to 1e30); of both, half are then
 /// rounded to float.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <support/stress_random.hpp>
 

@@ -3,7 +3,7 @@
 /// What the families of hard pairs and of hard meshes are made of: points and triangles drawn in an
 /// order that the language fixes, by operations that every machine rounds alike.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <support/stress_random.hpp>
 

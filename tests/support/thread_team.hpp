@@ -2,7 +2,7 @@
 /// \file
 /// A team of threads in the place of one of processes.
 
-#include <treeform/mesh/process_team.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 
 #include <condition_variable>
@@ -25,7 +25,7 @@ class thread_team {
   public:
     explicit thread_team(std::size_t size) : mine_(size) {}
 
-    [[nodiscard]] tf::process_team as(std::size_t rank) {
+    [[nodiscard]] tf::communicator as(std::size_t rank) {
         return {rank, mine_.size(),
                 [this, rank](const std::string& told) { return exchange(rank, told); }};
     }

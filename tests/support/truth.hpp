@@ -3,7 +3,7 @@
 /// TRUTH.csv of a folder of models: exact facts about each file, found by an exact kernel.
 
 #include <treeform/tf.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <charconv>
 #include <cstddef>

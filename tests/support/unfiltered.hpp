@@ -6,7 +6,6 @@
 
 #include <libmesh/exact/exact_sign.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/triangle.hpp>
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,6 @@
 #include <libmesh/round/solid_faces.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstddef>

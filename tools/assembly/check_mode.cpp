@@ -117,7 +117,7 @@ class pose_run {
     void enter(const std::vector<tf::pose_clash>& clashes, output_file* results) {
         const json list = clashes_entry(all_, clashes);
         const bool clash = std::any_of(clashes.begin(), clashes.end(), [&](const auto& one) {
-            return one.how != tf::standing::touching || options_.clearance > 0.0;
+            return one.how != tf::mesh_relation::touching || options_.clearance > 0.0;
         });
         const json entry{{"pose", count}, {"clash", clash}, {"pairs", list}};
         if (clash && !first) first = count;

@@ -12,7 +12,7 @@
 namespace tools {
 namespace {
 
-using tf::standing;
+using tf::mesh_relation;
 
 constexpr std::size_t most_lines = 20;
 constexpr std::size_t most_faces = 1000;  // listed of a region and part
@@ -58,7 +58,7 @@ json clash_entry(const named_assembly& all, const tf::part_clash& one) {
 
 std::string sentence(const named_assembly& all, const tf::part_clash& one) {
     std::string text = all.names[one.a] + " and " + all.names[one.b] + ": " + name_of(one.how);
-    if (one.how == standing::closer_than_clearance) return text + ", " + brief(one.distance);
+    if (one.how == mesh_relation::closer_than_clearance) return text + ", " + brief(one.distance);
     if (one.a_inside_b) text += ", the first inside";
     if (one.b_inside_a) text += ", the second inside";
     if (one.depth) text += ", at most " + brief(*one.depth) + " deep";
@@ -72,14 +72,14 @@ std::string sentence(const named_assembly& all, const tf::part_clash& one) {
 
 /// "12 parts: 1 pair penetrates, 3 touch"
 std::string totals(const named_assembly& all, const tf::clash_result& r) {
-    const auto number = [&](standing how) { return r.counts[static_cast<std::size_t>(how)]; };
+    const auto number = [&](mesh_relation how) { return r.counts[static_cast<std::size_t>(how)]; };
     std::string text =
         counted(all.names.size(), "part", "parts") + ": " +
-        counted(number(standing::penetrating), "pair penetrates", "pairs penetrate") + ", " +
-        grouped(number(standing::touching)) + " touch";
-    if (number(standing::closer_than_clearance) + number(standing::clear) > 0)
-        text +=
-            ", " + grouped(number(standing::closer_than_clearance)) + " closer than the clearance";
+        counted(number(mesh_relation::penetrating), "pair penetrates", "pairs penetrate") + ", " +
+        grouped(number(mesh_relation::touching)) + " touch";
+    if (number(mesh_relation::closer_than_clearance) + number(mesh_relation::clear) > 0)
+        text += ", " + grouped(number(mesh_relation::closer_than_clearance)) +
+                " closer than the clearance";
     return text;
 }
 
@@ -98,9 +98,10 @@ void say(job& work, const named_assembly& all, const tf::clash_result& r) {
 std::vector<std::vector<tf::contact_class>> classes_of(const named_assembly& all,
                                                        const tf::clash_result& r) {
     std::vector<std::vector<tf::contact_class>> classes(all.names.size());
-    const auto mark = [&](std::size_t part, const std::vector<std::uint32_t>& faces, standing how) {
-        const auto one = how == standing::penetrating ? tf::contact_class::penetrating
-                                                      : tf::contact_class::touching;
+    const auto mark = [&](std::size_t part, const std::vector<std::uint32_t>& faces,
+                          mesh_relation how) {
+        const auto one = how == mesh_relation::penetrating ? tf::contact_class::penetrating
+                                                           : tf::contact_class::touching;
         classes[part].resize(all.set.shapes[part].view().faces.size());
         for (const std::uint32_t f : faces)
             if (classes[part][f] == tf::contact_class::none || one < classes[part][f])
@@ -127,8 +128,8 @@ void write_parts(job& work, const named_assembly& all, const tf::clash_result& r
     if (form.format == "ply" || form.format == "glb") {
         const tf::contact_classes classes{{}, classes_of(all, r)};
         const tf::box3 box = tf::bounding_box(file.mesh.points).value_or(tf::box3{});
-        tf::color_contacts(file, classes.in_files({}, all.set),
-                           {.split_polygons = true, .halo = 0.02 * box.diagonal()});
+        tf::contact_classes::color(file, classes.in_files({}, all.set),
+                                   {.split_polygons = true, .halo = 0.02 * box.diagonal()});
     }
     std::vector<const tf::mesh_file*> inputs;
     for (const tf::body_file& one : all.set.files) inputs.push_back(&one.content);
@@ -145,9 +146,9 @@ std::vector<const tf::part_clash*> gravest_first(const tf::clash_result& r) {
     std::vector<const tf::part_clash*> worst;
     for (const tf::part_clash& one : r.pairs) worst.push_back(&one);
     const auto rank = [](const tf::part_clash* one) {
-        return std::pair(one->how == standing::penetrating             ? 0
-                         : one->how == standing::closer_than_clearance ? 1
-                                                                       : 2,
+        return std::pair(one->how == mesh_relation::penetrating             ? 0
+                         : one->how == mesh_relation::closer_than_clearance ? 1
+                                                                            : 2,
                          -one->depth.value_or(0.0));
     };
     std::stable_sort(worst.begin(), worst.end(),
@@ -186,7 +187,7 @@ exit_status clash_all(job& work, const assembly_settings& settings) {
     entry["parts"] = all.names.size();
     entry["clearance"]["used"] = options.clearance;
     for (std::size_t i = 0; i < found.counts.size(); ++i)
-        entry["counts"][name_of(static_cast<standing>(i))] = found.counts[i];
+        entry["counts"][name_of(static_cast<mesh_relation>(i))] = found.counts[i];
     for (const tf::part_clash& one : found.pairs) entry["pairs"].push_back(clash_entry(all, one));
     entry["skipped"].update({{"pairs_ignored", found.ignored},
                              {"pairs_culled_by_box", found.boxes_apart},

@@ -17,7 +17,7 @@ namespace {
 
 void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixed,
                  const tf::placement& at) {
-    if (at.at_place != tf::standing::penetrating || !at.nearest) return;
+    if (at.at_place != tf::mesh_relation::penetrating || !at.nearest) return;
     const std::size_t other = at.nearest->fixed;
     const auto timing = work.time("search");
     const auto found = tf::penetration_depth(moving.shapes[0], fixed.shapes[other],
@@ -92,7 +92,7 @@ void write_distances(job& work, const deviation_settings& settings, const tf::bo
     if (settings.distances.empty() || work.options.dry_run) return;
     const auto timing = work.time("write");
     tf::mesh_file file = moving.files[0].content;
-    tf::color_distances(file, moving.distances_in_file(0, r.distances), -scale, scale);
+    tf::deviation_result::color(file, moving.distances_in_file(0, r.distances), -scale, scale);
     output_place place(settings.distances, work.options.force);
     tf::write(place.writable(), file, {.format = "ply"});
     place.commit();

@@ -233,7 +233,7 @@ class Language:
             "optional<box3>": (f"const treeform_box* {name}", f"box({o})", ""),
             "optional<array<double,3>>": (f"const double* {name}", f"axes({o})", ""),
             "pair_kinds": (f"uint32_t {name}", f"kinds({o})", f"{to} = TREEFORM_ALL_KINDS;"),
-            "process_team": (f"const treeform_team* {name}", f"team({o})", "")}
+            "communicator": (f"const treeform_communicator* {name}", f"communicator_of({o})", "")}
         if type in simple:
             decl, value, default = simple[type]
             prefix = {"transform<3>": "[12] ", "optional<array<double,3>>": "[3] "}.get(type, "")

@@ -16,9 +16,8 @@ ENUMS = {
     "repair_scope": ("treeform_repair_scope", ""),
     "pair_kind": ("treeform_pair_kind", ""),
     "location": ("treeform_location", ""),
-    "standing": ("treeform_standing", {"touching": "MEETING",
-                                       "closer_than_clearance": "TOO_CLOSE"}),
-    "mesh_relation": ("treeform_standing", {}),
+    "mesh_relation": ("treeform_mesh_relation", {"touching": "MEETING",
+                                                 "closer_than_clearance": "TOO_CLOSE"}),
     "feature": ("uint8_t", ""),
     "feature_kind": ("treeform_feature_kind", ""),
     "placement_end": ("treeform_placement_end", "END_"),
@@ -342,7 +341,7 @@ LISTS = [
 INCLUDES = {"mesh": ["mesh/as_mesh.hpp", "mesh/cut.hpp"],
             "nearness": ["mesh/distance.hpp", "mesh/point_location.hpp"],
             "properties": ["mesh/boolean.hpp", "mesh/point_location.hpp", "mesh/predicates.hpp"],
-            "intersections": ["mesh/curves.hpp"]}
+            "intersections": ["mesh/intersections.hpp"]}
 
 #: Functions that are one call. `$name` is an argument as C++ has it; without `$`, as it is in C.
 CALLS = {
@@ -384,7 +383,7 @@ CALLS = {
         "tf::write_curves($path, glue::view(mesh), glue::pairs_of(mesh, pairs, count), {}, "
         "glue::text(format))",
     "treeform_self_intersections_of_file": "tf::self_intersections_of_file($path, $options)",
-    "treeform_is_searched_in_tiles": "tf::is_searched_in_tiles($path, glue::text(format))",
+    "treeform_is_searched_in_tiles": "tf::stream_search::accepts($path, glue::text(format))",
     # solids.h
     "treeform_boolean":
         "tf::boolean($operands, tf::boolean_expression($expression, count), $options)",
@@ -409,7 +408,7 @@ CALLS = {
     "treeform_section":
         "tf::section($mesh, glue::plane(plane), glue::heights(heights, count), {$progress})",
     "treeform_layer_heights":
-        "tf::layer_heights(glue::view(mesh).points, glue::plane(plane), thickness)",
+        "glue::plane(plane).layer_heights(glue::view(mesh).points, thickness)",
     "treeform_cut": "tf::cut($mesh, glue::plane(plane), glue::heights(heights, count), $options)",
     "treeform_cut_to_fit": "tf::cut_to_fit($mesh, $size, $options)",
     "treeform_components": "tf::components($mesh, {.min_volume = min_volume, "
@@ -430,7 +429,7 @@ CALLS = {
     "treeform_distance": "tf::distance($a, $b, tf::distance_options{$move_a, $move_b})",
     "treeform_measure": "tf::measure($a, $b, $options)",
     "treeform_relate":
-        "static_cast<treeform_standing>(tf::relation($a, $b, {.vertices = $vertices}).relation)",
+        "static_cast<treeform_mesh_relation>(tf::relation($a, $b, {.vertices = $vertices}).relation)",
     "treeform_count_inside_out": "tf::count_inside_out($mesh)",
     "treeform_deviation": "tf::deviation($a, $fixed, $options)",
     # weld.h

@@ -306,14 +306,14 @@ RESULTS = [
                      ("parts", "Ids", "(n, 2) the parts, the lower number first.",
                       "std::array{one.a, one.b}"),
                      ("how", "NDArray[np.uint8]", "(n,) uint8: how they lie, a place in "
-                      "`STANDINGS`.", "static_cast<std::uint8_t>(one.how)"),
+                      "`RELATIONS`.", "static_cast<std::uint8_t>(one.how)"),
                      ("distance", "Floats", "(n,) of those that are closer than the clearance; else "
                       "0.", "one.distance"))]]}),
     Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
            doc="How all parts lie to each other.",
            custom={"counts": [Attribute("counts", "dict[str, int]",
                                         "Pairs that were looked at, by how they lie.",
-                                        "counts_of<tf::standing>(from.counts)")]}),
+                                        "counts_of<tf::mesh_relation>(from.counts)")]}),
 ]
 
 #: Counters as dictionaries, and what is not among them.
@@ -327,8 +327,8 @@ OPTIONS = {
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
     "offset_options": "", "simplify_options": "face_groups", "thickness_options": "",
     "feature_options": "", "self_intersection_options": "component_of_face between within",
-    "mesh_intersection_options": "", "stream_search_options": "box team",
-    "weld_options": "label may_merge search", "weld_stream_options": "team shared las_scale las_offset",
+    "mesh_intersection_options": "", "stream_search_options": "box communicator",
+    "weld_options": "label may_merge search", "weld_stream_options": "communicator shared las_scale las_offset",
     "slide_options": "close_in limit vertices", "drop_options": "limit vertices",
     "mate_options": "limit vertices", "separate_options": "normals face_pairs limit vertices",
     "turn_options": "max_steps limit vertices", "feature_mate_options": "limit vertices",
@@ -344,7 +344,7 @@ FUNCTIONS = [
              "tf::split($meshes, options)", "attributes of meshes"),
     # _cuts
     Function("layer_heights(mesh: Mesh, at: Vector, normal: Vector, thickness: float) -> Floats",
-             "tf::layer_heights(mesh.view().points, {$at, $normal}, thickness)"),
+             "tf::oriented_plane{$at, $normal}.layer_heights(mesh.view().points, thickness)"),
     Function("components(mesh: Mesh, options: components_options) -> list[MeshPart]",
              "tf::components($mesh, options)", "attributes of mesh"),
     Function("submesh(mesh: Mesh, faces: Ids) -> MeshPart", "tf::submesh($mesh, $faces)",

@@ -125,8 +125,8 @@ treeform_code treeform_add_source_columns(treeform_file* file, const char* name,
 treeform_code treeform_color_distances(treeform_file* file, const double* distances, size_t count,
                                        double low, double high) {
     return glue::guard([&] {
-        tf::color_distances(glue::need(file, "file").content,
-                            glue::array(distances, count, "distances"), low, high);
+        tf::deviation_result::color(glue::need(file, "file").content,
+                                    glue::array(distances, count, "distances"), low, high);
     });
 }
 
@@ -139,6 +139,6 @@ treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* classe
             all.push_back(glue::choice<tf::contact_class>(one, 4, "a class"));
         tf::contact_color_options how;
         how.halo = halo;
-        tf::color_contacts(to, all, how);
+        tf::contact_classes::color(to, all, how);
     });
 }

@@ -119,11 +119,11 @@ tf::progress_callback progress(treeform_progress call, void* data) {
     return [call, data](double done) { return call(done, data) == 0; };
 }
 
-tf::process_team team(const treeform_team* of) {
+tf::communicator communicator_of(const treeform_communicator* of) {
     if (!of) return {};
-    const auto call = &need(of->exchange, "the exchange of the team");
+    const auto call = &need(of->exchange, "the exchange of the communicator");
     if (of->rank >= of->size)
-        throw std::invalid_argument("the team has " + std::to_string(of->size) +
+        throw std::invalid_argument("the communicator has " + std::to_string(of->size) +
                                     " processes; the rank is " + std::to_string(of->rank));
     const auto exchange = [=, size = of->size, data = of->data](const std::string& told) {
         std::vector<std::string> all;

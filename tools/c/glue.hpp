@@ -5,19 +5,17 @@
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/write.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <tools/bindings/pieces.hpp>
 #include <treeform.h>
@@ -241,7 +239,7 @@ template <class Options>
 }
 
 /// One that is alone for null.
-[[nodiscard]] tf::process_team team(const treeform_team* of);
+[[nodiscard]] tf::communicator communicator_of(const treeform_communicator* of);
 
 /// What `treeform_set_progress` has set for this thread.
 [[nodiscard]] tf::progress_callback thread_progress();

@@ -1,6 +1,5 @@
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/clash.hpp>
-#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>

@@ -1,5 +1,4 @@
 #include <treeform/mesh/align.hpp>
-#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/pack.hpp>
 
 #include <tools/c/made/structs.hpp>

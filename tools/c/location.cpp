@@ -1,5 +1,5 @@
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/raycast.hpp>
 
 #include <tools/c/glue.hpp>
 

@@ -1,6 +1,6 @@
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <tools/c/made/structs.hpp>

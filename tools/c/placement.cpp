@@ -82,7 +82,7 @@ treeform_code treeform_classify_contacts(const treeform_mesh* moving,
             if (one.moving >= m.view().faces.size() || (one.fixed_face && one.fixed >= fixed_count))
                 throw std::invalid_argument("placement is of other meshes");
         auto made = glue::make<treeform_contact_classes>();
-        const auto& found = made->keep(tf::classify_contacts(m, row, at));
+        const auto& found = made->keep(tf::contact_classes::of(m, row, at));
         const auto bytes = [](const std::vector<tf::contact_class>& of) {
             return of.empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(of.data());
         };

@@ -4,7 +4,6 @@
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/triangle.hpp>
 
 #include <tools/c/made/structs.hpp>
 
@@ -137,7 +136,7 @@ treeform_code treeform_convex_hull(const treeform_mesh* mesh, treeform_progress 
         std::vector<std::size_t> begin{0};
         std::vector<std::uint32_t> corners;
         for (const tf::hull_side& side : found.sides) {
-            const auto of_side = tf::corners_of(found, side, points);
+            const auto of_side = found.corners_of(side, points);
             corners.insert(corners.end(), of_side.begin(), of_side.end());
             begin.push_back(corners.size());
         }

@@ -1,6 +1,6 @@
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/wrap.hpp>
 
 #include <tools/c/inputs.hpp>
 #include <tools/c/made/structs.hpp>

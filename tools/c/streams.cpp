@@ -67,14 +67,14 @@ tf::weld_stream_options options_of(const treeform_weld_stream_options& o) {
     how.memory = o.memory;
     how.folder = glue::text(o.folder);
     how.points_per_tile = o.points_per_tile;
-    how.team = glue::team(o.team);
+    how.communicator = glue::communicator_of(o.communicator);
     how.progress = glue::step_progress(o);
     return how;
 }
 
 /// Once.
 void look(treeform_shared_weld& weld) {
-    if (!weld.looked) glue::check(weld.steps->look());
+    if (!weld.looked) glue::check(weld.steps->take_survey());
     weld.looked = true;
 }
 

@@ -5,7 +5,6 @@
 #include <treeform/tree/ray.hpp>
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/search_pair.hpp>
-#include <treeform/tree/search_self.hpp>
 
 #include <tools/c/glue.hpp>
 

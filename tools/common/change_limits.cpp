@@ -1,7 +1,7 @@
 #include "tools/common/change_limits.hpp"
 
 #include "tools/common/console.hpp"
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/tf.hpp>
 
 namespace tools {

@@ -3,7 +3,7 @@
 /// The lines along which faces meet, as a file to be drawn.
 
 #include "tools/common/run.hpp"
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>

@@ -147,7 +147,7 @@ reason guard::state::next_reason(bool signalled) const {
     return reason::none;
 }
 
-/// When the first one of a team ends, or after a second, mpirun kills all. Who has files to remove is
+/// When the first rank ends, or after a second, mpirun kills all. Who has files to remove is
 /// that first one.
 clock::duration guard::state::time_to_end() const {
     return bounds.beside_others && has_unfinished() ? grace_in_team : grace;

@@ -4,7 +4,7 @@
 
 #include "tools/common/run.hpp"
 #include <treeform/tf.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <filesystem>
 #include <string>

@@ -3,10 +3,10 @@
 #include "tools/common/console.hpp"
 #include "tools/common/output_file.hpp"
 #include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

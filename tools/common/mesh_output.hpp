@@ -4,8 +4,8 @@
 
 #include "tools/common/run.hpp"
 #include "tools/common/written_form.hpp"
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 

@@ -41,7 +41,7 @@ void abort_all(int status) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const tools::team_calls* treeform_team() {
+extern "C" __attribute__((visibility("default"))) const tools::team_calls* treeform_communicator() {
     static tools::team_calls calls{0, 1, &exchange, &leave, &abort_all};
     int given = 0;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS ||

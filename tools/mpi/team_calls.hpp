@@ -8,7 +8,7 @@
 
 namespace tools {
 
-/// `treeform_team()` returns them, or null where MPI cannot be started.
+/// `treeform_communicator()` returns them, or null where MPI cannot be started.
 struct team_calls {
     std::size_t rank = 0;
     std::size_t size = 1;

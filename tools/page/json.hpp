@@ -4,7 +4,7 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <nlohmann/json.hpp>
 

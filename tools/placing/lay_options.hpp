@@ -5,7 +5,7 @@
 #include "tools/common/command_line.hpp"
 #include "tools/common/entries.hpp"
 #include "tools/common/parse_value.hpp"
-#include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/tf.hpp>
 
 #include <span>

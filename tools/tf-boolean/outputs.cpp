@@ -5,8 +5,8 @@
 #include "tools/common/mesh_output.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 

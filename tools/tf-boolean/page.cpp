@@ -3,7 +3,7 @@
 #include "tools/shown/shown.hpp"
 #include "tools/tf-boolean/outputs.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

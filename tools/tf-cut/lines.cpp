@@ -181,7 +181,7 @@ std::string lines_format(const std::filesystem::path& path) {
 exit_status make_section(job& work, const usable_input& input, cut_settings s) {
     if (s.layers > 0.0) {
         s.heights = suitable("--layers", [&] {
-            return tf::layer_heights(input.file.mesh.points, s.plane, s.layers);
+            return s.plane.layer_heights(input.file.mesh.points, s.layers);
         });
         work.entry["planes"]["heights"] = s.heights;
     }

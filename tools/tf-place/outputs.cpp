@@ -2,7 +2,7 @@
 #include "tools/tf-place/place.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
@@ -65,9 +65,9 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     // `fit` looks at no faces, and without fixed meshes there is nothing to meet.
     if (!fixed.files.empty() && settings.mode != place_mode::fit &&
         (form.format == "ply" || form.format == "glb")) {
-        const auto classes = tf::classify_contacts(moving.shapes[0], fixed.shapes, met);
+        const auto classes = tf::contact_classes::of(moving.shapes[0], fixed.shapes, met);
         // What has been moved stays what it is, with its polygons, and its colors where it has some.
-        tf::color_contacts(
+        tf::contact_classes::color(
             file, scene ? classes.in_files(moving, fixed) : classes.in_files(moving),
             {.split_polygons = picture && !scene,
              .keep_colors = !picture && !scene,

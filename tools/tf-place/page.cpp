@@ -196,7 +196,7 @@ tf::contact_classes classes_at(const placing& p) {
     if (p.fixed.shapes.empty() || p.settings.mode == place_mode::fit) return {};
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const double clearance = p.used(p.settings.clearance);
-    return tf::classify_contacts(
+    return tf::contact_classes::of(
         shape, p.fixed.shapes,
         p.at ? p.at : tf::measure_among(shape, p.fixed.shapes, {.clearance = clearance}));
 }
@@ -266,8 +266,8 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     if (p.settings.mode == place_mode::drop || p.settings.mode == place_mode::lay)
         shown.y_is_up = false;
     shown.verdict = sentence(p);
-    shown.good =
-        p.at && (!p.aligned || p.aligned->converged) && p.at.at_place != tf::standing::penetrating;
+    shown.good = p.at && (!p.aligned || p.aligned->converged) &&
+                 p.at.at_place != tf::mesh_relation::penetrating;
     shown.classes = classes_of(p);
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const tf::points_view before = shape.view().points;

@@ -122,7 +122,7 @@ std::string sentence(const placing& p) {
     std::string relation = at.relation_in_words(p.moving, p.fixed);
     if (!at) {
         std::string text = "not placed: " + p.reason;
-        if (at.at_place != tf::standing::penetrating || !at.nearest) return text;
+        if (at.at_place != tf::mesh_relation::penetrating || !at.nearest) return text;
         const std::string seen = "penetrating " + p.fixed.label(at.nearest->fixed);
         constexpr std::string_view where = " where it is";
         const std::size_t at_end = std::min(text.find(where), text.size() - where.size());

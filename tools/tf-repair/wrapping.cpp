@@ -3,8 +3,8 @@
 #include "tools/common/console.hpp"
 #include "tools/common/mesh_output.hpp"
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/wrap.hpp>
 #include <treeform/tf.hpp>
 
 #include <cmath>

@@ -20,7 +20,7 @@ std::string what_needs_memory(const job& work, const search_settings& settings, 
     if (work.path == "-") return "standard input";
     if (is_read_once(work.path)) return "a pipe";
     try {
-        if (!tf::is_searched_in_tiles(work.path, work.options.format))
+        if (!tf::stream_search::accepts(work.path, work.options.format))
             return "a file that is neither a binary STL nor a PLY";
     } catch (const tf::io_error&) {
         return {};  // the reader names the fault
@@ -95,7 +95,7 @@ tf::stream_search_options library_options(job& work, const search_settings& sett
     options.memory = work.options.memory;
     options.folder = folder;
     options.faces_per_tile = tiles.per_tile;
-    options.team = tiles.team;
+    options.communicator = tiles.communicator;
     options.progress = [&work](std::string_view step, double share) {
         return work.progress(step)(share);
     };
@@ -148,7 +148,7 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
     });
     work.call_ended(r.found.status == tf::status::cancelled);
     const std::string sum = digests_for_report({work.path}, tiles).front();
-    if (tiles.team.rank > 0) return {};
+    if (tiles.communicator.rank > 0) return {};
     work.seconds["tree"] += r.found.tree_seconds;
     work.seconds["pairs"] += r.found.pair_seconds;
     work.seconds["read"] =

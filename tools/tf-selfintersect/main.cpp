@@ -169,7 +169,7 @@ void check_request(const command_line& line, request& r, common_options& options
 exit_status look_at(tools::job& work, const request& r) {
     const common_options& o = work.options;
     work.entry["tiles"] = nullptr;
-    const bool leads = r.tiles.team.rank == 0;
+    const bool leads = r.tiles.communicator.rank == 0;
     if (leads) tools::check_outputs(work, {r.pairs}, {r.curves});
     const auto output = tools::mesh_output(o, work.path);
     const bool keeps_mesh = r.repairs || (output && !o.dry_run);
@@ -216,7 +216,7 @@ int run(int argc, char** argv, tools::team_member& me) {
         "Every yes/no answer is exact for the coordinates as read.");
     request r;
     common_options options;
-    r.tiles.team = me.team;
+    r.tiles.communicator = me.communicator;
     options.in_team = true;
     options.failed = [&me](const std::string& text) { me.error = text; };
     options.suffix = "-selfintersect";

@@ -1,7 +1,7 @@
 #include "tools/common/console.hpp"
 #include "tools/shown/shown.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

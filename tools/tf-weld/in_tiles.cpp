@@ -59,7 +59,7 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     options.folder = folder_for(work, request, tiles);
     options.points_per_tile = tiles.per_tile;
     options.shared = tiles.is_shared();
-    options.team = tiles.team;
+    options.communicator = tiles.communicator;
     options.progress = [&work](std::string_view step, double share) {
         return work.progress(step)(share);
     };
@@ -156,9 +156,9 @@ class stream_files {
     }
 
   private:
-    [[nodiscard]] bool leads() const { return tiles_.team.rank == 0; }
+    [[nodiscard]] bool leads() const { return tiles_.communicator.rank == 0; }
 
-    /// Of a team, the first one has the files.
+    /// Of several ranks, the root has the files.
     [[nodiscard]] fs::path add(const fs::path& path, bool force) {
         return leads() ? outputs_.add(path, force) : path;
     }
@@ -245,7 +245,7 @@ fs::path folder_for(const job& work, const weld_request& request, const tile_opt
 exit_status weld_in_tiles(job& work, const weld_request& request, const tile_options& tiles,
                           const tf::cloud_inputs& inputs, const tf::mesh_file& header) {
     enter_blank_report(work, request);
-    const bool leads = tiles.team.rank == 0;
+    const bool leads = tiles.communicator.rank == 0;
     if (leads) check_outputs(work, {request.outputs.map}, {request.outputs.removed});
     check_formats(work, request, header);
     const tf::weld_stream_options options = library_options(work, request, tiles, header);
@@ -254,12 +254,12 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
         const tf::element* const faces = header.attributes.find("face");
         static_cast<void>(request.settings.options.conditions(header.attributes,
                                                               faces != nullptr && faces->rows > 0));
-        if (tiles.team.size > 1 && leads) tiles.team.exchange({});
+        if (tiles.communicator.size > 1 && leads) tiles.communicator.exchange({});
         take(work, "read", [&] {
             weld.emplace(inputs, options);
             if (tiles.tile) return weld_tile(work, *weld, tiles);
             if (tiles.finish) weld->check_tiles();
-            return weld->look();
+            return weld->take_survey();
         });
     } catch (const tf::weld_property_error& error) {
         throw property_failure(error, header.attributes);

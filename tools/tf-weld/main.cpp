@@ -209,7 +209,7 @@ int run(int argc, char** argv, tools::team_member& me) {
                       "Merge points or mesh vertices that lie within a distance of each other.\n"
                       "Point clouds stay point clouds; meshes are re-indexed.");
     tools::weld_request r;
-    tools::tile_options tiles{.team = me.team};
+    tools::tile_options tiles{.communicator = me.communicator};
     common_options options;
     options.in_team = true;
     options.failed = [&me](const std::string& text) { me.error = text; };

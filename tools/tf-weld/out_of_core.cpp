@@ -62,9 +62,9 @@ std::string what_needs_memory(const job& work, const weld_request& request,
 
 /// None for what is no cloud that can be read by blocks. \throws tf::io_error where it cannot be read
 std::optional<tf::cloud_outline> cloud_at(const tf::cloud_inputs& inputs,
-                                          const tf::process_team& team) {
+                                          const tf::communicator& ranks) {
     try {
-        return tf::outline(inputs, team);
+        return inputs.outline(ranks);
     } catch (const tf::whole_file_error&) {
         return std::nullopt;  // reading all of it will say why
     } catch (const std::invalid_argument&) {
@@ -116,7 +116,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         work.options.memory > 0 ? work.options.memory : tf::weld_stream_options::default_memory();
     const std::uint64_t size = size_of(inputs);
     const auto follow_first = [&] {  // goes on when it has found nothing wrong
-        if (tiles.team.rank > 0) tiles.team.exchange({});
+        if (tiles.communicator.rank > 0) tiles.communicator.exchange({});
     };
     if (size == 0 || (!asked && size < allowed / 64)) {
         follow_first();
@@ -125,7 +125,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
     std::optional<tf::cloud_outline> cloud;
     {
         const job::timer timing = work.time("read");
-        cloud = cloud_at(inputs, tiles.team);
+        cloud = cloud_at(inputs, tiles.communicator);
     }
     follow_first();
     if (!cloud && tiles.has_others())

@@ -80,17 +80,19 @@ class digests {
 
 std::vector<std::string> digests_for_report(const std::vector<fs::path>& paths,
                                             const tile_options& tiles) {
-    const tf::process_team& team = tiles.team;
+    const tf::communicator& all_ranks = tiles.communicator;
     if (tiles.report.empty()) return std::vector<std::string>(paths.size());
     digests all(paths);
     const auto begin = [&](std::uint64_t rank) {
-        return all.total() / team.size * rank + all.total() % team.size * rank / team.size;
+        return all.total() / all_ranks.size * rank +
+               all.total() % all_ranks.size * rank / all_ranks.size;
     };
-    for (std::size_t rank = 0; rank < team.size; ++rank) {
-        const bool mine = rank == team.rank;
+    for (std::size_t rank = 0; rank < all_ranks.size; ++rank) {
+        const bool mine = rank == all_ranks.rank;
         if (mine) all.read(begin(rank + 1) - begin(rank));
-        if (team.size == 1) break;
-        const std::vector<std::string> received = team.exchange(mine ? all.sent() : std::string());
+        if (all_ranks.size == 1) break;
+        const std::vector<std::string> received =
+            all_ranks.exchange(mine ? all.sent() : std::string());
         all.take(received[rank], begin(rank + 1));
     }
     return std::move(all).finished();

@@ -53,7 +53,7 @@ const team_calls* join() {
     const signals_held held;
     // Stays loaded: MPI has threads of its own.
     void* const library = ::dlopen(plug_in, RTLD_NOW | RTLD_GLOBAL);
-    void* const found = library == nullptr ? nullptr : ::dlsym(library, "treeform_team");
+    void* const found = library == nullptr ? nullptr : ::dlsym(library, "treeform_communicator");
     if (found == nullptr) return nullptr;
     return reinterpret_cast<const team_calls* (*)()>(found)();
 #endif
@@ -90,7 +90,7 @@ std::FILE* be_silent() {
 
 /// Others may be at work for long before they listen.
 void end_later(const team_member& me, int status, std::FILE* heard) {
-    std::thread([rank = me.team.rank, error = me.error, status, heard] {
+    std::thread([rank = me.communicator.rank, error = me.error, status, heard] {
         std::this_thread::sleep_for(std::chrono::seconds(5));
         if (rank > 0 && heard != nullptr) {
             std::fprintf(heard, "error: %s\n", error.c_str());
@@ -113,17 +113,17 @@ int run_in_team(const std::function<int(team_member&)>& tool) {
     const bool leads = calls->rank == 0;
     std::FILE* const heard = leads ? stderr : be_silent();
     bool all_end = false;
-    me.team = {calls->rank, calls->size, [&](const std::string& sent) {
-                   std::vector<std::string> all = calls->exchange(sent + '\0');
-                   for (std::string& one : all) {
-                       const auto status = static_cast<exit_status>(one.back());
-                       one.pop_back();
-                       if (status == done) continue;
-                       all_end = true;
-                       throw failure(status, "process", one);
-                   }
-                   return all;
-               }};
+    me.communicator = {calls->rank, calls->size, [&](const std::string& sent) {
+                           std::vector<std::string> all = calls->exchange(sent + '\0');
+                           for (std::string& one : all) {
+                               const auto status = static_cast<exit_status>(one.back());
+                               one.pop_back();
+                               if (status == done) continue;
+                               all_end = true;
+                               throw failure(status, "process", one);
+                           }
+                           return all;
+                       }};
     int status = tool(me);
     if (!all_end) {
         if (status > found) end_later(me, status, heard);

@@ -12,7 +12,7 @@
 namespace tools {
 
 struct team_member {
-    tf::process_team team{};
+    tf::communicator communicator{};
     std::string error{};  ///< to be set by a tool that fails: what it says of it
 };
 

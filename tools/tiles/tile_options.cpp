@@ -58,16 +58,16 @@ void add_sharing_options(command_line& line, tile_options& target) {
 
 void leave_reports_to_first(tile_options& tiles, common_options& options) {
     tiles.report = options.report;
-    if (tiles.team.rank == 0) return;
+    if (tiles.communicator.rank == 0) return;
     options.report.clear();
     options.log.clear();
 }
 
 void check_tile_options(const tile_options& tiles, const command_line& line,
                         const common_options& options) {
-    if (tiles.is_shared() && tiles.team.size > 1)
+    if (tiles.is_shared() && tiles.communicator.size > 1)
         refuse("--plan, --tile and --finish are for processes without mpirun");
-    if (tiles.team.size > 1 && options.inputs.size() != 1 && !options.joined)
+    if (tiles.communicator.size > 1 && options.inputs.size() != 1 && !options.joined)
         refuse("mpirun: one INPUT, or --join");
     if (!tiles.is_shared()) return;
     if (int{tiles.plan} + int{tiles.tile.has_value()} + int{tiles.finish} > 1)

@@ -26,13 +26,13 @@ struct tile_options {
     bool plan = false;
     std::optional<std::uint64_t> tile{};
     bool finish = false;
-    tf::process_team team{};         ///< of mpirun
-    std::filesystem::path report{};  ///< as asked for, also where another process writes it
-    std::uint64_t stop_at = 0;       ///< for tests: the process kills itself after so many steps
+    tf::communicator communicator{};  ///< of mpirun
+    std::filesystem::path report{};   ///< as asked for, also where another process writes it
+    std::uint64_t stop_at = 0;        ///< for tests: the process kills itself after so many steps
 
     /// Whether other processes share the folder, and do not know of each other.
     [[nodiscard]] bool is_shared() const { return plan || tile || finish; }
-    [[nodiscard]] bool has_others() const { return is_shared() || team.size > 1; }
+    [[nodiscard]] bool has_others() const { return is_shared() || communicator.size > 1; }
     /// Whether this one only does a part, and has nothing to give back.
     [[nodiscard]] bool is_part() const { return plan || tile; }
     /// Whether tiles are asked for, whatever the memory.

@@ -1,23 +1,20 @@
 #pragma once
 /// \file
-/// The whole door: every public header but <treeform/tf.hpp>. Programs that care how long they compile include what they
-/// use.
+/// The whole door: every public header but <treeform/tf.hpp>. Programs that care how long they
+/// compile include what they use.
 
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/boolean_expression.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/convex_hull.hpp>
-#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -27,24 +24,18 @@
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/raycast.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/simplify.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/solid.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/weld_stream.hpp>
-#include <treeform/mesh/wrap.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/answers.hpp>
@@ -61,11 +52,6 @@
 #include <treeform/tree/refit.hpp>
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/search_pair.hpp>
-#include <treeform/tree/search_self.hpp>
-#include <treeform/tree/strategy/nearness_order.hpp>
-#include <treeform/tree/strategy/select.hpp>
-#include <treeform/tree/sweep.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/strategy.hpp>
 #include <treeform/tree/tree.hpp>
-#include <treeform/tree/validate.hpp>
 #include <treeform/tree/version.hpp>

@@ -3,7 +3,7 @@
 /// Two meshes by the AABB tree of CGAL, triangle by triangle.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <cstddef>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "bench/peers/cgal_triangles.hpp"
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

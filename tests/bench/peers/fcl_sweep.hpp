@@ -2,7 +2,7 @@
 /// \file
 /// The first contact of triangles in straight motion by FCL's continuous tests.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <optional>
 

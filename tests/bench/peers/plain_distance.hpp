@@ -5,7 +5,7 @@
 
 #include "bench/peers/plain_vectors.hpp"
 #include "bench/peers/sign_triangles.hpp"
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 /// \file
 /// Vectors of any floating-point type, with nothing done about rounding.
 
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <array>
 

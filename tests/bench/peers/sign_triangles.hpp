@@ -4,7 +4,7 @@
 /// determinants come from, and nothing else differs.
 
 #include <libmesh/exact/stages.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>
 #include <array>

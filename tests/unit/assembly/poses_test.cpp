@@ -23,7 +23,7 @@ namespace {
 using test::ball;
 using test::box;
 using test::prepared;
-using tf::standing;
+using tf::mesh_relation;
 using motion = tf::transform<3>;
 
 motion random_motion(test::random& source, double reach) {
@@ -58,7 +58,7 @@ void check_by_moving(const std::vector<tf::mesh>& parts, const std::vector<motio
             CHECK(found.poses[p][i].a == each.pairs[i].a);
             CHECK(found.poses[p][i].b == each.pairs[i].b);
             CHECK(found.poses[p][i].how == each.pairs[i].how);
-            if (each.pairs[i].how == standing::closer_than_clearance)
+            if (each.pairs[i].how == mesh_relation::closer_than_clearance)
                 CHECK(found.poses[p][i].distance == doctest::Approx(each.pairs[i].distance));
         }
     }
@@ -141,8 +141,8 @@ TEST_CASE("poses: a pose that mirrors a part makes no other solid of it") {
         {},     tf::transform<3>::translation(tf::point3{0.5, 0, 0}).after(mirror)};
     const auto found = tf::check_poses(test::prepared(parts), poses);
     REQUIRE(found.poses.size() == 4);
-    const std::array expected{standing::penetrating, standing::touching, standing::penetrating,
-                              standing::penetrating};
+    const std::array expected{mesh_relation::penetrating, mesh_relation::touching,
+                              mesh_relation::penetrating, mesh_relation::penetrating};
     for (std::size_t p = 0; p < 4; ++p) {
         REQUIRE(found.poses[p].size() == 1);
         CHECK(found.poses[p][0].how == expected[p]);
@@ -157,7 +157,7 @@ TEST_CASE("poses: ignored pairs, the first clash only, and counts") {
     const auto all = tf::check_poses(prepared(parts), poses);
     CHECK(all.poses[0].size() == 3);
     REQUIRE(all.poses[1].size() == 1);
-    CHECK(all.poses[1][0] == tf::pose_clash{0, 1, standing::touching, 0.0});
+    CHECK(all.poses[1][0] == tf::pose_clash{0, 1, mesh_relation::touching, 0.0});
     CHECK(all.clashing == 1);
     CHECK(all.boxes_apart == 4);
     tf::pose_options options;
@@ -166,7 +166,7 @@ TEST_CASE("poses: ignored pairs, the first clash only, and counts") {
     options.ignored = ignored;
     const auto some = tf::check_poses(prepared(parts), poses, options);
     REQUIRE(some.poses[0].size() == 1);
-    CHECK(some.poses[0][0] == tf::pose_clash{0, 2, standing::penetrating, 0.0});
+    CHECK(some.poses[0][0] == tf::pose_clash{0, 2, mesh_relation::penetrating, 0.0});
     CHECK(some.poses[1].empty());
     CHECK(some.poses[2].empty());  // they only touch
 }

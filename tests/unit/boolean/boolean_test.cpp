@@ -5,8 +5,8 @@
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -2,7 +2,7 @@
 /// Boxes that triangles and segments certainly miss, against exact triangle pairs.
 
 #include <libmesh/boolean/interval_triangle.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -255,7 +255,7 @@ TEST_CASE("pieces fit") {
 TEST_CASE("threads change no byte") {
     const tf::mesh ball =
         test::together(test::ball(4, 1.0), test::moved(test::ball(3, 1.0), {1, 0, 0}));
-    const std::vector<double> heights = tf::layer_heights(ball.points, {}, 0.07);
+    const std::vector<double> heights = tf::oriented_plane{}.layer_heights(ball.points, 0.07);
     const auto both = [&] {
         return std::pair{tf::section(ball, {}, heights), tf::cut(ball, {{}, {1, 2, 3}}, heights)};
     };

@@ -401,15 +401,17 @@ TEST_CASE("many planes at once, in any order, equal ones too, are each by itself
 
 TEST_CASE("layers have the volume of a solid, the thinner the nearer") {
     const tf::mesh ball = test::ball(4, 1.0);
-    const std::vector<double> heights = tf::layer_heights(ball.points, {}, 0.01);
+    const std::vector<double> heights = tf::oriented_plane{}.layer_heights(ball.points, 0.01);
     CHECK(heights.size() == 200);
     CHECK(heights[0] == doctest::Approx(-0.995));
     double volume = 0.0;
     for (const auto& layer : tf::section(ball, {}, heights).layers) volume += layer.area * 0.01;
     CHECK(volume == doctest::Approx(tf::signed_volume(ball)).epsilon(1e-4));
-    CHECK(tf::layer_heights({}, {}, 1.0).empty());
-    CHECK_THROWS_AS((void)tf::layer_heights(ball.points, {}, 0.0), std::invalid_argument);
-    CHECK_THROWS_AS((void)tf::layer_heights(ball.points, {}, 1e-9), std::invalid_argument);
+    CHECK(tf::oriented_plane{}.layer_heights({}, 1.0).empty());
+    CHECK_THROWS_AS((void)tf::oriented_plane{}.layer_heights(ball.points, 0.0),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::oriented_plane{}.layer_heights(ball.points, 1e-9),
+                    std::invalid_argument);
 }
 
 TEST_CASE("corners of equal coordinates are one, and coordinates may have any size") {

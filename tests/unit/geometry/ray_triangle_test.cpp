@@ -1,6 +1,6 @@
 #include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/geometry/contact_order.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

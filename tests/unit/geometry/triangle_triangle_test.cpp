@@ -1,5 +1,5 @@
 #include "support/reference_intersection.hpp"
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 /// \file
 /// Curves joined into paths: how many, closed or not, and named by what.
 
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -1,4 +1,4 @@
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -4,7 +4,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

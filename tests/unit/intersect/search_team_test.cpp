@@ -32,9 +32,9 @@ std::optional<tf::stream_search_result> search_as_team(const fs::path& path,
                                                        std::size_t size, std::size_t victim = 0,
                                                        int steps = 0) {
     std::optional<tf::stream_search_result> first;
-    const bool all_lived = test::run_as_team(size, [&](const tf::process_team& team) {
+    const bool all_lived = test::run_as_team(size, [&](const tf::communicator& team) {
         tf::stream_search_options options = asked;
-        options.team = team;
+        options.communicator = team;
         if (team.rank == victim && steps > 0)
             options.step_done = [left = steps]() mutable {
                 if (--left == 0) throw test::killed();

@@ -245,9 +245,9 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
                          doctest::Contains("only binary STL and PLY are searched in tiles"),
                          tf::io_error);
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(folder.path / "no.stl"), tf::io_error);
-    CHECK(tf::is_searched_in_tiles(path));
-    CHECK_FALSE(tf::is_searched_in_tiles(folder.path / "grid.obj"));
-    CHECK_THROWS_AS(static_cast<void>(tf::is_searched_in_tiles(folder.path / "no.stl")),
+    CHECK(tf::stream_search::accepts(path));
+    CHECK_FALSE(tf::stream_search::accepts(folder.path / "grid.obj"));
+    CHECK_THROWS_AS(static_cast<void>(tf::stream_search::accepts(folder.path / "no.stl")),
                     tf::io_error);
     fs::resize_file(path, fs::file_size(path) - 100);
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
@@ -266,7 +266,7 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
                            "property list uchar int vertex_indices\nelement vertex 3\n"
                            "property float x\nproperty float y\nproperty float z\nend_header\n"
                            "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n";
-    CHECK_FALSE(tf::is_searched_in_tiles(path));
+    CHECK_FALSE(tf::stream_search::accepts(path));
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
 }
 

@@ -1,8 +1,8 @@
 // 3MF: what is read of packages that others write, and that what we write reads back.
 
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 

@@ -37,7 +37,7 @@ std::string odd_lines(std::size_t count, test::random& random) {
 }
 
 std::vector<std::optional<io::record_index>> look(const std::vector<fs::path>& paths,
-                                                  const tf::process_team& team) {
+                                                  const tf::communicator& team) {
     const stream::communicator all(team);
     return stream::survey_records(paths, {}, all);
 }
@@ -80,7 +80,7 @@ TEST_CASE("shared records: many know of lines what one knows") {
             plain += !alone[i]->even && !alone[i]->hexadecimal ? 1 : 0;
         }
         for (const std::size_t size : {2U, 4U, 7U})
-            CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
+            CHECK(test::run_as_team(size, [&](const tf::communicator& team) {
                 const auto shared = look(paths, team);
                 for (std::size_t i = 0; i < paths.size(); ++i) {
                     REQUIRE(shared[i].has_value());
@@ -108,7 +108,7 @@ TEST_CASE(
         std::ofstream(path, std::ios::binary) << text + last;
     };
     for (const std::size_t size : {1U, 2U, 4U, 7U})
-        CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
+        CHECK(test::run_as_team(size, [&](const tf::communicator& team) {
             if (team.rank == 0) write("1 2 3 4,5\n1 2 3 1e999999x\n");
             if (size > 1) team.exchange({});
             CHECK(look({path}, team).front().has_value());
@@ -143,7 +143,7 @@ TEST_CASE("shared records: points with lists are found by many, each at its shar
         std::ofstream(path, std::ios::binary) << bytes;
         CHECK_FALSE(look({path}, {}).front().has_value());
         for (const std::size_t size : {2U, 4U, 7U})
-            CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
+            CHECK(test::run_as_team(size, [&](const tf::communicator& team) {
                 const auto known = look({path}, team).front();
                 REQUIRE(known.has_value());
                 CHECK(known->records == count);
@@ -167,7 +167,7 @@ TEST_CASE("shared records: points with lists are found by many, each at its shar
         if (count < 9000) continue;
         bytes[last_length] = '\xff';  // more than there is
         std::ofstream(path, std::ios::binary) << bytes.substr(0, points_end);
-        CHECK(test::run_as_team(4, [&](const tf::process_team& team) {
+        CHECK(test::run_as_team(4, [&](const tf::communicator& team) {
             CHECK_FALSE(look({path}, team).front().has_value());
         }));
     }

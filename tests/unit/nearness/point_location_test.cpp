@@ -2,7 +2,7 @@
 #include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

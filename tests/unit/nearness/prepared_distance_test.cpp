@@ -3,7 +3,7 @@
 #include <libmesh/nearness/closest_points.hpp>
 #include <libmesh/nearness/triangle_blocks.hpp>
 #include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

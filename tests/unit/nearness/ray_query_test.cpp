@@ -1,7 +1,7 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/intersect/ray_query.hpp>
-#include <treeform/mesh/raycast.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

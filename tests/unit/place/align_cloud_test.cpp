@@ -1,5 +1,5 @@
 #include <treeform/mesh/align.hpp>
-#include <treeform/mesh/raycast.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

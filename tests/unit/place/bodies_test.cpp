@@ -1,7 +1,7 @@
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/cut.hpp>
-#include <treeform/mesh/lay_flat.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/slide.hpp>
@@ -190,11 +190,11 @@ TEST_CASE("contact colors: a stored face has the gravest class of its triangles"
             found.push_back(rows->find("tf_class")->number(i));
         return found;
     };
-    tf::color_contacts(file, classes);
+    tf::contact_classes::color(file, classes);
     CHECK(numbers(file) == std::vector<double>{0, 2, 1, 0, 0, 0});
-    tf::color_contacts(picture, classes, {.split_polygons = true});
+    tf::contact_classes::color(picture, classes, {.split_polygons = true});
     CHECK(numbers(picture) == std::vector<double>{0, 0, 3, 2, 1, 0, 0, 0, 0, 0, 0, 0});
-    CHECK_THROWS_AS(tf::color_contacts(file, {}), std::invalid_argument);
+    CHECK_THROWS_AS(tf::contact_classes::color(file, {}), std::invalid_argument);
 }
 
 TEST_CASE("rounding effects: far away float32 folds what it has not folded before") {
@@ -234,7 +234,7 @@ TEST_CASE("bodies: what is around a contact has a tint, but no class") {
     classes[0] = tf::contact_class::touching;
     const auto yellow = [&](double halo) {
         tf::mesh_file colored = file;
-        tf::color_contacts(colored, classes, {.halo = halo});
+        tf::contact_classes::color(colored, classes, {.halo = halo});
         const tf::element* const rows = colored.attributes.find("face");
         REQUIRE(rows != nullptr);
         std::size_t tinted = 0, classed = 0;

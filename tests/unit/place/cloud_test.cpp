@@ -9,9 +9,9 @@
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -70,7 +70,7 @@ std::set<corner_set> corners_by_hull(const points& p, const tf::convex_hull_resu
     std::set<corner_set> sides;
     for (const tf::hull_side& side : hull.sides) {
         corner_set one;
-        for (const std::uint32_t i : tf::corners_of(hull, side, p)) one.insert(key(p[i]));
+        for (const std::uint32_t i : hull.corners_of(side, p)) one.insert(key(p[i]));
         CHECK(sides.insert(one).second);
     }
     return sides;
@@ -155,7 +155,7 @@ TEST_CASE("convex hull: a box has six sides of two triangles, measured exactly")
     for (const tf::hull_side& side : hull.sides) {
         areas.insert(side.area);
         CHECK(side.face_count == 2);
-        CHECK(tf::corners_of(hull, side, box.points).size() == 4);
+        CHECK(hull.corners_of(side, box.points).size() == 4);
         const auto& n = side.normal;
         CHECK(std::abs(n.x) + std::abs(n.y) + std::abs(n.z) == 1.0);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -200,7 +200,7 @@ TEST_CASE("convex hull: points in a plane have two sides of the same corners") {
         CHECK(truth.size() == 1);
         for (const tf::hull_side& side : hull.sides) {
             corner_set corners;
-            for (const std::uint32_t i : tf::corners_of(hull, side, p)) corners.insert(key(p[i]));
+            for (const std::uint32_t i : hull.corners_of(side, p)) corners.insert(key(p[i]));
             CHECK(truth.contains(corners));
         }
         for (std::size_t k = 0; k < 3; ++k)

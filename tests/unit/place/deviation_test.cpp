@@ -109,6 +109,18 @@ TEST_CASE("deviation: a file that repeats its corners is closed all the same") {
     CHECK(found.distances[0] == -0.25);
 }
 
+TEST_CASE("deviation: points of `b` that no face uses change nothing on the way back") {
+    const tf::mesh a = ball(2, 1.0), b = box(1, 1, 1);
+    tf::mesh more = b;
+    more.points.insert(more.points.begin(), 5, tf::point3{90, 0, 0});
+    for (tf::face& f : more.faces)
+        for (std::uint32_t& corner : f) corner += 5;
+    const auto expected = found_for(a, b), found = found_for(a, more);
+    REQUIRE((expected.back && found.back));
+    CHECK(found.back->sampled == expected.back->sampled);
+    CHECK(found.back->at_most == expected.back->at_most);
+}
+
 TEST_CASE("deviation: each distance and side is that of the point alone") {
     test::random source(1);
     const tf::mesh b = ball(4, 1.0);
@@ -237,13 +249,13 @@ TEST_CASE("deviation: distances come back to the points of the file, with colors
     REQUIRE(back.size() == file.mesh.points.size());
     for (std::size_t i = 0; i + 1 < back.size(); ++i) CHECK(back[i] == file.mesh.points[i].x - 0.5);
     CHECK(std::isnan(back.back()));
-    tf::color_distances(file, back, -0.5, 0.5);
+    tf::deviation_result::color(file, back, -0.5, 0.5);
     const tf::element* const rows = file.attributes.find("vertex");
     REQUIRE(rows != nullptr);
     const tf::column *const red = rows->find("red"), *const blue = rows->find("blue");
     for (std::size_t i = 0; i + 1 < back.size(); ++i)
         CHECK((red->number(i) > blue->number(i)) == (back[i] > 0.0));
     CHECK(red->number(back.size() - 1) == 128.0);
-    CHECK_THROWS_AS(tf::color_distances(file, distances, -1, 1), std::invalid_argument);
-    CHECK_THROWS_AS(tf::color_distances(file, back, 0.5, 1), std::invalid_argument);
+    CHECK_THROWS_AS(tf::deviation_result::color(file, distances, -1, 1), std::invalid_argument);
+    CHECK_THROWS_AS(tf::deviation_result::color(file, back, 0.5, 1), std::invalid_argument);
 }

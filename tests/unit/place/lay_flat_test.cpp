@@ -1,5 +1,5 @@
-#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

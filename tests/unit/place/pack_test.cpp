@@ -1,9 +1,9 @@
 #include <libmesh/base/max_displacement.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -7,7 +7,6 @@
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/convex_hull.hpp>
-#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/slide.hpp>

@@ -1,5 +1,5 @@
 #include <treeform/mesh/measure.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 #include <libmesh/base/max_displacement.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
@@ -24,9 +24,9 @@ namespace {
 using test::box;
 using test::moved;
 using test::still_parts;
+using tf::mesh_relation;
 using tf::placement_end;
 using tf::prepared_mesh;
-using tf::standing;
 
 const tf::point3 down{0.0, 0.0, -1.0};
 
@@ -53,8 +53,8 @@ TEST_CASE("slide: the first of several ends it, what is beside the way is not in
         CHECK(found.travel == 6.0 - clearance);
         CHECK(found.direction == down);
         CHECK(found.points == moved(box(6, 1, 1), {0, 0, 3.0 + clearance}).points);
-        CHECK(found.at_start == (clearance > 0.0 ? standing::clear : standing::separate));
-        CHECK(found.at_place == (clearance > 0.0 ? standing::clear : standing::touching));
+        CHECK(found.at_start == (clearance > 0.0 ? mesh_relation::clear : mesh_relation::separate));
+        CHECK(found.at_place == (clearance > 0.0 ? mesh_relation::clear : mesh_relation::touching));
         for (const auto& c : found.contacts) {
             CHECK((c.fixed == 1 || c.fixed == 2));
             CHECK(c.point.z == 3.0);
@@ -79,7 +79,7 @@ TEST_CASE("slide: what touches stays, what penetrates or is too near has no plac
     const auto stays = tf::slide(on, floor, down);
     CHECK(stays.end == placement_end::stays);
     CHECK(stays.points == on.points);
-    CHECK(stays.at_place == standing::touching);
+    CHECK(stays.at_place == mesh_relation::touching);
     CHECK(stays.contact_count > 0);
     CHECK(tf::slide(on, floor, down, {.clearance = 0.5}).end == placement_end::starts_touching);
     const auto in = tf::slide(moved(on, {0, 0, -0.5}), floor, down);
@@ -263,7 +263,7 @@ TEST_CASE(
     const prepared_mesh floor(box(2, 2, 1)), turned(test::inside_out(box(2, 2, 1)));
     const auto at = tf::measure_among(a, floor), same = tf::measure_among(a, turned);
     REQUIRE(at.contacts.size() == same.contacts.size());
-    CHECK(at.at_place == tf::standing::penetrating);
+    CHECK(at.at_place == tf::mesh_relation::penetrating);
     CHECK(same.at_place == at.at_place);
     for (std::size_t i = 0; i < at.contacts.size(); ++i)
         CHECK(same.contacts[i].normal == at.contacts[i].normal);
@@ -275,7 +275,7 @@ TEST_CASE("contacts are classified as the faces lie at the place") {
     const auto classes_at = [&](double z, double clearance) {
         const prepared_mesh a(moved(box(1, 1, 1), {1.25, 1.5, z}));
         const auto at = tf::measure_among(a, floor, {.clearance = clearance});
-        auto found = tf::classify_contacts(a, floor, at);
+        auto found = tf::contact_classes::of(a, floor, at);
         if (found.fixed[0].empty()) found.fixed[0].resize(1);
         return std::pair(*std::max_element(found.moving.begin(), found.moving.end()),
                          *std::max_element(found.fixed[0].begin(), found.fixed[0].end()));

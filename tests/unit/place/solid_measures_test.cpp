@@ -7,7 +7,7 @@
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <doctest/doctest.h>
 #include <support/random.hpp>

@@ -5,7 +5,7 @@
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/sweep.hpp>
+#include <treeform/tree/ray.hpp>
 
 #include <doctest/doctest.h>
 #include <support/solids.hpp>

@@ -1,9 +1,9 @@
 /// \file
 /// Holes, cracks and edges that do not fit: what repair fills.
 
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 #include <libmesh/base/max_displacement.hpp>
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

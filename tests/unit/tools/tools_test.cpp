@@ -91,8 +91,8 @@ TEST_CASE("sha256: of files, read by any number of processes") {
     for (const std::size_t size : {1U, 2U, 3U, 7U}) {
         CAPTURE(size);
         std::vector<std::vector<std::string>> found(size);
-        CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
-            tools::tile_options tiles{.team = team};
+        CHECK(test::run_as_team(size, [&](const tf::communicator& team) {
+            tools::tile_options tiles{.communicator = team};
             found[team.rank] = tools::digests_for_report(paths, tiles);
             CHECK(found[team.rank] == std::vector<std::string>(paths.size()));
             tiles.report = "report.json";

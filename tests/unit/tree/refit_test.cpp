@@ -2,10 +2,10 @@
 /// New boxes for an old tree, against trees that are built.
 
 #include <treeform/tf.hpp>
+#include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/refit.hpp>
 #include <treeform/tree/search.hpp>
-#include <treeform/tree/validate.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -1,8 +1,9 @@
 #include "support/random.hpp"
 #include <libtree/paper/medians.hpp>
+#include <libtree/paper/selections.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/strategy/select.hpp>
+#include <treeform/tree/strategy.hpp>
 
 #include <doctest/doctest.h>
 

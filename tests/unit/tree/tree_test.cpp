@@ -3,8 +3,7 @@
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/search_self.hpp>
-#include <treeform/tree/validate.hpp>
+#include <treeform/tree/search.hpp>
 
 #include <doctest/doctest.h>
 #include <support/box_families.hpp>

@@ -104,10 +104,10 @@ TEST_CASE("mesh tiles: what is not written in tiles, and who does not") {
     const test::own_folder here("mesh_tiles_refused");
     const fs::path in = here.path / "in.ply";
     tf::write(in, soup(5));
-    const tf::cloud_outline outline = tf::outline({.paths = {in}});
+    const tf::cloud_outline outline = tf::cloud_inputs{.paths = {in}}.outline();
     CHECK(outline.has_rows);
     CHECK(outline.header.attributes.find("face")->rows == 25);
-    CHECK_THROWS_AS(static_cast<void>(tf::outline({.paths = {in, in}})), tf::io_error);
+    CHECK_THROWS_AS(static_cast<void>(tf::cloud_inputs{.paths = {in, in}}.outline()), tf::io_error);
     CHECK_THROWS_AS(tf::weld_stream(in, here.path / "out.xyz", {}), tf::io_error);
     CHECK_FALSE(fs::exists(here.path / "out.xyz"));
 }
@@ -138,9 +138,9 @@ void check_teams(const fs::path& in, const fs::path& out, const tf::weld_stream_
     for (const std::size_t size : {2U, 4U, 7U}) {
         CAPTURE(size);
         std::vector<tf::weld_stream_result> made(size);
-        CHECK(test::run_as_team(size, [&](const tf::process_team& team) {
+        CHECK(test::run_as_team(size, [&](const tf::communicator& team) {
             tf::weld_stream_options mine = options;
-            mine.team = team;
+            mine.communicator = team;
             made[team.rank] = tf::weld_stream(in, out, mine);
         }));
         CHECK(bytes_of(out) == expected);
@@ -222,9 +222,9 @@ TEST_CASE("mesh tiles: a damaged face is told of as by one, whoever reads it") {
     const std::size_t first = whole.size() - 13 * file.mesh.faces.size();
     const auto error_of = [&](std::size_t size) -> std::string {
         try {
-            test::run_as_team(size, [&](const tf::process_team& team) {
+            test::run_as_team(size, [&](const tf::communicator& team) {
                 tf::weld_stream_options options;
-                options.team = team;
+                options.communicator = team;
                 static_cast<void>(tf::weld_stream(path, here.path / "out.ply", options));
             });
         } catch (const tf::io_error& error) {
@@ -250,7 +250,7 @@ TEST_CASE("edge files: edges of more than two faces, with little memory") {
     const test::own_folder here("edge_files");
     const stream::work_folder folder(here.path / "work", "test");
     stream::cancellable_progress pace({});
-    const stream::communicator alone{tf::process_team{}};
+    const stream::communicator alone{tf::communicator{}};
     test::random random(2);
     for (const std::uint32_t points : {3U, 40U, 2000U}) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
@@ -286,7 +286,7 @@ TEST_CASE("edge files: of a team, each writes its uses, and counts a share of al
     std::uint64_t expected = 0;
     for (const auto& [edge, n] : uses) expected += n > 2 ? 1 : 0;
     std::vector<std::uint64_t> counted(size);
-    CHECK(test::run_as_team(size, [&](const tf::process_team& some) {
+    CHECK(test::run_as_team(size, [&](const tf::communicator& some) {
         const stream::communicator all(some);
         stream::cancellable_progress pace({});
         stream::edge_files<stream::numbered_edge> files(folder, all, "edges", 60000, 1 << 20);

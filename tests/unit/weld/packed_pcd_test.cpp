@@ -61,7 +61,7 @@ std::set<std::string> unpack(const fs::path& pcd, const fs::path& to, std::size_
     std::mutex one_at_a_time;
     std::set<std::string> said;
     std::size_t ended = 0;
-    CHECK(test::run_as_team(size, [&](const tf::process_team& threads) {
+    CHECK(test::run_as_team(size, [&](const tf::communicator& threads) {
         const stream::communicator all(threads);
         stream::cancellable_progress pace({});
         if (all.is_root()) put(to, "");
@@ -98,9 +98,9 @@ struct packing_job {
 /// One is killed after so many steps, if any. Returns whether all have come to the end.
 bool packed_as_team(const packing_job& work, std::size_t size, std::size_t victim = 0,
                     int steps = 0) {
-    return test::run_as_team(size, [&](const tf::process_team& team) {
+    return test::run_as_team(size, [&](const tf::communicator& team) {
         tf::weld_stream_options options = work.options;
-        options.team = team;
+        options.communicator = team;
         if (team.rank == victim && steps > 0)
             options.step_done = [left = steps]() mutable {
                 if (--left == 0) throw test::killed();
@@ -244,7 +244,7 @@ TEST_CASE("packed_pcd: one damaged input is named, and nothing stays") {
     work.options.folder = folder.path / "work";
     work.outputs.welded = {folder.path / "welded.pcd", {}};
     // The header says all that there is to know before: it is not unpacked for that.
-    CHECK(tf::outline(work.inputs).points == 1800);
+    CHECK(work.inputs.outline().points == 1800);
     for (const std::size_t size : {1U, 4U}) {
         std::string said;
         try {

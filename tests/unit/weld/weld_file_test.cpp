@@ -1,6 +1,6 @@
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>

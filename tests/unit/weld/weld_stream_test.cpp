@@ -110,7 +110,7 @@ TEST_CASE("weld_stream: a relative tolerance is a share of the diagonal") {
 TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the next call goes on") {
     const stream_folder folder(1500);
     const auto whole = tf::weld(folder.points(), {.tolerance = 0.02});
-    for (const char* const at : {"look", "scatter", "weld", "borders", "write"}) {
+    for (const char* const at : {"survey", "scatter", "weld", "borders", "write"}) {
         CAPTURE(at);
         tf::weld_stream_outputs outputs;
         outputs.welded = {folder.output(), {}};
@@ -120,7 +120,7 @@ TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the nex
         };
         CHECK(tf::weld_stream(folder.inputs(), outputs, options).status == tf::status::cancelled);
         CHECK_FALSE(fs::exists(folder.output()));
-        const bool has_tiles = at != std::string("look") && at != std::string("scatter");
+        const bool has_tiles = at != std::string("survey") && at != std::string("scatter");
         CHECK(fs::exists(folder.work()) == has_tiles);
         options.progress = {};
         const auto again = tf::weld_stream(folder.inputs(), outputs, options);

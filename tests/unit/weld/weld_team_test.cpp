@@ -59,9 +59,9 @@ tf::weld_stream_result weld_alone(const job& work) {
 std::optional<tf::weld_stream_result> weld_as_team(const job& work, std::size_t size,
                                                    std::size_t victim = 0, int steps = 0) {
     std::optional<tf::weld_stream_result> first;
-    const bool all_lived = test::run_as_team(size, [&](const tf::process_team& team) {
+    const bool all_lived = test::run_as_team(size, [&](const tf::communicator& team) {
         tf::weld_stream_options options = work.options;
-        options.team = team;
+        options.communicator = team;
         if (team.rank == victim && steps > 0)
             options.step_done = [left = steps]() mutable {
                 if (--left == 0) throw killed();
@@ -79,7 +79,7 @@ tf::weld_stream_result weld_shared(const job& work, test::random& random) {
     std::size_t tiles = 0;
     for (int twice = 0; twice < 2; ++twice) {
         tf::stream_weld one(work.inputs, options);
-        CHECK(one.look() == tf::status::ok);
+        CHECK(one.take_survey() == tf::status::ok);
         CHECK(one.scatter() == tf::status::ok);
         tiles = one.survey().tiles;
     }
@@ -94,7 +94,7 @@ tf::weld_stream_result weld_shared(const job& work, test::random& random) {
         });
     for (std::thread& t : threads) t.join();
     tf::stream_weld last(work.inputs, options);
-    CHECK(last.look() == tf::status::ok);
+    CHECK(last.take_survey() == tf::status::ok);
     CHECK(last.weld() == tf::status::ok);
     CHECK(last.write(work.outputs()) == tf::status::ok);
     last.remove_folder();
@@ -484,7 +484,7 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
     CHECK_FALSE(fs::exists(work.options.folder));
     {
         tf::stream_weld one(work.inputs, work.options);
-        REQUIRE(one.look() == tf::status::ok);
+        REQUIRE(one.take_survey() == tf::status::ok);
         CHECK(has(says([&] { tf::stream_weld(work.inputs, work.options); }), "is in use"));
         REQUIRE(one.scatter() == tf::status::ok);
         CHECK_THROWS_AS(static_cast<void>(one.weld_tile(one.survey().tiles)), std::out_of_range);
@@ -492,5 +492,6 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
     }
     work.options.tolerance = 0.06;
     tf::stream_weld other(work.inputs, work.options);
-    CHECK(has(says([&] { static_cast<void>(other.look()); }), "holds tiles of another input"));
+    CHECK(
+        has(says([&] { static_cast<void>(other.take_survey()); }), "holds tiles of another input"));
 }

@@ -45,7 +45,7 @@ void glue::fill(keeper&, const tf::contact_region& from, treeform_contact_region
 void glue::fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& to) {
     to.a = from.a;
     to.b = from.b;
-    to.how = static_cast<treeform_standing>(from.how);
+    to.how = static_cast<treeform_mesh_relation>(from.how);
     to.a_inside_b = from.a_inside_b;
     to.b_inside_a = from.b_inside_a;
     to.distance = from.distance;

@@ -113,7 +113,7 @@ treeform_code treeform_layer_heights(const treeform_mesh* mesh, const treeform_p
                                      double thickness, treeform_heights** heights) {
     return glue::guard([&] {
         glue::start(heights);
-        return glue::give(tf::layer_heights(glue::view(mesh).points, glue::plane(plane), thickness),
+        return glue::give(glue::plane(plane).layer_heights(glue::view(mesh).points, thickness),
                           heights);
     });
 }

@@ -1,5 +1,5 @@
 // Made by tools/bindings of intersections.h and the headers of C++: see its README.
-#include <treeform/mesh/curves.hpp>
+#include <treeform/mesh/intersections.hpp>
 
 #include <tools/c/made/structs.hpp>
 
@@ -130,7 +130,7 @@ tf::stream_search_options glue::read(const treeform_search_file_options& o) {
     how.memory = o.memory;
     how.folder = text(o.folder);
     how.faces_per_tile = o.faces_per_tile;
-    how.team = team(o.team);
+    how.communicator = communicator_of(o.communicator);
     how.progress = step_progress(o);
 
     return how;
@@ -238,6 +238,7 @@ treeform_code treeform_self_intersections_of_file(const char* path,
 treeform_code treeform_is_searched_in_tiles(const char* path, const char* format, int32_t* is) {
     return glue::guard([&] {
         (void)glue::need(is, "is");
-        *is = tf::is_searched_in_tiles(std::string(&glue::need(path, "path")), glue::text(format));
+        *is =
+            tf::stream_search::accepts(std::string(&glue::need(path, "path")), glue::text(format));
     });
 }

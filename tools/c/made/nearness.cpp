@@ -9,11 +9,11 @@ namespace tf = treeform;
 static_assert(TREEFORM_OUTSIDE == static_cast<int>(tf::location::outside));
 static_assert(TREEFORM_INSIDE == static_cast<int>(tf::location::inside));
 static_assert(TREEFORM_BOUNDARY == static_cast<int>(tf::location::boundary));
-static_assert(TREEFORM_SEPARATE == static_cast<int>(tf::standing::separate));
-static_assert(TREEFORM_MEETING == static_cast<int>(tf::standing::touching));
-static_assert(TREEFORM_PENETRATING == static_cast<int>(tf::standing::penetrating));
-static_assert(TREEFORM_TOO_CLOSE == static_cast<int>(tf::standing::closer_than_clearance));
-static_assert(TREEFORM_CLEAR == static_cast<int>(tf::standing::clear));
+static_assert(TREEFORM_SEPARATE == static_cast<int>(tf::mesh_relation::separate));
+static_assert(TREEFORM_MEETING == static_cast<int>(tf::mesh_relation::touching));
+static_assert(TREEFORM_PENETRATING == static_cast<int>(tf::mesh_relation::penetrating));
+static_assert(TREEFORM_TOO_CLOSE == static_cast<int>(tf::mesh_relation::closer_than_clearance));
+static_assert(TREEFORM_CLEAR == static_cast<int>(tf::mesh_relation::clear));
 
 static_assert(sizeof(treeform_hit) == sizeof(tf::mesh_hit));
 static_assert(offsetof(treeform_hit, face) == offsetof(tf::mesh_hit, face));
@@ -43,7 +43,7 @@ void treeform_measure_options_init(treeform_measure_options* options, size_t siz
 }
 
 void glue::fill(keeper&, const tf::mesh_measure& from, treeform_relation& to) {
-    to.how = static_cast<treeform_standing>(from.relation.relation);
+    to.how = static_cast<treeform_mesh_relation>(from.relation.relation);
     to.face_a = from.relation.face_a;
     to.face_b = from.relation.face_b;
     to.a_inside_b = from.relation.a_inside_b;
@@ -158,10 +158,10 @@ treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
 }
 
 treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
-                              treeform_vertices vertices, treeform_standing* how) {
+                              treeform_vertices vertices, treeform_mesh_relation* how) {
     return glue::guard([&] {
         (void)glue::need(how, "how");
-        *how = static_cast<treeform_standing>(
+        *how = static_cast<treeform_mesh_relation>(
             tf::relation(glue::ref(a, "a"), glue::ref(b, "b"),
                          {.vertices = glue::choice<tf::vertex_identity>(vertices, 2, "vertices")})
                 .relation);

@@ -60,8 +60,8 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
     to.bed = from.bed.value_or(not_known);
     to.below_bed = from.below_bed;
     to.on_bed = from.on_bed;
-    to.at_start = static_cast<treeform_standing>(from.at_start);
-    to.at_place = static_cast<treeform_standing>(from.at_place);
+    to.at_start = static_cast<treeform_mesh_relation>(from.at_start);
+    to.at_place = static_cast<treeform_mesh_relation>(from.at_place);
     to.nearest_fixed =
         from.nearest ? static_cast<std::uint32_t>(from.nearest->fixed) : TREEFORM_NONE;
     if (from.nearest) to.nearest = &filled<treeform_relation>(kept, from.nearest->how);

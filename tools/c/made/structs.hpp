@@ -10,21 +10,18 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/convex_hull.hpp>
-#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/raycast.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/rounding.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/simplify.hpp>
@@ -33,7 +30,6 @@
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/weld_stream.hpp>
-#include <treeform/mesh/wrap.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <tools/c/glue.hpp>

@@ -101,7 +101,7 @@ py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double
 }  // namespace
 
 void add_assembly(py::module_& module) {
-    module.attr("STANDINGS") = py::cast(words_of<tf::standing>::all);
+    module.attr("RELATIONS") = py::cast(words_of<tf::mesh_relation>::all);
     module.def("clash", &clash);
     module.def("check_poses", &check_poses);
     module.def("intersects", &intersects);

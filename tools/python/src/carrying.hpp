@@ -5,7 +5,7 @@
 #include "held_mesh.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <pybind11/pybind11.h>
 

@@ -4,7 +4,6 @@
 
 #include "arrays.hpp"
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 
 #include <pybind11/pybind11.h>
 

@@ -3,7 +3,6 @@
 #include "job.hpp"
 #include "made/made.hpp"
 #include "steps.hpp"
-#include <treeform/mesh/curves.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
@@ -39,9 +38,10 @@ std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::
 }
 
 py::object self_intersections_of_file(const std::filesystem::path& path,
-                                      tf::stream_search_options options, const py::object& team) {
-    options.team = team_of(team);
-    const at_work here(team);
+                                      tf::stream_search_options options,
+                                      const py::object& communicator) {
+    options.communicator = communicator_of(communicator);
+    const at_work here(communicator);
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(step == "scatter" ? share / 2 : 0.5 + share / 2);

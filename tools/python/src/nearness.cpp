@@ -5,7 +5,6 @@
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/raycast.hpp>
 
 #include <pybind11/stl.h>
 

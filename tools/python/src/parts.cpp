@@ -1,6 +1,6 @@
 #include "parts.hpp"
 
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <string>
 

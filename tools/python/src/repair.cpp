@@ -4,10 +4,10 @@
 #include "job.hpp"
 #include "words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/rounding.hpp>
-#include <treeform/mesh/wrap.hpp>
 
 #include <pybind11/stl.h>
 

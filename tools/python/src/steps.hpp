@@ -3,7 +3,7 @@
 /// Work in a folder that is done step by step, as a job each.
 
 #include "job.hpp"
-#include <treeform/mesh/process_team.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <pybind11/stl.h>
 
@@ -19,41 +19,41 @@
 
 namespace binding {
 
-/// The team of (rank, size, exchange) as Python has it, or one that is alone for None. Its copies may go
+/// The communicator of (rank, size, exchange) as Python has it, or one that is alone for None. Its copies may go
 /// without the interpreter's lock as long as the first one stays.
-inline treeform::process_team team_of(const py::object& team) {
-    treeform::process_team made;
-    if (team.is_none()) return made;
-    made.rank = team.attr("rank").cast<std::size_t>();
-    made.size = team.attr("size").cast<std::size_t>();
-    made.exchange =
-        [all = std::make_shared<py::object>(team.attr("exchange"))](const std::string& told) {
-            std::vector<std::string> heard;
-            with_lock([&] { heard = (*all)(py::bytes(told)).cast<std::vector<std::string>>(); });
-            return heard;
-        };
+inline treeform::communicator communicator_of(const py::object& communicator) {
+    treeform::communicator made;
+    if (communicator.is_none()) return made;
+    made.rank = communicator.attr("rank").cast<std::size_t>();
+    made.size = communicator.attr("size").cast<std::size_t>();
+    made.exchange = [all = std::make_shared<py::object>(communicator.attr("exchange"))](
+                        const std::string& told) {
+        std::vector<std::string> heard;
+        with_lock([&] { heard = (*all)(py::bytes(told)).cast<std::vector<std::string>>(); });
+        return heard;
+    };
     return made;
 }
 
-/// Tells a team that this process is at work, and when no more, however that ends: a call that was
+/// Tells a communicator that this process is at work, and when no more, however that ends: a call that was
 /// interrupted may have been left by then.
 class at_work {
   public:
-    explicit at_work(const py::object& team) : team_(team) {
-        if (!team_.is_none()) team_.attr("begin")();
+    explicit at_work(const py::object& communicator) : all_(communicator) {
+        if (!all_.is_none()) all_.attr("begin")();
     }
     at_work(const at_work&) = delete;
     at_work& operator=(const at_work&) = delete;
     ~at_work() {
         try {
-            if (!team_.is_none()) team_.attr("end")();
+            if (!all_.is_none()) all_.attr("end")();
         } catch (py::error_already_set& error) {
             error.discard_as_unraisable("treeform");
         }
     }
 
   private:
-    const py::object& team_;
+    const py::object& all_;
 };
 
 /// What reports the progress of the step that is done now.

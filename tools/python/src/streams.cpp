@@ -24,7 +24,8 @@ namespace {
 
 /// The share of all steps that is done.
 double whole_share(std::string_view step, double share) {
-    constexpr std::array<std::string_view, 5> steps{"look", "scatter", "weld", "borders", "write"};
+    constexpr std::array<std::string_view, 5> steps{"survey", "scatter", "weld", "borders",
+                                                    "write"};
     for (std::size_t i = 0; i < steps.size(); ++i)
         if (step == steps[i]) return (static_cast<double>(i) + share) / steps.size();
     return 0.0;
@@ -58,10 +59,10 @@ tf::weld_stream_outputs outputs_of(const std::filesystem::path& output, const st
 
 py::object weld_stream(const stream_settings& settings, const std::filesystem::path& output,
                        const std::string& removed, const std::string& label, bool withhold,
-                       const py::object& team) {
+                       const py::object& communicator) {
     tf::weld_stream_options options = settings.options;
-    options.team = team_of(team);
-    const at_work here(team);
+    options.communicator = communicator_of(communicator);
+    const at_work here(communicator);
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(whole_share(step, share));
@@ -77,21 +78,21 @@ struct shared_weld {
     tf::stream_weld work;
     bool looked = false;
 
-    [[nodiscard]] tf::status look() {
+    [[nodiscard]] tf::status take_survey() {
         if (looked) return tf::status::ok;
-        const tf::status ended = work.look();
+        const tf::status ended = work.take_survey();
         looked = ended == tf::status::ok;
         return ended;
     }
     /// The number of tiles.
     [[nodiscard]] std::size_t scatter() {
-        if (look() != tf::status::ok || work.scatter() != tf::status::ok) return 0;
+        if (take_survey() != tf::status::ok || work.scatter() != tf::status::ok) return 0;
         return work.survey().tiles;
     }
     [[nodiscard]] tf::weld_stream_result finish(const tf::weld_stream_outputs& outputs) {
         work.check_tiles();
         tf::weld_stream_result result;
-        result.status = look();
+        result.status = take_survey();
         if (result.status == tf::status::ok) result.status = work.weld();
         if (result.status == tf::status::ok) result.status = work.write(outputs);
         result.survey = work.survey();

@@ -4,7 +4,7 @@
 
 #include "arrays.hpp"
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <cstddef>
 #include <stdexcept>

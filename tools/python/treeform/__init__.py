@@ -12,7 +12,7 @@ given; what operations return has been checked in the numbers returned.
 
 from . import _core, _exit
 from ._arrays import NONE
-from ._assembly import (STANDINGS, ClashResult, NearestPoints, PartClash, PoseClashes, check_poses,
+from ._assembly import (RELATIONS, ClashResult, NearestPoints, PartClash, PoseClashes, check_poses,
                         clash, closest_points, distance, intersects)
 from ._attributes import Attributes
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
@@ -61,7 +61,7 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
            "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash", "Picture",
            "Placement", "PointTree", "PoseClashes", "RayHits", "Region", "RepairResult",
-           "ResolveResult", "Robot", "STANDINGS", "SearchEffort", "Section", "SectionLoop",
+           "ResolveResult", "Robot", "RELATIONS", "SearchEffort", "Section", "SectionLoop",
            "SimplifyResult", "SolidDefects", "StreamSearch", "StreamWeld", "Thickness",
            "Topology", "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "align",
            "boolean", "check_poses", "check_solid", "clash", "clip", "closest_point",

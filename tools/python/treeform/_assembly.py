@@ -17,11 +17,11 @@ from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
 
-__all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "STANDINGS", "check_poses",
+__all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATIONS", "check_poses",
            "clash", "closest_points", "distance", "intersects"]
 
 #: How two parts lie to each other; a number in `PoseClashes.how` is a place in this list.
-STANDINGS = tuple(_core.STANDINGS)
+RELATIONS = tuple(_core.RELATIONS)
 
 
 def _poses(values: ArrayLike | None, name: str) -> Floats:
@@ -244,7 +244,7 @@ class PoseClashes(Result):
 
     pose: (n,) the pose, ascending.
     parts: (n, 2) the parts, the lower number first.
-    how: (n,) uint8: how they lie, a place in `STANDINGS`.
+    how: (n,) uint8: how they lie, a place in `RELATIONS`.
     distance: (n,) of those that are closer than the clearance; else 0.
     clashing: Poses with a pair that penetrates or is too close.
     """
@@ -259,8 +259,8 @@ class PoseClashes(Result):
     def in_collision(self, poses: int) -> NDArray[np.bool_]:
         """(poses,) bool: whether something penetrates or is too close in each pose."""
         bad = np.zeros(poses, np.bool_)
-        bad[self.pose[np.isin(self.how, [STANDINGS.index("penetrating"),
-                                         STANDINGS.index("closer_than_clearance")])]] = True
+        bad[self.pose[np.isin(self.how, [RELATIONS.index("penetrating"),
+                                         RELATIONS.index("closer_than_clearance")])]] = True
         return bad
 
 
@@ -280,7 +280,7 @@ def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
     >>> poses = np.tile(np.eye(4), (3, 2, 1, 1))
     >>> poses[:, 1, 0, 3] = [0.5, 1.0, 1.5]
     >>> found = treeform.check_poses([cube, cube], poses)
-    >>> [(int(p), treeform.STANDINGS[h]) for p, h in zip(found.pose, found.how)]
+    >>> [(int(p), treeform.RELATIONS[h]) for p, h in zip(found.pose, found.how)]
     [(0, 'penetrating'), (1, 'touching')]
     >>> found.in_collision(3)
     array([ True, False, False])

@@ -26,7 +26,7 @@ Same = list[tuple[str, float]]
 
 KINDS: list[str]
 PICTURE_SIDES: tuple[int, int]
-STANDINGS: list[str]
+RELATIONS: list[str]
 VIEWS: list[str]
 
 class Certificate:
@@ -218,7 +218,7 @@ def intersects(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats,
                progress: Watched = ...) -> Bytes: ...
 def distance(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats, radius: float,
              progress: Watched = ...) -> Floats: ...
-def self_intersections_of_file(path: str, options: StreamSearchOptions, team: Any,
+def self_intersections_of_file(path: str, options: StreamSearchOptions, communicator: Any,
                                progress: Watched = ...) -> FilePairs: ...
 def search_of(path: str, options: StreamSearchOptions, progress: Watched = ...) -> SearchInSteps: ...
 def group_pairs(mesh: HeldMesh, pairs: Ids, kinds: Bytes,
@@ -236,7 +236,7 @@ def weld_mesh(mesh: HeldMesh, data: Optional[FileData], options: WeldOptions, la
 def weld_cloud(points: Floats, data: Optional[FileData], options: WeldOptions, label: Ids,
                progress: Watched = ...) -> WeldResult: ...
 def weld_stream(settings: StreamSettings, output: str, removed: str, label: str, withhold: bool,
-                team: Any, progress: Watched = ...) -> WeldStreamResult: ...
+                communicator: Any, progress: Watched = ...) -> WeldStreamResult: ...
 def turn(moving: HeldMesh, fixed: list[HeldMesh], axis: Floats, origin: Floats,
          options: TurnOptions, progress: Watched = ...) -> Placement: ...
 def mate_features(moving: HeldMesh, fixed: list[HeldMesh], kind: str, origin: Floats,

@@ -15,7 +15,7 @@ from ._files import Path, path_of
 from ._mesh import Mesh, MeshLike, held
 from ._progress import Progress
 from ._results import Result
-from ._steps import InSteps, Team, in_team
+from ._steps import Communicator, InSteps, in_communicator
 
 __all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "StreamSearch", "faces_in_box",
            "intersection_curves", "intersection_regions", "mesh_intersections",
@@ -145,7 +145,8 @@ def _search_options(arguments: dict[str, Any]) -> _core.StreamSearchOptions:
 def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None,
                                vertices: str | None = None, format: str = "", memory: int = 0,
                                folder: Path = "", faces_per_tile: int = 0,
-                               team: Team | None = None, progress: Progress = None) -> FilePairs:
+                               communicator: Communicator | None = None,
+                               progress: Progress = None) -> FilePairs:
     """The same for a file that may be larger than memory: binary STL, and PLY whose vertices come
     ahead of its faces. Space is cut into tiles on the disk.
 
@@ -153,7 +154,7 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     memory: bytes that the process may take; 0: three quarters of the machine's.
     folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
     faces_per_tile: at most about so many; 0: as the memory allows.
-    team: processes that do it together, as for `weld_stream`; the first one gets the result, all
+    communicator: ranks that do it together, as for `weld_stream`; the first one gets the result, all
     others an empty one.
 
     Raises FileError, ValueError.
@@ -164,7 +165,7 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     (78, (78, 2))
     """
     how = _search_options(locals())
-    return in_team(team, lambda all: _core.self_intersections_of_file(
+    return in_communicator(communicator, lambda all: _core.self_intersections_of_file(
         path_of(path), how, all, progress=progress))
 
 

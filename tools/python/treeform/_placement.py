@@ -506,7 +506,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
 # made of results:
 #   penetration_depth_result
 class Depth(NamedTuple):
-    """A way out.
+    """The move apart that was found.
 
     depth: The length of `move`, rounded.
     move: (3,) Adding this to every point of `a`, each coordinate rounded, takes `a` out of `b`:

@@ -1,4 +1,4 @@
-"""Work that many processes do in a folder that they share: step by step, or as a team."""
+"""Work that many processes do in a folder that they share: step by step, or with a communicator."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from ._errors import Cancelled, Error
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = ["InSteps", "Team", "in_team"]
+__all__ = ["InSteps", "Communicator", "in_communicator"]
 
 
-class Team(Protocol):
+class Communicator(Protocol):
     """Processes that work together, such as `mpi4py.MPI.COMM_WORLD`."""
 
     @property
@@ -31,10 +31,11 @@ _Made = TypeVar("_Made")
 
 
 class _Members:
-    """A team whose members learn that one has failed, with the next that they tell each other."""
+    """A communicator whose ranks learn at the next collective call that one has failed."""
 
-    def __init__(self, team: Team) -> None:
-        self.rank, self.size, self._all = team.rank, team.size, team.allgather
+    def __init__(self, communicator: Communicator) -> None:
+        self.rank, self.size = communicator.rank, communicator.size
+        self._all = communicator.allgather
         self._failed = False
         self._ended = threading.Event()
         self._ended.set()
@@ -63,13 +64,14 @@ class _Members:
             self._all((b"", fault))
 
 
-def in_team(team: Team | None, work: Callable[[_Members | None], _Made]) -> _Made:
+def in_communicator(communicator: Communicator | None,
+                    work: Callable[[_Members | None], _Made]) -> _Made:
     """`work(members)`: what it returns, once all have come so far; where one fails, all do."""
-    if team is None:
+    if communicator is None:
         return work(None)
-    if not all(hasattr(team, name) for name in ("rank", "size", "allgather")):
-        raise ValueError(f"team: {team!r} has no rank, size and allgather")
-    members = _Members(team)
+    if not all(hasattr(communicator, name) for name in ("rank", "size", "allgather")):
+        raise ValueError(f"communicator: {communicator!r} has no rank, size and allgather")
+    members = _Members(communicator)
     try:
         made = work(members)
     except (Cancelled, KeyboardInterrupt):

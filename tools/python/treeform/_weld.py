@@ -16,7 +16,7 @@ from ._files import Columns, Path, named_columns, path_of
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
 from ._results import Result
-from ._steps import InSteps, Team, in_team
+from ._steps import Communicator, InSteps, in_communicator
 
 __all__ = ["StreamWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal", "weld",
            "weld_stream"]
@@ -173,7 +173,8 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
                 keep_degenerate: bool = False, as_las: bool = False, removed: Path = "",
                 label: str = "", withhold: bool = False, memory: int = 0, folder: Path = "",
                 points_per_tile: int = 0, columns: Columns | None = None, mixed: bool = False,
-                team: Team | None = None, progress: Progress = None) -> WeldStreamResult:
+                communicator: Communicator | None = None,
+                progress: Progress = None) -> WeldStreamResult:
     """Welds clouds, or a mesh, that may be larger than memory, from files to a file, with the same
     bytes as `weld` of the whole.
 
@@ -188,9 +189,9 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     empty: beside the first input. Where a run was killed, the same call goes on.
     columns: as for `read`. mixed: LAS files may have other reference systems or time types than the
     first, whose are written.
-    team: processes that do it together, each its share, in a folder that all see: anything with
+    communicator: ranks that do it together, each its share, in a folder that all see: anything with
     `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where one
-    fails or is interrupted, all raise once each has come to where they tell each other something.
+    fails or is interrupted, all raise at the next collective call.
     rule, keep, keep_by, order, order_by, same, keep_seams, across, keep_degenerate: as for `weld`.
 
     Raises FileError, ValueError.
@@ -204,7 +205,7 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     (3, 2)
     """
     how = _settings(locals())
-    return in_team(team, lambda all: _core.weld_stream(
+    return in_communicator(communicator, lambda all: _core.weld_stream(
         how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
         progress=progress))
 

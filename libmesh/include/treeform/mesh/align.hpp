@@ -6,10 +6,9 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <array>
 #include <cstddef>
@@ -31,18 +30,19 @@ enum class align_method : std::uint8_t {
     automatic,  ///< `point_to_plane` on a fixed mesh, `plane_to_plane` on a fixed cloud
     /// Of a fixed cloud, distances to the plane between the one at the moving point and the one at
     /// the fixed point, the less the more these disagree; distances across count a thousandth. No
-    /// matter how differently dense the sides are, as on the rings around a scanner. On a fixed mesh
-    /// the same as `point_to_plane`. Planes are fitted to the 12 nearest points, or where these are
-    /// on a line to up to 192.
+    /// matter how differently dense the sides are, as on the rings around a scanner. On a fixed
+    /// mesh the same as `point_to_plane`. Planes are fitted to the 12 nearest points, or where
+    /// these are on a line to up to 192.
     plane_to_plane,
 };
 
 /// How much a pair of points counts.
 enum class align_weights : std::uint8_t {
     equal,
-    /// Less the further apart: exp(-d^2 / 2 v^2). From 3 medians of the distances at the start, v is
-    /// halved down to where a third of the points is within 2 v; at the end it is 4.5 medians of
-    /// what is near. Up to half of the points may have no partner, and nobody needs to say how many.
+    /// Less the further apart: exp(-d^2 / 2 v^2). From 3 medians of the distances at the start, v
+    /// is halved down to where a third of the points is within 2 v; at the end it is 4.5 medians of
+    /// what is near. Up to half of the points may have no partner, and nobody needs to say how
+    /// many.
     welsch,
 };
 
@@ -90,8 +90,8 @@ enum class align_end : std::uint8_t {
     /// without a partner.
     ///
     /// Or the scale is at its bound, or the points of a cloud do not tell where they belong:
-    /// `uncertainty` is above 0.2% of the diagonal of the fixed box, those not fitted would move all
-    /// further than that, or something slides.
+    /// `uncertainty` is above 0.2% of the diagonal of the fixed box, those not fitted would move
+    /// all further than that, or something slides.
     doubtful,
     nothing_to_align,  ///< no points, or none has a partner
 };
@@ -156,12 +156,12 @@ struct align_result {
 ///
 /// From each start it is a local optimum: the right one when the motion is small compared with the
 /// features of the shape. The result is never worse than the present position; when nothing better
-/// is found, it is `start`, grown or shrunk about its center to the bounds of the scale. To compare, the squared distances of all moving points to the nearest
-/// fixed points are cut off at `max_distance` squared, and the mean is taken over the `overlap`
-/// share that is nearest. With weights, and with an overlap below 1, it is Welsch's function of the
-/// distances, by the v of the end: a share that is somewhat too large does no harm. Directions in
-/// which the points may slide freely (a plane on a plane) are left alone. Equal points count once
-/// on a cloud.
+/// is found, it is `start`, grown or shrunk about its center to the bounds of the scale. To
+/// compare, the squared distances of all moving points to the nearest fixed points are cut off at
+/// `max_distance` squared, and the mean is taken over the `overlap` share that is nearest. With
+/// weights, and with an overlap below 1, it is Welsch's function of the distances, by the v of the
+/// end: a share that is somewhat too large does no harm. Directions in which the points may slide
+/// freely (a plane on a plane) are left alone. Equal points count once on a cloud.
 ///
 /// Along motions that are little held (a stiffness below 0.02, as of a cogwheel about its axis),
 /// places up to 6% of the diagonal away are tried, too.
@@ -169,10 +169,10 @@ struct align_result {
 /// Whether it is the right place, distances alone do not tell. At the right place they are noise;
 /// at a wrong one, regions are off to one side. From 4000 moving points on, every fourth is not
 /// fitted, and is what is looked at. Where they are off, by more than noise, places around the
-/// start are tried: shifts by 8% of the diagonal, turns by 14 degrees. Where they still are, a cloud
-/// is in doubt when they are off by more than 0.6 times of how thick both sides are around their
-/// planes. On a mesh, `converged` needs that other starts, tried with few points, do not end better,
-/// and that what is off is below 0.2% of the diagonal.
+/// start are tried: shifts by 8% of the diagonal, turns by 14 degrees. Where they still are, a
+/// cloud is in doubt when they are off by more than 0.6 times of how thick both sides are around
+/// their planes. On a mesh, `converged` needs that other starts, tried with few points, do not end
+/// better, and that what is off is below 0.2% of the diagonal.
 ///
 /// Without moving or without fixed points, the result is `start`, not converged.
 ///

@@ -173,7 +173,8 @@ struct element {
     [[nodiscard]] TREEFORM_API const column* find(std::string_view column_name) const;
 
     /// Names of the columns with values that a name stands for: the one of that name, or else those
-    /// of a kind, "normal", "uv" or "color", whatever formats call them. Empty where there are none.
+    /// of a kind, "normal", "uv" or "color", whatever formats call them. Empty where there are
+    /// none.
     [[nodiscard]] TREEFORM_API std::vector<std::string> columns_called(
         std::string_view column_name) const;
 

@@ -1,11 +1,9 @@
 #pragma once
 /// \file
-/// Set operations on solids bounded by triangle meshes.
+/// Set operations on solids bounded by triangle meshes, and formulas of them.
 
-#include <treeform/mesh/boolean_expression.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -14,9 +12,56 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace treeform {
+
+/// A formula over operands a, b, c, ..., z (then aa, ab, ...): `+` or `|` union, `*` or `&`
+/// intersection, `-` difference, `^` exclusive or, and brackets. `*` and `&` bind tighter than the
+/// others, which go from left to right. Blanks and the case of letters do not matter.
+class TREEFORM_API boolean_expression {
+  public:
+    /// \throws std::invalid_argument naming the position, from 1, of what is not a formula or of an
+    ///         operand beyond `operand_count`
+    /// \cost   O(characters) time, however deep the brackets
+    boolean_expression(std::string_view text, std::size_t operand_count);
+    /// The same with names in place of letters, "body-(bolt_1+'left bolt')": words of letters,
+    /// digits, underscores and dots, or anything in quotes. The first operand of a name is meant.
+    boolean_expression(std::string_view text, std::span<const std::string> names);
+    /// Those of a formula with names, each once, in the order in which they come first.
+    [[nodiscard]] static std::vector<std::string> names_in(std::string_view text);
+
+    /// What is in any operand. Without operands, this and the formulas below are empty.
+    [[nodiscard]] static boolean_expression union_of(std::size_t operand_count);
+    /// What is in all operands.
+    [[nodiscard]] static boolean_expression intersection_of(std::size_t operand_count);
+    /// The first operand without all others.
+    [[nodiscard]] static boolean_expression difference_of(std::size_t operand_count);
+    /// What is in an odd number of operands.
+    [[nodiscard]] static boolean_expression xor_of(std::size_t operand_count);
+
+    [[nodiscard]] std::size_t operand_count() const { return operand_count_; }
+
+    /// Whether a point belongs to the result when it is in these operands and in no others.
+    /// \pre `in_operand` has a value for each operand
+    [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
+
+    /// True when no point outside this operand can belong to the result: in `a-b` for a, in `a+b`
+    /// for neither. Found in one pass, so it may be false for long formulas of which it is true.
+    [[nodiscard]] bool needs(std::size_t operand) const;
+
+    /// The formula, operations behind what they take: operands as numbers from 0, and these.
+    enum : std::int32_t { add = -1, intersect = -2, minus = -3, exclude = -4 };
+    [[nodiscard]] std::span<const std::int32_t> postfix() const { return postfix_; }
+
+  private:
+    boolean_expression(std::size_t operand_count, std::int32_t operation);
+
+    std::size_t operand_count_ = 0;
+    std::vector<std::int32_t> postfix_;
+};
 
 /// Which points are inside an operand, by how often its surface winds around them.
 enum class fill_rule : std::uint8_t {
@@ -34,23 +79,24 @@ struct boolean_options {
     /// unit, nor further than 2^-10 of the largest coordinate. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Otherwise coplanar faces that were cut, or that overlap, are merged, exactly and before
-    /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a straight
-    /// edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a
+    /// straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
-    /// [faces of all operands, one after the other] or empty: only those of equal numbers are merged.
+    /// [faces of all operands, one after the other] or empty: only those of equal numbers are
+    /// merged.
     std::span<const std::uint32_t> face_groups{};
     /// Compute `boolean_result::volumes`, of two operands; not where a `gap` was filled.
     bool volumes = false;
-    /// Of the result, the parts with a volume below this, in cubic units, are left out: specks go, and
-    /// voids are filled, with all that is in them. A part is what edges link, its volume that within
-    /// it. Of solids only. Finite and not negative.
+    /// Of the result, the parts with a volume below this, in cubic units, are left out: specks go,
+    /// and voids are filled, with all that is in them. A part is what edges link, its volume that
+    /// within it. Of solids only. Finite and not negative.
     double min_volume = 0.0;
     /// In a union, gaps of at most this width, in the mesh's own length unit, are filled between
-    /// faces of different operands, where they lie over each other: both look into the gap, they lean
-    /// by at most 45 degrees, and it is measured straight up from either. Nothing else moves. Beyond
-    /// this width what fills it tapers off. Between curved faces there are no seams: at an edge of
-    /// faces that lean less than that, it ends midway. Finite and not negative.
+    /// faces of different operands, where they lie over each other: both look into the gap, they
+    /// lean by at most 45 degrees, and it is measured straight up from either. Nothing else moves.
+    /// Beyond this width what fills it tapers off. Between curved faces there are no seams: at an
+    /// edge of faces that lean less than that, it ends midway. Finite and not negative.
     double gap = 0.0;
     progress_callback progress{};
 };
@@ -65,8 +111,8 @@ struct operand_volumes {
     double both = 0.0;    ///< in the first and in the second
 };
 
-/// Counts of what a set operation has done, for reports. Pairs and faces that are cut, where a `gap`
-/// was filled, are also those of what fills it.
+/// Counts of what a set operation has done, for reports. Pairs and faces that are cut, where a
+/// `gap` was filled, are also those of what fills it.
 struct boolean_statistics {
     std::uint64_t pairs = 0;          ///< of faces looked at that meet beyond their shared corners
     std::uint64_t cut_faces = 0;      ///< input faces that were cut or covered by others
@@ -136,9 +182,9 @@ struct TREEFORM_API boolean_result {
 /// \throws std::invalid_argument when the expression has another number of operands, or naming a
 ///         face with a corner out of range, or a corner with a coordinate that is not finite
 ///         or beyond 2^1000; for a `gap` when it is not a union of all operands
-/// \cost   O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
-///         that meet in few places, that of finding these (prepared meshes: once) and of a copy. With
-///         a `gap`, O(P) more for the P pairs of faces whose boxes are that near
+/// \cost   O(F log F) for the faces where the result's surface may be. Of one or two closed
+///         manifolds that meet in few places, that of finding these (prepared meshes: once) and of
+///         a copy. With a `gap`, O(P) more for the P pairs of faces whose boxes are that near
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result boolean(const mesh_refs& operands,
                                                   const boolean_expression& expression,
@@ -162,13 +208,13 @@ struct TREEFORM_API boolean_result {
 /// piece that lies on the surface of a solid is inside that solid. So the sheet minus a solid, and
 /// the sheet inside it, together are the sheet.
 ///
-/// The sheet may end anywhere, overlap itself, and even be closed. A piece is oriented as the lowest
-/// face of the sheet that it lies in. The certificate does not check edges, since the result is open.
-/// Where another operand is open, it says so as in `boolean`, and the mesh is empty.
+/// The sheet may end anywhere, overlap itself, and even be closed. A piece is oriented as the
+/// lowest face of the sheet that it lies in. The certificate does not check edges, since the result
+/// is open. Where another operand is open, it says so as in `boolean`, and the mesh is empty.
 ///
 /// \throws std::invalid_argument as `boolean`, when `sheet` is not an operand, or when the
-///         expression may be true outside of it (`boolean_expression::needs`), as in a union, and for
-///         `min_volume` or `gap`
+///         expression may be true outside of it (`boolean_expression::needs`), as in a union, and
+///         for `min_volume` or `gap`
 /// \cost   faces of solids that do not reach into the box of a face of the sheet are not looked at
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result clip(const mesh_refs& operands, std::uint32_t sheet,

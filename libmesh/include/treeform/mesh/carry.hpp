@@ -59,12 +59,12 @@ class carry_sources {
     /// faces with one value a row, texture coordinates and normals of corners, materials and the
     /// files of materials and textures; of a single input, also the names of its parts.
     ///
-    /// A face gets the values of its source, the face that it lies in; a vertex those of its source.
-    /// For a new vertex on a cut, values are interpolated between the corners of the face that it
-    /// lies in (`face_of_cut_vertex`, or else the lowest source of its faces), and so are values of
-    /// corners. Where an input lacks a column, or a face has no source, the value is 0 or NaN.
-    /// Normals are flipped where the surface is, and interpolated ones are scaled to length 1. Lists
-    /// and other elements are not carried.
+    /// A face gets the values of its source, the face that it lies in; a vertex those of its
+    /// source. For a new vertex on a cut, values are interpolated between the corners of the face
+    /// that it lies in (`face_of_cut_vertex`, or else the lowest source of its faces), and so are
+    /// values of corners. Where an input lacks a column, or a face has no source, the value is 0 or
+    /// NaN. Normals are flipped where the surface is, and interpolated ones are scaled to length 1.
+    /// Lists and other elements are not carried.
     ///
     /// \pre  sources are in range
     /// \cost O(V + F) for each column
@@ -113,8 +113,8 @@ class carry_sources {
 TREEFORM_API void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap,
                                const carry_source& of);
 
-/// Gives faces the uint32 columns NAME_mesh and NAME_face: the operand that each comes from, and its
-/// number there. A comment for each of `inputs` says which one a number stands for. Columns and
+/// Gives faces the uint32 columns NAME_mesh and NAME_face: the operand that each comes from, and
+/// its number there. A comment for each of `inputs` says which one a number stands for. Columns and
 /// comments of these names from an earlier result go; without `inputs`, none take their place.
 ///
 /// \pre `face_source` has an element for each face, unless `inputs` is empty
@@ -130,8 +130,8 @@ struct file_part {
 };
 
 /// The parts of a file (`scene_parts`), each with the points and faces that are its own, and with
-/// their attributes (`carry_sources`). Parts whose open edges coincide are patches of one surface, and one
-/// part; solids that touch are not.
+/// their attributes (`carry_sources`). Parts whose open edges coincide are patches of one surface,
+/// and one part; solids that touch are not.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V log V + F log F), and O(V + F) for each part and column
@@ -180,8 +180,8 @@ struct repaired_file {
                                                      const repair_options& options = {},
                                                      repair_scope scope = repair_scope::each_part);
 
-/// What keeps the parts from being solids, of all together; faces that the input has left out are not
-/// counted. Nothing is changed.
+/// What keeps the parts from being solids, of all together; faces that the input has left out are
+/// not counted. Nothing is changed.
 ///
 /// \throws std::invalid_argument as `self_intersections`
 /// \cost   as `find_solid_defects` of a mesh

@@ -8,10 +8,9 @@
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <array>
 #include <cstddef>
@@ -53,7 +52,7 @@ struct contact_region {
 struct part_clash {
     std::uint32_t a = 0;                             ///< the lower number
     std::uint32_t b = 0;                             ///< number of the second part
-    standing how = standing::touching;               ///< or penetrating, closer_than_clearance
+    mesh_relation how = mesh_relation::touching;     ///< or penetrating, closer_than_clearance
     bool a_inside_b = false;                         ///< as in `mesh_relation_result`
     bool b_inside_a = false;                         ///< the same with `a` and `b` swapped
     double distance = 0.0;                           ///< of the surfaces; 0 where they meet
@@ -72,7 +71,7 @@ struct part_clash {
 /// All that is not clear.
 struct clash_result {
     std::vector<part_clash> pairs{};        ///< that are not clear, ascending
-    std::array<std::uint64_t, 5> counts{};  ///< of pairs that were looked at, by `standing`
+    std::array<std::uint64_t, 5> counts{};  ///< of pairs that were looked at, by `mesh_relation`
     std::uint64_t boxes_apart = 0;          ///< pairs that their boxes keep apart: not looked at
     std::uint64_t ignored = 0;              ///< pairs left out whose boxes are not apart
     std::uint64_t parts_indexed = 0;
@@ -135,8 +134,8 @@ struct pose_options {
 struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
-    standing how = standing::touching;  ///< or penetrating, closer_than_clearance
-    double distance = 0.0;              ///< of those that are closer than the clearance; else 0
+    mesh_relation how = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
+    double distance = 0.0;  ///< of those that are closer than the clearance; else 0
     friend bool operator==(const pose_clash&, const pose_clash&) = default;
 };
 
@@ -154,9 +153,9 @@ struct pose_result {
 /// `poses[p * parts.size() + i]` moves part i in pose p.
 ///
 /// Exact, as `clash` and `relation`, for the corners that the transforms give, rounded to double
-/// (`transform::operator()`). No part is copied or indexed anew, except where two moved parts touch,
-/// or a corner of one is so near the surface of another that rounding might put it on the other
-/// side, or a transform is no motion: then these two are looked at as they are moved.
+/// (`transform::operator()`). No part is copied or indexed anew, except where two moved parts
+/// touch, or a corner of one is so near the surface of another that rounding might put it on the
+/// other side, or a transform is no motion: then these two are looked at as they are moved.
 ///
 /// \throws std::invalid_argument naming the part and its lowest face with a corner out of range or
 ///         not finite, the pose with a transform that is not finite, for a number of transforms

@@ -44,6 +44,13 @@ struct convex_hull_result {
         return std::span(faces).subspan(side.first_face, side.face_count);
     }
 
+    /// The corners of a side in order around it, counter-clockwise seen from outside, starting at
+    /// the lowest number. Corners at which the rim goes straight on are left out.
+    ///
+    /// \pre `side` is one of `sides`, and this is the hull of `points`
+    [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> corners_of(const hull_side& side,
+                                                                     points_view points) const;
+
     /// The hull as a closed mesh, with the points that it uses, in their order.
     ///
     /// \pre this is the hull of `points`
@@ -62,14 +69,6 @@ struct convex_hull_result {
 ///         a point sees a face when it is strictly above it, so that coplanar faces need no care
 [[nodiscard]] TREEFORM_API convex_hull_result convex_hull(points_view points,
                                                           const progress_callback& progress = {});
-
-/// The corners of a side in order around it, counter-clockwise seen from outside, starting at the
-/// lowest number. Corners at which the rim goes straight on are left out.
-///
-/// \pre `side` is one of `hull.sides`, and `hull` is that of `points`
-[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> corners_of(const convex_hull_result& hull,
-                                                                 const hull_side& side,
-                                                                 points_view points);
 
 /// A box turned in any way.
 struct oriented_box {

@@ -7,11 +7,10 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/section.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <array>
 #include <cstddef>
@@ -99,9 +98,9 @@ struct cut_result {
 }
 
 /// Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
-/// each axis as there can be, and equally far apart, to rounding. A size that is infinite is not cut
-/// along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x first,
-/// then y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
+/// each axis as there can be, and equally far apart, to rounding. A size that is infinite is not
+/// cut along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x
+/// first, then y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
 ///
 /// \throws std::invalid_argument as `cut`, for a size that is not positive, or where there would be
 ///         more than 2^16 planes across an axis, or might be more than 2^20 pieces

@@ -1,14 +1,13 @@
 #pragma once
 /// \file
-/// How far the points of a mesh or cloud are from a surface, each with its sign, and what that comes
-/// to: means, percentiles, a histogram, the share within a tolerance band.
+/// How far the points of a mesh or cloud are from a surface, each with its sign, and what that
+/// comes to: means, percentiles, a histogram, the share within a tolerance band.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -74,8 +73,8 @@ struct deviation_result {
     std::uint32_t worst = 0;  ///< the lowest point with that distance
     double lowest = 0.0;      ///< the least signed distance
     double highest = 0.0;     ///< the greatest signed distance
-    /// From `a` to `b`, and back where `both_ways`. The larger of the two is the Hausdorff distance,
-    /// as sampled by points, and a bound of it.
+    /// From `a` to `b`, and back where `both_ways`. The larger of the two is the Hausdorff
+    /// distance, as sampled by points, and a bound of it.
     directed_distance there{};
     std::optional<directed_distance> back{};
     distance_histogram histogram{};
@@ -84,16 +83,24 @@ struct deviation_result {
     /// neighbor, from which no face separates them, or faces that were counted.
     std::uint64_t winding_numbers = 0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
+
+    /// Gives the vertices of `file` the property "distance" and colors from blue (`low` or less)
+    /// over white (0) to red (`high` or more); gray where a distance is NaN.
+    ///
+    /// \throws std::invalid_argument for another number of distances than of points, or unless
+    ///         low <= 0 <= high
+    TREEFORM_API static void color(mesh_file& file, std::span<const double> distances, double low,
+                                   double high);
 };
 
-/// How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of all
-/// meshes in it as one. Faces are numbered through, mesh after mesh.
+/// How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of
+/// all meshes in it as one. Faces are numbered through, mesh after mesh.
 ///
-/// The side is exact: that of the exact winding number of `b` about the point (`locate`). Corners of
-/// `b` with equal coordinates are one vertex, as in a file that repeats them. When `b` is open, or a
-/// cloud, it has no inside, and distances have no sign. A magnitude is within 16 u L of the true
-/// distance, as `closest_point` says. A point that rounding puts at distance 0 keeps that as its
-/// magnitude, and the sign of 0.
+/// The side is exact: that of the exact winding number of `b` about the point (`locate`). Corners
+/// of `b` with equal coordinates are one vertex, as in a file that repeats them. When `b` is open,
+/// or a cloud, it has no inside, and distances have no sign. A magnitude is within 16 u L of the
+/// true distance, as `closest_point` says. A point that rounding puts at distance 0 keeps that as
+/// its magnitude, and the sign of 0.
 ///
 /// None when `a` has no points or `b` no faces.
 ///
@@ -105,13 +112,5 @@ struct deviation_result {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<deviation_result> deviation(
     const mesh_ref& a, const mesh_refs& b, const deviation_options& options = {});
-
-/// Gives the vertices of `file` the property "distance" and colors from blue (`low` or less) over
-/// white (0) to red (`high` or more); gray where a distance is NaN.
-///
-/// \throws std::invalid_argument for another number of distances than of points, or unless
-///         low <= 0 <= high
-TREEFORM_API void color_distances(mesh_file& file, std::span<const double> distances, double low,
-                                  double high);
 
 }  // namespace treeform

@@ -5,7 +5,6 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -19,8 +18,14 @@
 
 namespace treeform {
 
-/// How two meshes lie to each other; see `relation`.
-enum class mesh_relation : std::uint8_t { separate, touching, penetrating };
+/// How two meshes lie to each other; see `relation`. The last two occur only with a clearance.
+enum class mesh_relation : std::uint8_t {
+    separate,
+    touching,
+    penetrating,
+    closer_than_clearance,
+    clear  ///< separate, by the clearance or more
+};
 
 struct relation_options {
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
@@ -44,8 +49,8 @@ struct mesh_relation_result {
 ///
 /// They penetrate each other in any of these cases:
 /// - two faces pass through each other;
-/// - both meshes are closed (`find_open_edge`), and coplanar faces overlap with what is inside on the
-///   same side of them;
+/// - both meshes are closed (`find_open_edge`), and coplanar faces overlap with what is inside on
+///   the same side of them;
 /// - one mesh is closed, and a corner of the other lies strictly inside it, as when one mesh is
 ///   entirely inside the other.
 ///
@@ -123,7 +128,7 @@ struct mesh_measure {
 [[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(const mesh_ref& a, const mesh_ref& b,
                                                                const measure_options& options = {});
 
-/// How to look for a way out.
+/// How to search for the least move apart.
 struct depth_options {
     std::size_t directions =
         256;  ///< spread over the sphere, tried beside those of faces that meet
@@ -134,7 +139,7 @@ struct depth_options {
     progress_callback progress{};
 };
 
-/// A way out.
+/// The move apart that was found.
 struct penetration_depth_result {
     double depth = 0.0;  ///< the length of `move`, rounded
     /// Adding this to every point of `a`, each coordinate rounded, takes `a` out of `b`: then

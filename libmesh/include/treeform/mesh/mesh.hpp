@@ -1,15 +1,27 @@
 #pragma once
 /// \file
-/// Points, triangle meshes, the views of them that algorithms take, and the box around them.
+/// Points, triangle meshes, the views of them that algorithms take, and the box around them; a mesh
+/// with the indexes that queries ask for, each built on first use, once; and what functions take:
+/// any mesh, or several.
 
 #include <treeform/tree/detail/export.hpp>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <memory>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <vector>
+
+#ifdef __clang__
+#define TREEFORM_LIFETIMEBOUND [[clang::lifetimebound]]
+#else
+#define TREEFORM_LIFETIMEBOUND
+#endif
 
 namespace treeform {
 
@@ -87,5 +99,113 @@ struct box3 {
 /// \cost O(V) time
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<box3> bounding_box(points_view points);
+
+struct usable_mesh;
+
+namespace detail::base {
+class prepared_slots;
+}
+
+/// A mesh for many queries. Every query of meshes takes one in place of a `mesh_view` and gives the
+/// same answers. The first query that needs an index (a tree over the faces, triangles in the order
+/// of that tree, joined corners, whether the mesh is closed) builds it; later queries use it again.
+///
+/// Queries are const and may run on any threads at once. One of them builds an index; others that
+/// need it in the meantime help. A build that is cancelled or fails leaves nothing behind.
+///
+/// Move-only. After a move, the source may only be destroyed or assigned to.
+class TREEFORM_API prepared_mesh {
+  public:
+    /// No faces.
+    prepared_mesh();
+    /// Owns the arrays.
+    explicit prepared_mesh(mesh&& owned);
+    explicit prepared_mesh(usable_mesh&& owned);
+    /// Refers to the caller's arrays, which must stay unchanged as long as this lives.
+    [[nodiscard]] static prepared_mesh borrow(mesh_view view);
+    static prepared_mesh borrow(mesh&&) = delete;  // gone before it is asked: let this own it
+
+    /// A cloud of points, to be measured, slid and separated as meshes are. Each point is a
+    /// degenerate face, so face numbers are point numbers. A cloud bounds no solid. It penetrates a
+    /// mesh when a point lies strictly inside the solid that the mesh bounds, and touches the mesh
+    /// when a point is on a face.
+    [[nodiscard]] static prepared_mesh cloud(std::vector<point3>&& owned);
+    /// The same, but refers to the caller's points, as `borrow` does.
+    [[nodiscard]] static prepared_mesh borrow_cloud(points_view points);
+
+    ~prepared_mesh();
+    prepared_mesh(prepared_mesh&&) noexcept;
+    prepared_mesh& operator=(prepared_mesh&&) noexcept;
+
+    [[nodiscard]] mesh_view view() const { return view_; }
+    [[nodiscard]] bool is_cloud() const { return cloud_; }
+
+    /// Number of indexes built so far. A second query of the same kind does not change it.
+    [[nodiscard]] std::uint64_t indexes_built() const;
+
+  private:
+    friend class detail::base::prepared_slots;
+    struct state;
+
+    mesh_view view_{};
+    bool cloud_ = false;
+    std::shared_ptr<state> state_;
+};
+
+/// Refers to a mesh, a prepared one, a view, what `as_mesh` returns, or points and faces. For
+/// parameters only: it is made by itself where a function takes one. A temporary mesh lives until
+/// the call returns, so that `unite(as_mesh(f), as_mesh(g))` is right.
+///
+/// A prepared mesh keeps the indexes that a function builds; any other is indexed for the call.
+class mesh_ref {
+  public:
+    mesh_ref(const mesh& mesh TREEFORM_LIFETIMEBOUND) : view_(mesh) {}  // NOLINT: all are implicit
+    mesh_ref(mesh_view mesh) : view_(mesh) {}                           // NOLINT
+    mesh_ref(points_view points, std::span<const face> faces) : view_{points, faces} {}
+    /// A cloud: points without faces.
+    template <std::ranges::contiguous_range Points>
+    requires std::same_as<std::ranges::range_value_t<const Points&>, point3> mesh_ref(
+        const Points& points TREEFORM_LIFETIMEBOUND)
+        : view_{points, {}} {}                                  // NOLINT
+    mesh_ref(const prepared_mesh& mesh TREEFORM_LIFETIMEBOUND)  // NOLINT
+        : view_(mesh.view()), prepared_(&mesh) {}
+    TREEFORM_API mesh_ref(const usable_mesh& mesh TREEFORM_LIFETIMEBOUND);  // NOLINT
+
+    [[nodiscard]] mesh_view view() const { return view_; }
+    /// Null where the mesh is not prepared.
+    [[nodiscard]] const prepared_mesh* prepared() const { return prepared_; }
+
+  private:
+    mesh_view view_;
+    const prepared_mesh* prepared_ = nullptr;
+};
+
+/// Refers to several meshes of any kinds: `{a, b}`, a vector or span of meshes, prepared meshes or
+/// views, or a single mesh.
+class mesh_refs {
+  public:
+    mesh_refs() = default;
+    mesh_refs(std::initializer_list<mesh_ref> meshes TREEFORM_LIFETIMEBOUND)  // NOLINT
+        : refs_(meshes) {}
+    template <class One>
+    requires std::convertible_to<const One&, mesh_ref> mesh_refs(
+        const One& mesh TREEFORM_LIFETIMEBOUND)
+        : refs_{mesh_ref(mesh)} {}  // NOLINT
+    template <std::ranges::sized_range Many>
+    requires std::convertible_to<std::ranges::range_reference_t<const Many&>, mesh_ref> &&
+        (!std::convertible_to<const Many&, mesh_ref>)
+            mesh_refs(const Many& meshes TREEFORM_LIFETIMEBOUND)  // NOLINT
+        : refs_(std::ranges::begin(meshes), std::ranges::end(meshes)) {}
+
+    [[nodiscard]] std::span<const mesh_ref> all() const { return refs_; }
+    [[nodiscard]] std::size_t size() const { return refs_.size(); }
+    [[nodiscard]] bool empty() const { return refs_.empty(); }
+    [[nodiscard]] const mesh_ref& operator[](std::size_t i) const { return refs_[i]; }
+    [[nodiscard]] auto begin() const { return refs_.begin(); }
+    [[nodiscard]] auto end() const { return refs_.end(); }
+
+  private:
+    std::vector<mesh_ref> refs_{};
+};
 
 }  // namespace treeform

@@ -1,16 +1,17 @@
 #pragma once
 /// \file
 /// The content of a mesh or point file: points, triangles, attributes, parts of a scene; how LAS
-/// stores points. Errors of files.
+/// stores points. Errors of files. Processes that work on files together.
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -63,17 +64,17 @@ struct las_record {
 ///
 /// Dimensions of points are columns of the element "vertex": intensity, return_number,
 /// number_of_returns, scan_direction_flag, edge_of_flight_line, classification, synthetic,
-/// key_point, withheld, overlap, scanner_channel, scan_angle_rank (formats 0 to 5), scan_angle (6 to
-/// 10), user_data, point_source_id, gps_time, red, green, blue, nir, wave_packet_index,
+/// key_point, withheld, overlap, scanner_channel, scan_angle_rank (formats 0 to 5), scan_angle (6
+/// to 10), user_data, point_source_id, gps_time, red, green, blue, nir, wave_packet_index,
 /// wave_packet_offset, wave_packet_size, wave_return_location, wave_x, wave_y, wave_z. Extra bytes
-/// are columns with the names and types that their record gives them; those to which it gives a scale or
-/// an offset are doubles, the values, NaN where it says that there is none, and are stored in the steps
-/// of that scale. Those that no record describes are "extra_bytes[0]" and so on.
+/// are columns with the names and types that their record gives them; those to which it gives a
+/// scale or an offset are doubles, the values, NaN where it says that there is none, and are stored
+/// in the steps of that scale. Those that no record describes are "extra_bytes[0]" and so on.
 struct las_header {
     std::uint8_t version_minor = 2;  ///< of 1.0 to 1.4
     std::uint8_t point_format = 0;   ///< 0 to 10
-    /// Coordinates are (X * scale) + offset for whole numbers X of 32 bits, the product rounded to a
-    /// double, then the sum.
+    /// Coordinates are (X * scale) + offset for whole numbers X of 32 bits, the product rounded to
+    /// a double, then the sum.
     std::array<double, 3> scale{0.001, 0.001, 0.001};
     std::array<double, 3> offset{};
     /// The header block as in the file, with what a version or program has added to it; empty when
@@ -135,15 +136,16 @@ struct mesh_file {
     /// `stored_face` becomes empty.
     TREEFORM_API void split_polygons();
 
-    /// Drops the points with a coordinate that is NaN or infinite, and the faces with such a corner.
-    /// Returns how many points those were.
+    /// Drops the points with a coordinate that is NaN or infinite, and the faces with such a
+    /// corner. Returns how many points those were.
     TREEFORM_API std::size_t drop_non_finite();
 
     /// Rounds every point to float32. Returns the largest change of a coordinate.
     TREEFORM_API double round_to_float32();
 
     /// Moves all of the file: its points, and its normals as `turn_normals`. Where `by` mirrors,
-    /// faces are turned over, with the values of their corners, so that they look outward as before.
+    /// faces are turned over, with the values of their corners, so that they look outward as
+    /// before.
     TREEFORM_API void move(const transform<3>& by);
 
     /// Turns normals as `by` does, and keeps their lengths: the columns nx, ny, nz of all elements,
@@ -177,5 +179,14 @@ struct scene_part {
 /// \cost   O(F + P log P) for P of `names`
 [[nodiscard]] TREEFORM_API std::vector<scene_part> scene_parts(
     mesh_view mesh, std::span<const part> names, std::span<const std::uint32_t> number = {});
+
+/// The ranks of a work that processes share, in a folder that all see. All call the same with
+/// the same options; outputs are those of rank 0, and where one fails, `exchange` must throw.
+struct communicator {
+    std::size_t rank = 0;
+    std::size_t size = 1;
+    /// Collective: gives every rank what each has sent, in the order of the ranks.
+    std::function<std::vector<std::string>(const std::string&)> exchange{};
+};
 
 }  // namespace treeform

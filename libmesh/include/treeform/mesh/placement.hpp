@@ -7,11 +7,9 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/rounding.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -22,15 +20,6 @@
 #include <vector>
 
 namespace treeform {
-
-/// How a mesh lies to all fixed meshes. The last two occur only with a clearance.
-enum class standing : std::uint8_t {
-    separate,
-    touching,
-    penetrating,
-    closer_than_clearance,
-    clear  ///< separate, by the clearance or more
-};
 
 /// Why a placement ended where it did.
 enum class placement_end : std::uint8_t {
@@ -92,8 +81,8 @@ struct placement {
     std::optional<double> bed{};  ///< lowest z allowed, as written: the bed plus the clearance
     double below_bed = 0.0;       ///< how far it reached below that at the start
     bool on_bed = false;          ///< the bed stopped it
-    standing at_start = standing::separate;  ///< exact
-    standing at_place = standing::separate;  ///< the same at the place
+    mesh_relation at_start = mesh_relation::separate;  ///< exact
+    mesh_relation at_place = mesh_relation::separate;  ///< the same at the place
     std::optional<nearest_fixed> nearest{};  ///< at the place; none when all are too far to matter
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< of all, listed or not
@@ -136,13 +125,23 @@ enum class contact_class : std::uint8_t {
     near  ///< closer than the clearance, or where the mesh stopped at it
 };
 
+struct contact_color_options {
+    /// Make each triangle a face of its own, as pictures need it. Otherwise polygons stay, and have
+    /// the worst class of their triangles.
+    bool split_polygons = false;
+    bool keep_colors = false;  ///< keep the colors that the file has
+    /// Faces with no edge longer than twice this length, and all corners within it of faces with a
+    /// class, have a tint of that: contacts of a few small faces are seen. Their class stays none.
+    double halo = 0.0;
+};
+
 /// The class of each face.
 struct contact_classes {
     std::vector<contact_class> moving{};              ///< [F] of the moving mesh
     std::vector<std::vector<contact_class>> fixed{};  ///< by mesh: [F], or empty when all are none
 
     /// The classes of all triangles of the files, of one cloud of all its points; for
-    /// `color_contacts`. With `fixed`, its files follow that of `moving`, which has one body. Clouds
+    /// `color`. With `fixed`, its files follow that of `moving`, which has one body. Clouds
     /// are then left out, as in `scene_of`.
     ///
     /// \cost O(V + F)
@@ -150,17 +149,28 @@ struct contact_classes {
                                                                    const body_set& fixed) const;
     /// The same without `fixed`.
     [[nodiscard]] TREEFORM_API std::vector<contact_class> in_files(const body_set& moving) const;
-};
 
-/// The class of each face, with `moving` at the place. Contacts of the placement are contacts here,
-/// even where rounding has left a gap.
-///
-/// \pre    `at` was returned by a placement of `moving` among `fixed`
-/// \cost   all pairs of faces within the clearance of each other
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API contact_classes classify_contacts(const mesh_ref& moving,
-                                                             const mesh_refs& fixed,
-                                                             const placement& at);
+    /// The class of each face, with `moving` at the place. Contacts of the placement are contacts
+    /// here, even where rounding has left a gap.
+    ///
+    /// \pre    `at` was returned by a placement of `moving` among `fixed`
+    /// \cost   all pairs of faces within the clearance of each other
+    /// \same   on any number of threads
+    [[nodiscard]] TREEFORM_API static contact_classes of(const mesh_ref& moving,
+                                                         const mesh_refs& fixed,
+                                                         const placement& at);
+
+    /// Gives the rows of the element "face" of `file` (of a cloud, "vertex") the property tf_class,
+    /// a number of `contact_class`, and the colors red, green and blue: gray for none, red for
+    /// penetrating, yellow for touching, cyan for near, and tints of these around them (`halo`).
+    ///
+    /// `classes` has one entry for each triangle of `file.mesh`; for a cloud, for each point.
+    ///
+    /// \throws std::invalid_argument for another number of classes
+    /// \cost   O(F)
+    TREEFORM_API static void color(mesh_file& file, std::span<const contact_class> classes,
+                                   const contact_color_options& options = {});
+};
 
 /// A file, and what it is called.
 struct body_file {
@@ -217,34 +227,13 @@ struct TREEFORM_API body_set {
     void put_back(std::size_t body, points_view placed, const transform<3>& matrix,
                   precision written_as);
 
-    /// [V of its file] The distances of a body's points, `distances` by points of its shape; NaN for
-    /// points that are not the body's.
+    /// [V of its file] The distances of a body's points, `distances` by points of its shape; NaN
+    /// for points that are not the body's.
     [[nodiscard]] std::vector<double> distances_in_file(std::size_t body,
                                                         std::span<const double> distances) const;
 };
 
 /// "separate", "closer-than-clearance".
-[[nodiscard]] TREEFORM_API const char* name_of(standing how);
-
-struct contact_color_options {
-    /// Make each triangle a face of its own, as pictures need it. Otherwise polygons stay, and have
-    /// the worst class of their triangles.
-    bool split_polygons = false;
-    bool keep_colors = false;  ///< keep the colors that the file has
-    /// Faces with no edge longer than twice this length, and all corners within it of faces with a
-    /// class, have a tint of that: contacts of a few small faces are seen. Their class stays none.
-    double halo = 0.0;
-};
-
-/// Gives the rows of the element "face" of `file` (of a cloud, "vertex") the property tf_class, a
-/// number of `contact_class`, and the colors red, green and blue: gray for none, red for
-/// penetrating, yellow for touching, cyan for near, and tints of these around them (`halo`).
-///
-/// `classes` has one entry for each triangle of `file.mesh`; for a cloud, for each point.
-///
-/// \throws std::invalid_argument for another number of classes
-/// \cost   O(F)
-TREEFORM_API void color_contacts(mesh_file& file, std::span<const contact_class> classes,
-                                 const contact_color_options& options = {});
+[[nodiscard]] TREEFORM_API const char* name_of(mesh_relation how);
 
 }  // namespace treeform

@@ -3,7 +3,6 @@
 /// Whether points are inside, outside or on a closed mesh; the same for closed curves in the plane.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/tree.hpp>
 

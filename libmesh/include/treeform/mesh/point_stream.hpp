@@ -4,7 +4,6 @@
 /// faces and other rows that a PLY or STL has behind its points.
 
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tree/detail/export.hpp>
 
@@ -21,8 +20,8 @@
 
 namespace treeform {
 
-/// Of a file that is read whole, by `read`, and not in blocks: it has no points, or other things that
-/// blocks have not.
+/// Of a file that is read whole, by `read`, and not in blocks: it has no points, or other things
+/// that blocks have not.
 class TREEFORM_API whole_file_error : public io_error {
   public:
     using io_error::io_error;
@@ -48,19 +47,20 @@ struct row_block {
 class TREEFORM_API point_reader {
   public:
     /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
-    /// input, a pipe) is copied to an unnamed file in /var/tmp first; the points of a compressed PCD
-    /// are unpacked to one before the first of them is read, so that damage is found then. The `first`
-    /// points, no more than there are, are passed over: unread in binary PLY without lists, PCD
-    /// except for text, LAS, and whole chunks of LAZ.
+    /// input, a pipe) is copied to an unnamed file in /var/tmp first; the points of a compressed
+    /// PCD are unpacked to one before the first of them is read, so that damage is found then. The
+    /// `first` points, no more than there are, are passed over: unread in binary PLY without lists,
+    /// PCD except for text, LAS, and whole chunks of LAZ.
     ///
-    /// With `with_rows`, a PLY may have faces and other elements behind its points, and a binary STL is
-    /// read as the corners of its facets, with the facets behind them. The header says how many rows
-    /// there are. They can be read next. The facets of an STL have the column "stl_attribute" also
-    /// where all of it is zero.
+    /// With `with_rows`, a PLY may have faces and other elements behind its points, and a binary
+    /// STL is read as the corners of its facets, with the facets behind them. The header says how
+    /// many rows there are. They can be read next. The facets of an STL have the column
+    /// "stl_attribute" also where all of it is zero.
     ///
-    /// \throws whole_file_error for a format without points, for a file with faces or other elements
-    ///         that have rows; with `with_rows` for what is ahead of the points, for strips of
-    ///         triangles, and for faces with texture coordinates of corners; io_error as `read`
+    /// \throws whole_file_error for a format without points, for a file with faces or other
+    ///         elements that have rows; with `with_rows` for what is ahead of the points, for
+    ///         strips of triangles, and for faces with texture coordinates of corners; io_error as
+    ///         `read`
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {},
                           std::uint64_t first = 0, bool with_rows = false,
                           const read_options& options = {});
@@ -80,8 +80,8 @@ class TREEFORM_API point_reader {
     ///
     /// \throws io_error as `read`
     bool read(point_block& block, std::size_t most);
-    /// Likewise, with `with_rows`, the next rows of one element, in the order of the file; passes over
-    /// points that have not been read.
+    /// Likewise, with `with_rows`, the next rows of one element, in the order of the file; passes
+    /// over points that have not been read.
     ///
     /// \throws io_error as `read`
     bool read(row_block& block, std::size_t most);
@@ -98,12 +98,12 @@ class TREEFORM_API point_writer {
     /// `header` is that of `point_reader`, perhaps with columns added or removed. `count` is the
     /// number of points that will be written. Coordinates are written with the types of their
     /// columns in "vertex"; in binary as doubles when these are at most float32 and `stored_as` is
-    /// float64. Of other elements, the header says how many rows will be written, and `most_corners`
-    /// how many a face has at most.
+    /// float64. Of other elements, the header says how many rows will be written, and
+    /// `most_corners` how many a face has at most.
     ///
     /// \throws io_error as `write`; also for a format other than ply, obj, pcd, las, laz, xyz
-    ///         and csv, for LAS without `mesh_file::las` or to a pipe, and for rows of other elements
-    ///         in a format other than ply and obj
+    ///         and csv, for LAS without `mesh_file::las` or to a pipe, and for rows of other
+    ///         elements in a format other than ply and obj
     point_writer(const std::filesystem::path& path, const mesh_file& header, std::uint64_t count,
                  const write_options& options = {}, std::size_t most_corners = 0);
     ~point_writer();
@@ -123,8 +123,8 @@ class TREEFORM_API point_writer {
 
     /// Whether others can write the rest of the points.
     [[nodiscard]] bool has_parts() const;
-    /// A place that all parts see, as large as all values together. Parts put the values of their points
-    /// there, field by field, and later get the bytes that they pack.
+    /// A place that all parts see, as large as all values together. Parts put the values of their
+    /// points there, field by field, and later get the bytes that they pack.
     struct shared_values {
         std::uint64_t first_point = 0;  ///< of the part, by number in the whole
         std::size_t part = 0;
@@ -132,13 +132,15 @@ class TREEFORM_API point_writer {
         std::function<void(std::uint64_t at, std::span<const std::byte> bytes)> put{};
         std::function<void(std::uint64_t at, std::span<std::byte> bytes)> get{};
     };
-    /// Whether parts need such a place: those of a compressed PCD, whose values stand field by field.
+    /// Whether parts need such a place: those of a compressed PCD, whose values stand field by
+    /// field.
     [[nodiscard]] bool has_shared_values() const;
     /// Names it, before the first point. When all parts have their points, and not before,
     /// `commit_part` gets a share of the bytes of all and packs them.
     /// \throws std::logic_error where there is no such place, or points were written
     void share_values(const shared_values& place);
-    /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else 1.
+    /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else
+    /// 1.
     [[nodiscard]] std::uint64_t points_together() const;
     /// No more points come: the others are in other parts. Rows that are behind the points of all
     /// parts may follow, those of earlier parts first. Returns the bytes of the points.
@@ -155,8 +157,8 @@ class TREEFORM_API point_writer {
     /// What must be known of a part to finish others; call it when all of its points are there.
     [[nodiscard]] std::string tell_part();
     /// Finishes a file that has only some of the points. The joined head, the points of all parts,
-    /// their rows, and what else is behind those of the last one are what one writer of all would have
-    /// written.
+    /// their rows, and what else is behind those of the last one are what one writer of all would
+    /// have written.
     /// `told` is what `tell_part` gave for each part, in their order; LAZ needs it.
     /// \throws io_error, std::logic_error where it has no parts
     part commit_part(write_result& result, const std::vector<std::string>& told = {});
@@ -168,15 +170,6 @@ class TREEFORM_API point_writer {
     std::unique_ptr<state> state_;
 };
 
-/// Files that are one cloud, all points of the first before those of the next.
-struct cloud_inputs {
-    std::vector<std::filesystem::path> paths{};
-    std::string format{};                 ///< as for `read`
-    std::vector<named_column> columns{};  ///< as in `read_options`
-    std::vector<std::string> names{};     ///< for warnings; empty: the paths
-    bool mixed = false;                   ///< as in `join_options`
-};
-
 /// What is in files before their points are read.
 struct cloud_outline {
     mesh_file header{};                     ///< as that of a `point_reader`
@@ -185,12 +178,21 @@ struct cloud_outline {
         false;  ///< of a mesh: faces or other rows behind the points, which the header counts
 };
 
-/// One file alone may be a mesh, as `point_reader` reads it with rows. Text is read once, of a team by
-/// each its share; all of it come here.
-///
-/// \throws whole_file_error for what is no file of points, as `point_reader`, io_error for what cannot
-///         be read; std::invalid_argument for columns that `join` cannot unite
-[[nodiscard]] TREEFORM_API cloud_outline outline(const cloud_inputs& inputs,
-                                                 const process_team& team = {});
+/// Files that are one cloud, all points of the first before those of the next.
+struct cloud_inputs {
+    std::vector<std::filesystem::path> paths{};
+    std::string format{};                 ///< as for `read`
+    std::vector<named_column> columns{};  ///< as in `read_options`
+    std::vector<std::string> names{};     ///< for warnings; empty: the paths
+    bool mixed = false;                   ///< as in `join_options`
+
+    /// What is in the files, before their points are read.
+    /// One file alone may be a mesh, as `point_reader` reads it with rows. Text is read once,
+    /// shared by the ranks; every rank must call this.
+    ///
+    /// \throws whole_file_error for what is no file of points, as `point_reader`, io_error for what
+    ///         cannot be read; std::invalid_argument for columns that `join` cannot unite
+    [[nodiscard]] TREEFORM_API cloud_outline outline(const communicator& ranks = {}) const;
+};
 
 }  // namespace treeform

@@ -12,13 +12,18 @@
 /// \source filters: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust
 ///         Geometric Predicates, DCG 18 (1997), section 4; permanents as in Burnikel, Funke and
 ///         Seel, Exact Geometric Computation Using Cascading, IJCGA 11 (2001)
+///
+/// Triangles, exactly: what two of them have in common, and where a ray hits one. Triangles include
+/// their edges.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/ray.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace treeform {
 
@@ -76,6 +81,106 @@ struct cutting_plane {
     point3 at;
     point3 u_from, u_to;
     point3 v_from, v_to;
+};
+
+using triangle3 = std::array<point3, 3>;
+
+/// A part of a triangle. Edge `e0` runs from v0 to v1, `e1` from v1 to v2, `e2` from v2 to v0;
+/// `interior` is the triangle without its edges.
+enum class feature : std::uint8_t { v0, v1, v2, e0, e1, e2, interior };
+
+/// A point of both triangles, named by the lowest-dimensional feature of each that it lies on.
+/// An end of the common set is on a corner or an edge of at least one of the two.
+struct contact {
+    feature on_a;
+    feature on_b;
+    friend constexpr bool operator==(const contact&, const contact&) = default;
+};
+
+/// The dimension of the common set.
+enum class overlap : std::uint8_t { none, point, segment, area };
+
+struct triangle_contact {
+    overlap kind = overlap::none;
+    /// All six corners lie in one plane. Degenerate triangles count: two collinear ones are
+    /// coplanar when their lines meet or are parallel, a point is coplanar with any segment.
+    bool coplanar = false;
+    /// Both triangles have a plane, each has corners strictly on both sides of the other's, and
+    /// the common segment has length: the triangles pass through each other.
+    bool crossing = false;
+    /// Ends of the common set: none, 1 point, 2 ends of a segment, or the 3 to 6 corners of a
+    /// convex area in counter-clockwise order, seen from the side that the normal of `a` points to.
+    std::uint8_t count = 0;
+    std::array<contact, 6> ends{};  ///< the first `count` are set; no two are equal
+};
+
+/// The intersection of the closed triangles `a` and `b`.
+///
+/// Exact on the coordinates as given: no verdict depends on a tolerance, on the order of the
+/// corners or on which triangle comes first (features are renamed accordingly; the order of `ends`
+/// may differ). Equal corners are a common point like any other, so neighbors in a mesh report at
+/// least what they share. A degenerate triangle is the segment or the point that its corners span,
+/// and never has an interior. A point on it is named by the lowest-numbered corner there, else by
+/// the lowest-numbered edge that contains it.
+///
+/// \pre    every coordinate is finite
+/// \cost   O(1), no allocation; at most 10 `orient3d` unless the triangles are coplanar or one is
+///         degenerate, and at most 6 when a plane separates them; for coplanar ones 6 `orient3d`
+///         and at most 25 `orient2d`
+/// \source Devillers and Guigue, Faster Triangle-Triangle Intersection Tests, INRIA RR-4488 (2002),
+///         for the plane and interval tests
+[[nodiscard]] TREEFORM_API triangle_contact intersect(const triangle3& a, const triangle3& b,
+                                                      predicate_counters* counters = nullptr);
+
+/// The points origin + t direction, t_min <= t <= t_max, with nothing rounded: t is a real number.
+using ray3 = ray<double, 3>;
+
+/// The first point of a ray in a triangle.
+struct ray_contact {
+    /// Part of the triangle that the first common point lies on: `interior`, an edge or a corner.
+    feature at = feature::interior;
+    /// The ray runs in the plane of the triangle, or the triangle has no area. Otherwise there is
+    /// exactly one common point.
+    bool coplanar = false;
+    /// Parameter of that point, with a relative error below 2^-40; within [t_min, t_max].
+    double t = 0.0;
+    /// Parameter of the last common point, with the same error; equal to t when there is only one.
+    double t_end = 0.0;
+    /// Only when coplanar: t is t_min, and the line of the ray is in the triangle just before and
+    /// just after it. Then `entry` is not set.
+    bool from_start = false;
+    /// A plane that meets the ray in that point only: t as an exact number, for `compare`.
+    cutting_plane entry{};
+};
+
+/// The first point of the ray in the closed triangle; none when they miss each other.
+///
+/// Exact on the coordinates as given, and watertight: a ray that hits the common edge or corner of
+/// two triangles hits both, and names the edge or corner, because the edge alone decides on which
+/// side of it a line passes. So no ray slips into a closed surface. A triangle without area is the
+/// segment or point that its corners span, named as by the `intersect` of triangles. Neither the
+/// order of the corners nor the length of the direction matters (features are renamed, t is scaled
+/// accordingly).
+///
+/// \pre    every coordinate is finite, the direction is not zero, no parameter is NaN
+/// \cost   O(1), no allocation; 3 `direction_side` for a miss, at most, and a `cut_parameter` for a
+///         hit in the usual case
+/// \source the three signs: Segura and Feito, Algorithms to Test Ray-Triangle Intersection, WSCG
+///         2001
+[[nodiscard]] TREEFORM_API std::optional<ray_contact> intersect(
+    const ray3& ray, const triangle3& triangle, predicate_counters* counters = nullptr);
+
+/// The first time at which two triangles have a common point.
+struct sweep_contact {
+    /// Features that meet at that time: a corner and any feature, or two edges. There may be
+    /// others.
+    contact at{feature::v0, feature::v0};
+    /// With a relative error below 2^-40; 0 if and only if the exact time is 0.
+    double time = 0.0;
+    /// The time as an exact number, for `compare`: when the point `from` of the moving triangle,
+    /// carried along, gets to the plane `until`.
+    point3 from{};
+    cutting_plane until{};
 };
 
 }  // namespace treeform

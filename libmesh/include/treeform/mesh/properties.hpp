@@ -4,7 +4,6 @@
 /// its flat and cylindrical regions.
 
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -111,10 +110,11 @@ struct mass_properties {
     friend bool operator==(const mass_properties&, const mass_properties&) = default;
 };
 
-/// Volume, center of mass and inertia of what a closed mesh encloses. Where it is inside out, volume
-/// and inertia have the opposite sign. A region that the surface winds around several times
-/// counts that often. None where the volume is 0, as of an empty mesh, or so small beside what cancels
-/// in its sum that the center would be noise, or not finite; of an open one, they mean little.
+/// Volume, center of mass and inertia of what a closed mesh encloses. Where it is inside out,
+/// volume and inertia have the opposite sign. A region that the surface winds around several times
+/// counts that often. None where the volume is 0, as of an empty mesh, or so small beside what
+/// cancels in its sum that the center would be noise, or not finite; of an open one, they mean
+/// little.
 ///
 /// Coordinates are first taken from the middle of the box, which rounds them by at most 2^-53 of
 /// its diagonal; sums are then made in twice the precision of double, of products that are off by

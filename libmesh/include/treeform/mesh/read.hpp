@@ -4,8 +4,8 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <array>
 #include <cstddef>
@@ -27,9 +27,10 @@ namespace treeform {
 /// Coordinates are as stored: float32 widened to double, decimal text rounded once to the nearest
 /// double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
 ///
-/// - OBJ: `vt` and `vn` are in `attributes::corners`. The material files that it names are read where
-///   they are there and the OBJ has a path: the diffuse colors of its materials become columns red,
-///   green, blue and, where one is not opaque (`d`), alpha of faces; faces without one are white.
+/// - OBJ: `vt` and `vn` are in `attributes::corners`. The material files that it names are read
+///   where they are there and the OBJ has a path: the diffuse colors of its materials become
+///   columns red, green, blue and, where one is not opaque (`d`), alpha of faces; faces without one
+///   are white.
 /// - STL: a binary file with a wrong count of triangles is read where all of it is whole triangles,
 ///   and one with bytes behind those of the header. Text may have zero bytes between words, and
 ///   words after `endloop` and `endfacet`. `mesh_file::warnings` says so.
@@ -38,12 +39,12 @@ namespace treeform {
 ///   corner, or none. Lines `comment TextureFile NAME` are in `attributes::texture_files`.
 /// - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
 ///   any columns, also such as easting, northing and elevation, which a warning says; latitude and
-///   longitude are refused. `read_options::columns` says which is which. An empty cell, or one with a
-///   word, is NaN. Whole numbers beyond 2^53 are 64-bit integers where a column has nothing else.
+///   longitude are refused. `read_options::columns` says which is which. An empty cell, or one with
+///   a word, is NaN. Whole numbers beyond 2^53 are 64-bit integers where a column has nothing else.
 ///   Colors are of 8 or 16 bits where they are whole numbers of these.
-/// - PTS: as XYZ. Where the first line is the number of points, 4 columns are x y z intensity, 6 are
-///   x y z red green blue, and 7 have both. More points than it says are read with a warning; fewer
-///   are an error. The format is then called "xyz".
+/// - PTS: as XYZ. Where the first line is the number of points, 4 columns are x y z intensity, 6
+///   are x y z red green blue, and 7 have both. More points than it says are read with a warning;
+///   fewer are an error. The format is then called "xyz".
 /// - PCD: a field of several values becomes columns "name[0]", "name[1]", ... WIDTH, HEIGHT and
 ///   VIEWPOINT of an organized cloud become lines of `attributes::obj_info`: "num_cols 640",
 ///   "num_rows 480", "viewpoint 0 0 0 1 0 0 0".
@@ -52,23 +53,25 @@ namespace treeform {
 /// - 3MF: the build. Each mesh that an item shows, itself or through components, is a part with a
 ///   name of its own ("gear", "gear (2)"), where the transforms put it; mirrored ones have their
 ///   faces turned, so that they are not inside out. Supports and surfaces are read as models are,
-///   objects of the type "other" and those outside the build are not. Items and components may be in
-///   other model parts of the package. Base materials are materials of parts, and their colors and
-///   those of color groups become columns red, green, blue and alpha of faces, or of points where
-///   corners have colors of their own. Texture coordinates are in `attributes::corners`; images are
-///   not read. Coordinates are in the unit of the file, which is a line of `attributes::obj_info`:
-///   "unit millimeter". Extensions that a file requires and that would change its shape are refused.
-/// - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene. Each mesh that a node shows, also as an instance of
-///   EXT_mesh_gpu_instancing, is a part with a name of its own, that of the node or of the mesh, where
-///   the transforms, composed in double, put it; mirrored ones have their faces turned. Strips and
-///   fans are triangles. COLOR_0 becomes columns red, green, blue and alpha of points, in the type and
-///   with the numbers of the file; NORMAL nx, ny and nz, turned with the node; the texture coordinates
-///   that the color of the material takes, with KHR_texture_transform, s and t = 1 - v, since t counts
-///   from the lower edge elsewhere. Colors of materials become columns red, green, blue and alpha of
-///   faces, of 8 bits. Textures, other attributes and lines are not read, morph targets and skins not
-///   applied. Files that a glTF names are read from its folder and those in it.
-///   Extensions that a file requires are refused by name, except for KHR_mesh_quantization and those
-///   that only change how a surface looks. glTF 1.0 is left to assimp.
+///   objects of the type "other" and those outside the build are not. Items and components may be
+///   in other model parts of the package. Base materials are materials of parts, and their colors
+///   and those of color groups become columns red, green, blue and alpha of faces, or of points
+///   where corners have colors of their own. Texture coordinates are in `attributes::corners`;
+///   images are not read. Coordinates are in the unit of the file, which is a line of
+///   `attributes::obj_info`: "unit millimeter". Extensions that a file requires and that would
+///   change its shape are refused.
+/// - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene.
+///   Each mesh that a node shows, also as an instance of EXT_mesh_gpu_instancing, is a part with a
+///   name of its own, that of the node or of the mesh, where the transforms, composed in double,
+///   put it; mirrored ones have their faces turned. Strips and fans are triangles. COLOR_0 becomes
+///   columns red, green, blue and alpha of points, in the type and with the numbers of the file;
+///   NORMAL nx, ny and nz, turned with the node; the texture coordinates that the color of the
+///   material takes, with KHR_texture_transform, s and t = 1 - v, since t counts from the lower
+///   edge elsewhere. Colors of materials become columns red, green, blue and alpha of faces, of 8
+///   bits. Textures, other attributes and lines are not read, morph targets and skins not applied.
+///   Files that a glTF names are read from its folder and those in it. Extensions that a file
+///   requires are refused by name, except for KHR_mesh_quantization and those that only change how
+///   a surface looks. glTF 1.0 is left to assimp.
 ///
 /// \throws io_error naming path, line or byte, and reason
 [[nodiscard]] TREEFORM_API mesh_file read(const std::filesystem::path& path,
@@ -87,13 +90,13 @@ enum class file_content : std::uint8_t {
 };
 
 /// `paths` with each folder replaced by the files in it of such a format, by extension, in the
-/// order of their names. What is in folders of the folder is not looked at. A folder without such files
-/// stays, and so does "-".
+/// order of their names. What is in folders of the folder is not looked at. A folder without such
+/// files stays, and so does "-".
 [[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
                                                              file_content content);
 
-/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: true unless treeform was built
-/// without assimp.
+/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: true unless treeform was
+/// built without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();
 
 enum class urdf_joint_kind : std::uint8_t { fixed, revolute, continuous, prismatic };
@@ -148,8 +151,8 @@ struct urdf_robot {
     /// joints and links without; the lower number first, ascending.
     [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent() const;
 
-    /// Its links that have faces. `mesh_of_file` gives the mesh of a file, and is asked in the order
-    /// of `meshes`, once for each that has one.
+    /// Its links that have faces. `mesh_of_file` gives the mesh of a file, and is asked in the
+    /// order of `meshes`, once for each that has one.
     [[nodiscard]] TREEFORM_API robot_parts
     parts(const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const;
 
@@ -175,8 +178,8 @@ struct urdf_options {
 /// and spheres become meshes. Files of meshes are not read, but have to exist.
 ///
 /// \throws io_error naming the path and the reason: no XML, no robot, a joint of another kind, a
-///         link that is not there, has two parents or is its own ancestor, names that repeat, numbers
-///         that are none, sizes that are not above 0, a mesh whose file is not found
+///         link that is not there, has two parents or is its own ancestor, names that repeat,
+///         numbers that are none, sizes that are not above 0, a mesh whose file is not found
 [[nodiscard]] TREEFORM_API urdf_robot read_urdf(const std::filesystem::path& path,
                                                 const urdf_options& options = {});
 

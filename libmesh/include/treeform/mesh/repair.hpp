@@ -6,7 +6,7 @@
 
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -91,9 +91,9 @@ struct TREEFORM_API resolve_result {
 /// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
 ///
 /// \throws std::invalid_argument as `boolean`; for `remove`, a coordinate may be beyond 2^1000
-/// \cost   as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer` where
-///         a component is inward; for `remove`, one `self_intersections` a round, and for a hole of n
-///         vertices O(n^3) when n <= 200, else O(n^2)
+/// \cost   as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
+///         where a component is inward; for `remove`, one `self_intersections` a round, and for a
+///         hole of n vertices O(n^3) when n <= 200, else O(n^2)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API resolve_result
 resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mode::outer,
@@ -101,7 +101,7 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 
 /// What is inside, for `repair`.
 enum class repair_rule : std::uint8_t {
-    automatic,  ///< `positive` where every shell is outward after `orient`, else `nonzero` or labels
+    automatic,  ///< `positive` where each shell is outward after `orient`, else `nonzero` or labels
     nonzero,
     odd,
     positive
@@ -125,8 +125,8 @@ struct repair_options {
     double strays = 0.001;
     repair_rule inside = repair_rule::automatic;
     /// Losing more than this share has the status `excessive_loss`: of the volume, or of the area
-    /// where there were holes. Area is lost of which nothing is left, neither in sight nor hidden in
-    /// the solid. 1 allows any loss.
+    /// where there were holes. Area is lost of which nothing is left, neither in sight nor hidden
+    /// in the solid. 1 allows any loss.
     double max_loss = 0.05;
     /// The mesh is an open surface: its border is kept, and nothing is filled.
     bool sheet = false;
@@ -204,15 +204,15 @@ struct TREEFORM_API repair_result {
 /// boundary. Where faces disagree, the cells that they cut space into are labeled inside or outside
 /// by a minimum cut, as they and generalized winding numbers disagree least, if less is lost then.
 ///
-/// Holes are filled by triangles between their vertices; large ones of smooth surfaces by new points,
-/// so that the surface goes on as it does around them. Sheets are not filled, but said to be open,
-/// unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close them, except
-/// those that end in a plane and lie to one side of it. Nor is a mesh where at more than a tenth as
-/// many edges as it has faces more than two faces meet and disagree.
+/// Holes are filled by triangles between their vertices; large ones of smooth surfaces by new
+/// points, so that the surface goes on as it does around them. Sheets are not filled, but said to
+/// be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close
+/// them, except those that end in a plane and lie to one side of it. Nor is a mesh where at more
+/// than a tenth as many edges as it has faces more than two faces meet and disagree.
 ///
 /// \throws std::invalid_argument as `boolean`; for a gap or share that is negative or not finite
-/// \cost   O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
-///         n edges O(n^3) up to 100, then O(n^2)
+/// \cost   O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole
+///         of n edges O(n^3) up to 100, then O(n^2)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repair_result repair(const mesh_ref& mesh,
                                                 const repair_options& options = {});

@@ -7,7 +7,6 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -43,6 +42,15 @@ struct oriented_plane {
     /// The plane at a height above this one: through at + height n, n the normal at length 1, each
     /// number rounded to a double. Along an axis, from the origin, these are exact.
     [[nodiscard]] TREEFORM_API oriented_plane parallel(double height) const;
+
+    /// Heights above this plane of the middles of layers of this thickness, from the lowest point
+    /// to the highest: half a thickness above the lowest is the first. Points that are not finite
+    /// do not count.
+    ///
+    /// \throws std::invalid_argument for a plane that is not finite, a thickness that is not
+    ///         positive, or of which there would be more than 2^24 layers
+    [[nodiscard]] TREEFORM_API std::vector<double> layer_heights(points_view points,
+                                                                 double thickness) const;
 
     friend bool operator==(const oriented_plane&, const oriented_plane&) = default;
 };
@@ -163,16 +171,6 @@ struct isolines_result {
                                                     std::span<const double> values,
                                                     std::span<const double> levels,
                                                     const section_options& options = {});
-
-/// Heights above `plane` of the middles of layers of this thickness, from the lowest point to the
-/// highest: half a thickness above the lowest is the first. Points that are not finite do not
-/// count.
-///
-/// \throws std::invalid_argument for a plane that is not finite, a thickness that is not positive,
-///         or of which there would be more than 2^24 layers
-[[nodiscard]] TREEFORM_API std::vector<double> layer_heights(points_view points,
-                                                             const oriented_plane& plane,
-                                                             double thickness);
 
 /// Writes sections as `svg`, `dxf`, `obj` or `json`, by the extension where no format is given:
 /// loops in the frame (SVG: a group a layer, y up; DXF: polylines at the height as z; JSON: all

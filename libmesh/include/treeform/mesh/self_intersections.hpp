@@ -6,9 +6,8 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/process_team.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -164,8 +163,8 @@ struct stream_search_options {
     std::string format{};            ///< of the input, as for `read`
     std::uint64_t memory = 0;        ///< bytes to take; 0: three quarters of the machine's
     std::filesystem::path folder{};  ///< for the tiles; empty: the input's name and ".search-tiles"
-    std::uint64_t faces_per_tile = 0;  ///< at most about this many; 0: as the memory allows
-    process_team team{};               ///< not for `stream_search`
+    std::uint64_t faces_per_tile = 0;       ///< at most about this many; 0: as the memory allows
+    treeform::communicator communicator{};  ///< not for `stream_search`
     /// Called with the step ("scatter", "pairs") and the share of it that is done. Returning false
     /// cancels.
     std::function<bool(std::string_view, double)> progress{};
@@ -175,8 +174,8 @@ struct stream_search_options {
 
 /// What was found in the file.
 struct stream_search_result {
-    /// Only the faces that meet others, in the order of the file; its `degenerate` and `dropped` are
-    /// those of all faces.
+    /// Only the faces that meet others, in the order of the file; its `degenerate` and `dropped`
+    /// are those of all faces.
     usable_mesh part{};
     /// Pairs of faces of `part`. Its counters are sums over the tiles.
     self_intersection_result found{};
@@ -192,12 +191,13 @@ struct stream_search_result {
 };
 
 /// The pairs that `self_intersections` finds in the usable part of a file, for files larger than
-/// memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut into tiles; each
-/// gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A pair counts in
-/// the tile that holds the lowest corner of the common part of the boxes of its faces, so it counts once.
+/// memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut into tiles;
+/// each gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A
+/// pair counts in the tile that holds the lowest corner of the common part of the boxes of its
+/// faces, so it counts once.
 ///
-/// The folder stays when the process is killed, and the same call goes on from there. Of a team, rank
-/// 0 makes the tiles, all search them, and rank 0 gets the result.
+/// The folder stays when the process is killed, and the same call goes on from there. With several ranks,
+/// rank 0 makes the tiles, all search them, and rank 0 gets the result.
 ///
 /// \throws io_error when the file cannot be read or is of another format; stream_error for the
 ///         folder; std::length_error for more than 2^32 - 1 triangles
@@ -207,21 +207,21 @@ struct stream_search_result {
 [[nodiscard]] TREEFORM_API stream_search_result self_intersections_of_file(
     const std::filesystem::path& input, const stream_search_options& options = {});
 
-/// Whether the file is of a format that is searched in tiles.
-///
-/// \throws io_error when the file cannot be read, or its header is damaged
-[[nodiscard]] TREEFORM_API bool is_searched_in_tiles(const std::filesystem::path& input,
-                                                     std::string_view format = {});
-
 /// The same step by step, for many processes, of one machine or of several that see the folder: one
 /// calls `scatter`; then each calls `search_tile` for its share of the tiles; and when all have
-/// ended, one calls `finish` and `remove_folder`. A tile that is finished is not searched again, and
-/// two that search one tile at the same time write the same.
+/// ended, one calls `finish` and `remove_folder`. A tile that is finished is not searched again,
+/// and two that search one tile at the same time write the same.
 ///
 /// All give the same input and options. Steps throw as `self_intersections_of_file`. They return
 /// status::cancelled where `progress` said so, else status::ok.
 class TREEFORM_API stream_search {
   public:
+    /// Whether the file is of a format that is searched in tiles.
+    ///
+    /// \throws io_error when the file cannot be read, or its header is damaged
+    [[nodiscard]] static bool accepts(const std::filesystem::path& input,
+                                      std::string_view format = {});
+
     stream_search(std::filesystem::path input, stream_search_options options);
     ~stream_search();
     stream_search(stream_search&&) noexcept;

@@ -4,7 +4,6 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -120,8 +119,8 @@ struct separate_options {
 /// Some fifty directions are tried: the axes, away from the nearest points, the normals of faces
 /// that meet, and others around the best. Of the places found, the nearest is returned whose
 /// coordinates pass the check of `slide`. It need not be the nearest place of all: that one is on
-/// the boundary of a set with O(n^2 m^2) faces. The search ends by its effort, and passes over places
-/// that take much of it, as that of `penetration_depth` does: `placement::effort` says so.
+/// the boundary of a set with O(n^2 m^2) faces. The search ends by its effort, and passes over
+/// places that take much of it, as that of `penetration_depth` does: `placement::effort` says so.
 ///
 /// \throws std::invalid_argument as `slide`
 /// \cost   for each direction up to a dozen `intersects` or `distance`, a tree over `moving` and a

@@ -4,7 +4,6 @@
 
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 #include <memory>

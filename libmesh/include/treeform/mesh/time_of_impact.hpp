@@ -7,11 +7,9 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
-#include <treeform/mesh/triangle.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -149,8 +147,8 @@ struct turn_options {
 struct turn_result {
     /// `travel` is 0, `matrix` a turn about the axis, from which `points` differ by a few units in
     /// the last place of the largest coordinate. `contacts` are the pairs of faces within the
-    /// tolerance, beyond the clearance. `standing` at the place is exact: separate, in general, by
-    /// no more than the tolerance.
+    /// tolerance, beyond the clearance. `mesh_relation` at the place is exact: separate, in
+    /// general, by no more than the tolerance.
     placement at{};
     double angle = 0.0;      ///< of the turn, in degrees
     double tolerance = 0.0;  ///< that was used
@@ -170,7 +168,8 @@ struct turn_result {
 /// `nothing_met`, all of `max_angle` is free. With `too_many_steps` it was not found out: something
 /// is passed at a distance that is very small against the size, over a long way.
 ///
-/// Points that no face uses turn along and are otherwise ignored. Clouds are `prepared_mesh::cloud`.
+/// Points that no face uses turn along and are otherwise ignored. Clouds are
+/// `prepared_mesh::cloud`.
 ///
 /// \throws std::invalid_argument for an axis that is zero or not finite, an angle out of range, a
 ///         tolerance that is not positive, and as `slide`

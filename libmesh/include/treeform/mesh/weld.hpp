@@ -8,7 +8,6 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/prepared_mesh.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/tree/detail/export.hpp>
 
@@ -76,7 +75,8 @@ struct file_weld_result {
     TREEFORM_API void withhold(mesh_file& input) const;
 };
 
-/// `mesh`, or a cloud of points, with the points merged that are within the tolerance of each other.
+/// `mesh`, or a cloud of points, with the points merged that are within the tolerance of each
+/// other.
 ///
 /// Whether two points are within the tolerance is decided exactly on the coordinates as given, and
 /// so is which of two points is nearer. Points are in the order of the first points of their
@@ -117,10 +117,10 @@ struct file_weld_result {
 ///         `keep` than `first`, or more than 2^32 / 3 faces with `keep_manifold`; all name the
 ///         lowest element of the arrays given
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, as long as
-///         `may_merge` is empty or nearly always true; parallel, except for rule `first` where points
-///         have several others within the tolerance, and either come row by row or few of them are
-///         kept. Groups take up to 36 bytes a point (50 for chains in dense places, 110 by `tree`),
-///         40 more in an `order`; faces 24 each besides the result, 100 with
+///         `may_merge` is empty or nearly always true; parallel, except for rule `first` where
+///         points have several others within the tolerance, and either come row by row or few of
+///         them are kept. Groups take up to 36 bytes a point (50 for chains in dense places, 110 by
+///         `tree`), 40 more in an `order`; faces 24 each besides the result, 100 with
 ///         `keep_manifold`; conditions 8 a point and property
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const weld_options& options = {});

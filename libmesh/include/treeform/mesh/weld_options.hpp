@@ -93,8 +93,8 @@ struct weld_options {
 
     /// The conditions on single columns that these imply: those of `same`, then of seams.
     ///
-    /// A name is that of a column, or else of a group of columns. `across` may name a group that the
-    /// vertices do not have.
+    /// A name is that of a column, or else of a group of columns. `across` may name a group that
+    /// the vertices do not have.
     ///
     /// \throws weld_property_error for a name that is neither, or a column of lists
     [[nodiscard]] TREEFORM_API std::vector<weld_condition> conditions(const attributes& properties,

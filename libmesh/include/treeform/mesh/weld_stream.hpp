@@ -4,17 +4,16 @@
 ///
 ///     tf::weld_stream("scan.ply", "thin.ply", {.tolerance = 0.5});
 ///
-/// The cloud, in one file or several, is read three times: to look at it (its box, the number of its
+/// The cloud, in one file or several, is read three times: for a survey (its box, the number of its
 /// points, a sample that says where to cut), to give each tile its points, and to write what is
-/// kept; an order and a choice of what is kept read it once more, and so does a mesh, whose faces are
-/// read three times. Tiles are in a folder on the disk.
-/// It stays when the process is killed, and the same call goes on from there. The output is the
-/// same, byte for byte, as `weld` of the whole cloud would give, or of what `join` makes of several.
+/// kept; an order and a choice of what is kept read it once more, and so does a mesh, whose faces
+/// are read three times. Tiles are in a folder on the disk. It stays when the process is killed,
+/// and the same call goes on from there. The output is byte for byte that of `weld`, for the whole
+/// cloud or what `join` makes of several.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_stream.hpp>
-#include <treeform/mesh/process_team.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -45,31 +44,32 @@ struct weld_stream_options {
     bool keep_seams = false;  ///< of a mesh, as in `weld_options`, and so are the next two
     std::vector<std::string> across{};
     bool keep_degenerate = false;
-    /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS, else
-    /// to those of `round_to_las`, before anything is decided of them.
+    /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS,
+    /// else to those of `round_to_las`, before anything is decided of them.
     bool as_las = false;
     std::optional<std::array<double, 3>> las_scale{}, las_offset{};  ///< as in `write_options`
     std::uint64_t memory = 0;           ///< bytes that the process may take; 0: `default_memory`
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< at most about this many; 0: as the memory allows
-    process_team team{};
+    treeform::communicator communicator{};
     bool shared = false;  ///< see `stream_weld`
-    /// Called with the step ("look", "scatter", "weld", "borders", "write") and the share of it that
-    /// is done. Returning false cancels.
+    /// Called with the step ("survey", "scatter", "weld", "borders", "write") and the share of it
+    /// that is done. Returning false cancels.
     std::function<bool(std::string_view, double)> progress{};
     std::function<void()> step_done{};  ///< called after what an interruption does not undo
 
     /// The memory limit when none is given: three quarters of the machine's memory, in bytes.
     [[nodiscard]] TREEFORM_API static std::uint64_t default_memory();
 
-    /// About how many bytes it takes to weld `points` points with the properties of `header` in memory,
-    /// from measurements: coordinates once, properties twice, and the index that finds neighbors. The
-    /// process itself takes some 32 MB more.
+    /// About how many bytes it takes to weld `points` points with the properties of `header` in
+    /// memory, from measurements: coordinates once, properties twice, and the index that finds
+    /// neighbors. The process itself takes some 32 MB more.
     [[nodiscard]] TREEFORM_API static std::uint64_t memory_to_weld(const mesh_file& header,
                                                                    std::uint64_t points);
 
     /// The least `memory` with which `points` points can be welded in tiles. Where
-    /// points are crowded, and by `weld_rule::chain`, the limit may turn out higher (`stream_error`).
+    /// points are crowded, and by `weld_rule::chain`, the limit may turn out higher
+    /// (`stream_error`).
     [[nodiscard]] TREEFORM_API static std::uint64_t memory_to_stream(const mesh_file& header,
                                                                      std::uint64_t points);
 };
@@ -130,8 +130,8 @@ struct weld_stream_outputs {
     bool withhold = false;  ///< `welded` gets all points, those not kept "withheld" as in LAS
     /// Called with the new numbers of the next input points, from the first to the last.
     std::function<void(std::span<const std::uint64_t>)> map{};
-    /// The same as a file: `map_text` gives the text for points from `first` on. Each of a team calls
-    /// it for some points.
+    /// The same as a file: `map_text` gives the text for points from `first` on. Each of a team
+    /// calls it for some points.
     std::filesystem::path map_path{};
     std::function<std::string(std::uint64_t first, std::span<const std::uint64_t>)> map_text{};
     /// Folders with names that begin with ".unfinished-", which the caller removes after `write`.
@@ -185,16 +185,15 @@ class TREEFORM_API stream_error : public std::runtime_error {
 
 /// Welds the cloud in the files `inputs` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
 /// writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may
-/// be a mesh: as `weld` would, faces get their new corners, and those that collapse are left out. Each
-/// of a team has a share of points and of faces. Meshes need `welded` as PLY or OBJ; an STL no
+/// be a mesh: as `weld` would, faces get their new corners, and those that collapse are left out.
+/// Each rank has a share of points and of faces. Meshes need `welded` as PLY or OBJ; an STL no
 /// tolerance, or `weld_rule::chain`.
 ///
 /// \throws io_error when an input cannot be read or an output cannot be written, stream_error,
-///         std::invalid_argument for a tolerance that is negative or not finite, and as `weld` for
-///         properties
+///         std::invalid_argument for a tolerance below 0 or not finite, and as `weld` for properties
 /// \cost   O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for
-///         each condition, 48 for an order, and points as in memory for a choice of what is kept; of
-///         a mesh up to 56 more, and 48 a triangle; the points of a compressed PCD also unpacked
+///         each condition, 48 for an order, and points as in memory for a choice of what is kept;
+///         of a mesh up to 56 more, and 48 a triangle; the points of a compressed PCD also unpacked
 /// \same   on any number of threads, with any memory and any folder
 TREEFORM_API weld_stream_result weld_stream(const cloud_inputs& inputs,
                                             const weld_stream_outputs& outputs,
@@ -205,13 +204,14 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
                                             const std::filesystem::path& output,
                                             const weld_stream_options& options);
 
-/// The same step by step, for callers who report or decide something in between. Call `look`,
+/// The same step by step, for callers who report or decide in between. Call `take_survey`,
 /// `scatter`, `weld` and `write` once each, in this order, as long as they return status::ok.
 ///
-/// Shared (`weld_stream_options::shared`), many processes do it that see the folder: one calls `look`
-/// and `scatter`; then each calls `weld_tile` for its share of the tiles; and when all have ended, one
-/// calls `check_tiles`, `weld`, `write` and `remove_folder`. A tile that is finished is not welded
-/// again, and two that weld one tile at the same time write the same. `weld` takes the folder alone.
+/// Shared (`weld_stream_options::shared`), many processes do it that see the folder: one calls
+/// `take_survey` and `scatter`; then each calls `weld_tile` for its share of the tiles; and when
+/// all have ended, one calls `check_tiles`, `weld`, `write` and `remove_folder`. A tile that is
+/// finished is not welded again, and two that weld one tile at the same time write the same. `weld`
+/// takes the folder alone.
 class TREEFORM_API stream_weld {
   public:
     /// Takes the folder. Who has it alone removes what a killed run has left elsewhere.
@@ -221,7 +221,7 @@ class TREEFORM_API stream_weld {
     stream_weld& operator=(stream_weld&&) noexcept;
 
     /// Reads the cloud, or what an earlier run has kept of it, and decides where to cut it.
-    [[nodiscard]] status look();
+    [[nodiscard]] status take_survey();
     [[nodiscard]] const cloud_survey& survey() const;
     /// Gives each tile its points.
     [[nodiscard]] status scatter();

@@ -18,8 +18,8 @@ namespace treeform {
 
 /// How to write.
 struct write_options {
-    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty: that of
-    /// the path.
+    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
+    /// that of the path.
     std::string format{};
     /// Write text when the format has text and binary. Binary PLY is little endian unless the file
     /// was read from a big endian one. PCD is compressed only when it was read from a compressed
@@ -28,8 +28,8 @@ struct write_options {
     /// Precision of the coordinates; none: as they were stored. Binary STL and GLB hold float32
     /// only. 3MF holds doubles, but its readers make floats of them: none is float32 there.
     std::optional<treeform::precision> precision{};
-    /// Columns of points keep the names and types that they have in `file`, also where the format has
-    /// others for them.
+    /// Columns of points keep the names and types that they have in `file`, also where the format
+    /// has others for them.
     bool keep_names = false;
     /// Columns of points that are not written; "normal", "uv" or "color" for all of that kind, also
     /// those of corners.
@@ -41,8 +41,8 @@ struct write_options {
     /// Allow further rounding of certified coordinates, which can undo what was certified.
     /// Coordinates without a certificate are always rounded to the precision.
     bool round = false;
-    /// Told 0 when the writing begins and while it goes on, and 1 before the file appears. Where it returns false, nothing
-    /// appears: what was at the path stays as it was.
+    /// Told 0 when the writing begins and while it goes on, and 1 before the file appears. Where it
+    /// returns false, nothing appears: what was at the path stays as it was.
     progress_callback progress{};
 };
 
@@ -66,35 +66,38 @@ struct write_result {
 /// - PLY: all elements in their order; texture coordinates of corners, as the list "texcoord" of
 ///   faces with two numbers a corner, in float32 unless the file has that list as double (NaN where
 ///   a corner has none); names of texture files, behind the comments.
-/// - OBJ: parts, material files, texture coordinates and normals of corners, or those of points, vertex
-///   colors.
+/// - OBJ: parts, material files, texture coordinates and normals of corners, or those of points,
+///   vertex colors.
 /// - OFF: normals, colors and texture coordinates of points.
-/// - STL: its header, without a leading "solid" and with a NUL as its last byte where it has none; the
-///   names of solids, the column "stl_attribute".
+/// - STL: its header, without a leading "solid" and with a NUL as its last byte where it has none;
+///   the names of solids, the column "stl_attribute".
 /// - XYZ and CSV: further columns. PCD: these, and the lines "num_cols", "num_rows" and "viewpoint"
 ///   of `obj_info`.
-/// - LAS and LAZ: what `las_header` says; further columns as extra bytes. Columns red, green and blue
-///   of 8 bits are multiplied by 256; points that no column says it of are returns 1 of 1; intensities
-///   that are no whole numbers are rounded, or multiplied by 65535 where all are from 0 to 1; scan_angle_rank becomes scan_angle in formats from 6 on. Coordinates that the file's scale and offset do not hold are
-///   rounded (`max_displacement`). A file that was not LAS gets the smallest format that holds its
-///   columns, and for each axis the coarsest scale of 1, 0.1, 0.01, ... that gives all coordinates
-///   back within two units in their last place, else the finest that 32 bits allow.
-/// - GLB: a node and a mesh with the points that they use for faces of one object and group in a row,
-///   with their name; in these, one primitive for each color of faces (columns red, green, blue and
-///   alpha, if any, of the element "face"), which materials have. Other columns of faces with whole numbers from 0 on become
-///   accessors that the primitive's `extras.face_properties` names. Columns of points: red, green,
-///   blue and alpha become COLOR_0, of 8 and 16 bits as they are, others as floats from 0 to 1; nx,
-///   ny and nz NORMAL, with length 1; s and t, u and v or texture_u and texture_v TEXCOORD_0, with
-///   v = 1 - t. Those of corners go ahead of these, and a point gets a copy for each that it has.
+/// - LAS and LAZ: what `las_header` says; further columns as extra bytes. Columns red, green and
+///   blue of 8 bits are multiplied by 256; points that no column says it of are returns 1 of 1;
+///   intensities that are no whole numbers are rounded, or multiplied by 65535 where all are from 0
+///   to 1; scan_angle_rank becomes scan_angle in formats from 6 on. Coordinates that the file's
+///   scale and offset do not hold are rounded (`max_displacement`). A file that was not LAS gets
+///   the smallest format that holds its columns, and for each axis the coarsest scale of 1, 0.1,
+///   0.01, ... that gives all coordinates back within two units in their last place, else the
+///   finest that 32 bits allow.
+/// - GLB: a node and a mesh with the points that they use for faces of one object and group in a
+///   row, with their name; in these, one primitive for each color of faces (columns red, green,
+///   blue and alpha, if any, of the element "face"), which materials have. Other columns of faces
+///   with whole numbers from 0 on become accessors that the primitive's `extras.face_properties`
+///   names. Columns of points: red, green, blue and alpha become COLOR_0, of 8 and 16 bits as they
+///   are, others as floats from 0 to 1; nx, ny and nz NORMAL, with length 1; s and t, u and v or
+///   texture_u and texture_v TEXCOORD_0, with v = 1 - t. Those of corners go ahead of these, and a
+///   point gets a copy for each that it has.
 /// - 3MF: an object and an item of the build for each of `scene_parts`, with its name; materials of
-///   parts with the colors of their faces; else colors of faces, else of points; the line "unit ..."
-///   of `obj_info`, else millimeters. Polygons are written as triangles. A number in text is that of
-///   the double, so that readers of floats and of doubles get the same.
+///   parts with the colors of their faces; else colors of faces, else of points; the line "unit
+///   ..." of `obj_info`, else millimeters. Polygons are written as triangles. A number in text is
+///   that of the double, so that readers of floats and of doubles get the same.
 ///
-/// Columns of points that several formats know have the names and types of the format that is written
-/// (`libmesh/attributes/known_columns.cpp` is the table): colors are red, green and blue of 8 bits, but
-/// in LAS of 16, in PCD the packed `rgb`, in OBJ numbers from 0 to 1; normals are nx, ny, nz, in PCD
-/// normal_x, ..., in OBJ `vn`. A file is not translated to its own format.
+/// Columns of points that several formats know have the names and types of the format that is
+/// written (`libmesh/attributes/known_columns.cpp` is the table): colors are red, green and blue of
+/// 8 bits, but in LAS of 16, in PCD the packed `rgb`, in OBJ numbers from 0 to 1; normals are nx,
+/// ny, nz, in PCD normal_x, ..., in OBJ `vn`. A file is not translated to its own format.
 ///
 /// Warnings say what is scaled, what is rounded, and all that is left out.
 ///
@@ -109,9 +112,10 @@ TREEFORM_API write_result write(const std::filesystem::path& path, const mesh_fi
                                 const write_options& options = {});
 
 /// Moves the coordinates of `file` to those that a LAS file can hold, and gives it the scale and
-/// offset that it will have there (`mesh_file::las`). What is decided of the points after that holds
-/// in the file that is written. Returns the furthest that a coordinate moved: 0 for what was LAS and
-/// is as it was. Coordinates that are not finite stay. Of `options`, scale and offset count.
+/// offset that it will have there (`mesh_file::las`). What is decided of the points after that
+/// holds in the file that is written. Returns the furthest that a coordinate moved: 0 for what was
+/// LAS and is as it was. Coordinates that are not finite stay. Of `options`, scale and offset
+/// count.
 ///
 /// \throws io_error naming the first point that 32 bits do not hold with the file's scale
 /// \cost   O(V)

@@ -1,11 +1,14 @@
 #pragma once
 /// \file
-/// Axis-aligned boxes.
+/// Axis-aligned boxes, and affine maps of the plane and of space.
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
+#include <type_traits>
 
 namespace treeform {
 
@@ -87,6 +90,135 @@ template <class T, std::size_t D>
         common.max[i] = a.max[i] < b.max[i] ? a.max[i] : b.max[i];
     }
     return common;
+}
+
+/// The affine map that takes a point x to M x + t. Row k of `rows` is [M[k][0] ... M[k][D-1],
+/// t[k]]. A new one is the identity. M may be any matrix: a rotation, a mirror, a shear, even
+/// singular.
+template <std::size_t D>
+struct transform {
+    static constexpr std::size_t dimensions = D;
+    using row = std::array<double, D + 1>;
+
+    std::array<row, D> rows = unit();
+
+    /// The image of `point`, anything with [] for coordinates to read and to write.
+    ///
+    /// Coordinate k is ((M[k][0] x[0] + M[k][1] x[1]) + M[k][2] x[2]) + t[k], each product and each
+    /// sum rounded to double, unless the compiler may fuse them (`-ffp-contract`). Inside the
+    /// libraries it may not, so that every machine moves a point to the same place.
+    template <class Point>
+    [[nodiscard]] constexpr Point operator()(const Point& point) const {
+        Point moved = point;
+        for (std::size_t k = 0; k < D; ++k) {
+            double sum = rows[k][0] * static_cast<double>(point[0]);
+            for (std::size_t j = 1; j < D; ++j) sum += rows[k][j] * static_cast<double>(point[j]);
+            moved[k] = static_cast<std::remove_cvref_t<decltype(moved[k])>>(sum + rows[k][D]);
+        }
+        return moved;
+    }
+
+    /// The map that adds `offset`, anything with [], to every point.
+    template <class Vector>
+    [[nodiscard]] static constexpr transform translation(const Vector& offset) {
+        transform result;
+        for (std::size_t k = 0; k < D; ++k) result.rows[k][D] = offset[k];
+        return result;
+    }
+
+    /// First `inner`, then this one, in one map; its entries are rounded.
+    [[nodiscard]] constexpr transform after(const transform& inner) const {
+        transform result;
+        for (std::size_t k = 0; k < D; ++k)
+            for (std::size_t j = 0; j <= D; ++j) {
+                double sum = j == D ? rows[k][D] : 0.0;
+                for (std::size_t i = 0; i < D; ++i) sum += rows[k][i] * inner.rows[i][j];
+                result.rows[k][j] = sum;
+            }
+        return result;
+    }
+
+    /// The map that undoes this one: m.inverse().after(m) is the identity, except for rounding. It
+    /// is exact for translations, exchanges of axes and scalings by powers of two.
+    ///
+    /// \throws std::invalid_argument when this one is singular, by its rounded determinant, or when
+    ///         an entry of the result is not finite
+    /// \source Cramer's rule
+    [[nodiscard]] transform inverse() const requires(D == 2 || D == 3);
+
+    /// Whether the map turns what it moves over, as a mirror does: its determinant, as rounded, is
+    /// negative. A surface that is moved by it looks the other way, until its faces are turned
+    /// over.
+    [[nodiscard]] constexpr bool mirrors() const requires(D == 2 || D == 3) {
+        if constexpr (D == 2) {
+            return rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0] < 0.0;
+        } else {
+            double determinant = 0.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+                determinant += rows[0][k] * (rows[1][i] * rows[2][j] - rows[1][j] * rows[2][i]);
+            }
+            return determinant < 0.0;
+        }
+    }
+
+    /// Whether no entry is NaN or infinite.
+    [[nodiscard]] bool finite() const {
+        for (const row& r : rows)
+            for (const double entry : r)
+                if (!std::isfinite(entry)) return false;
+        return true;
+    }
+
+    friend constexpr bool operator==(const transform&, const transform&) = default;
+
+  private:
+    static constexpr std::array<row, D> unit() {
+        std::array<row, D> result{};
+        for (std::size_t k = 0; k < D; ++k) result[k][k] = 1.0;
+        return result;
+    }
+};
+
+namespace detail {
+
+/// As `transform::inverse`, but entries may be infinite or NaN.
+template <std::size_t D>
+requires(D == 2 || D == 3) [[nodiscard]] transform<D> unchecked_inverse(const transform<D>& by) {
+    const auto& m = by.rows;
+    transform<D> result;
+    double determinant = 0.0;
+    if constexpr (D == 2) {
+        result.rows = {{{m[1][1], -m[0][1], 0.0}, {-m[1][0], m[0][0], 0.0}}};
+        determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    } else {
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) {
+                const std::size_t r = (j + 1) % 3, s = (j + 2) % 3;
+                const std::size_t c = (i + 1) % 3, d = (i + 2) % 3;
+                result.rows[i][j] = m[r][c] * m[s][d] - m[r][d] * m[s][c];
+            }
+        for (std::size_t k = 0; k < 3; ++k) determinant += m[0][k] * result.rows[k][0];
+    }
+    for (auto& row : result.rows) {
+        double shift = 0.0;
+        for (std::size_t k = 0; k < D; ++k) {
+            row[k] = row[k] / determinant + 0.0;  // no -0
+            shift -= row[k] * m[k][D];
+        }
+        row[D] = shift + 0.0;
+    }
+    return result;
+}
+
+}  // namespace detail
+
+template <std::size_t D>
+transform<D> transform<D>::inverse() const requires(D == 2 || D == 3) {
+    const transform result = detail::unchecked_inverse(*this);
+    if (!result.finite())
+        throw std::invalid_argument("treeform::transform::inverse: the map has no inverse");
+    return result;
 }
 
 }  // namespace treeform

@@ -9,7 +9,7 @@
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/detail/nearest_k.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
-#include <treeform/tree/strategy/nearness_order.hpp>
+#include <treeform/tree/strategy.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>

@@ -96,8 +96,8 @@ class TREEFORM_API point_search {
     /// number first. None when `progress` asked to stop; it gets 0, as it is not known how much is
     /// left.
     ///
-    /// \cost   O(N log N + P) for P pairs whose points are within about twice the radius; 90 bytes a
-    ///         point
+    /// \cost   O(N log N + P) for P pairs whose points are within about twice the radius; 90 bytes
+    ///         a point
     /// \same   on any number of threads
     [[nodiscard]] std::vector<id_pair> pairs_within(double radius,
                                                     const progress_callback& progress = {}) const;

@@ -1,15 +1,19 @@
 #pragma once
 /// \file
-/// Search of any kind of tree by a box, or by anything that can be held against a box. With the
-/// headers included here, all searches: `search`, `search_any`, `search_all` by one query and of
+/// Search of any kind of tree by a box, or by anything that can be held against a box. Here and
+/// in `search_pair.hpp` are all searches: `search`, `search_any`, `search_all` by one query and of
 /// two trees; `search_self`, `search_self_any`, `search_self_all`; and by blocks, `search_broad` by
 /// one query and of two trees, `search_self_broad`.
+///
+/// Search of a tree of any kind by itself: every pair of primitives whose boxes overlap, once.
 
 #include <treeform/tree/answers.hpp>
+#include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
+#include <treeform/tree/detail/pairs_by_ids.hpp>
 #include <treeform/tree/detail/search_chunks.hpp>
 #include <treeform/tree/detail/visit_query.hpp>
 #include <treeform/tree/search_pair.hpp>
-#include <treeform/tree/search_self.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
@@ -18,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -81,6 +86,152 @@ template <any_tree Tree, tree_query<Tree::dimensions> Query, class Accept>
 template <any_tree Tree, tree_query<Tree::dimensions> Query>
 [[nodiscard]] std::vector<std::uint32_t> search_all(const Tree& tree, const Query& query) {
     return search_all(tree, query, [](std::uint32_t) { return true; });
+}
+
+/// Nodes of a tree, marked.
+template <std::size_t D>
+class node_marks {
+  public:
+    /// None.
+    explicit node_marks(const tree<D>& tree) : marks_(tree.levels()) {
+        for (unsigned level = 0; level < tree.levels(); ++level)
+            marks_[level].resize(tree.nodes_in_level(level));
+    }
+
+    [[nodiscard]] bool operator()(unsigned level, std::size_t node) const {
+        return marks_[level][node] != 0;
+    }
+    /// May be called for different nodes at once.
+    void mark(unsigned level, std::size_t node) { marks_[level][node] = 1; }
+
+  private:
+    std::vector<std::vector<std::uint8_t>> marks_;  ///< [levels][nodes]
+};
+
+/// The search of a tree by itself, cut into chunks that depend on the tree alone.
+///
+/// The caller runs the chunks, as a rule with `for_chunks(search.chunks(), 1, ...)`, and keeps a
+/// state of its own for each: chunks share nothing, and joining the states in order gives the same
+/// result on any number of threads.
+///
+/// \source Sajovic, Knez and Korez, tf::tree, section III-C; one box against eight at a time
+template <std::size_t D>
+class TREEFORM_API self_search {
+  public:
+    /// \pre `tree` outlives the search and is not rebuilt meanwhile
+    explicit self_search(const tree<D>& tree) : self_search(tree, nullptr) {}
+
+    /// Without the pairs among the primitives below a marked node.
+    /// \pre so do `settled`
+    self_search(const tree<D>& tree, const node_marks<D>& settled) : self_search(tree, &settled) {}
+
+    [[nodiscard]] std::size_t chunks() const;
+
+    /// Calls `visit` for the blocks of one chunk, in order, until it returns false. All chunks
+    /// together hold every pair of primitives whose boxes overlap (touching counts) exactly once,
+    /// and some whose boxes miss by less than the rounding of the tree's float boxes.
+    ///
+    /// \cost over all chunks O(N + pairs of overlapping nodes + P) for P candidates
+    search_statistics visit(std::size_t chunk,
+                            detail::function_ref<bool(const candidate_block&)> visit) const;
+
+  private:
+    self_search(const tree<D>& tree, const node_marks<D>* settled);
+
+    const tree<D>* tree_;
+    const node_marks<D>* settled_;
+    unsigned level_ = 0;  ///< of the nodes that the items pair
+    std::vector<detail::node_pair> items_;
+};
+
+namespace detail {
+
+template <std::size_t D>
+[[nodiscard]] auto self_pairs(const tree<D>& tree) {
+    const std::uint32_t* const ids = tree.ids().data();
+    return pairs_of_tree(self_search<D>(tree), ids, ids);
+}
+
+/// The parts that may hold pairs, by twos, ascending; each with itself as well.
+template <tree_of_trees Trees>
+[[nodiscard]] std::vector<id_pair> self_pairs_of_parts(const Trees& trees) {
+    auto parts = all_pairs<true>(self_pairs(trees.top()), every_pair);
+    for (const std::uint32_t part : trees.top().ids()) parts.emplace_back(part, part);
+    std::sort(parts.begin(), parts.end());
+    return parts;
+}
+
+template <tree_of_trees Trees>
+[[nodiscard]] auto self_pairs(const Trees& trees) {
+    constexpr std::size_t D = Trees::dimensions;
+    pairs_of_parts<self_search<D>, pair_search<D>> pairs;
+    const auto add = [&](std::uint32_t x, std::uint32_t y) {
+        const tree<D>&a = trees.part(x), &b = trees.part(y);
+        if (x == y)
+            pairs.add(self_search<D>(a), a.ids().data(), a.ids().data());
+        else
+            pairs.add(pair_search<D>(a, b), a.ids().data(), b.ids().data());
+    };
+    const auto prepare = [&](std::uint32_t x, std::uint32_t y) {
+        (void)trees.part(x);
+        (void)trees.part(y);
+    };
+    for_parts(self_pairs_of_parts(trees), prepare, add);
+    return pairs;
+}
+
+}  // namespace detail
+
+/// Calls `apply(state, a, b)` for every pair of primitives a, b of the range the tree was built
+/// over whose boxes overlap; of a `tree`, with a at the earlier place in leaf order. Returns the
+/// states, one a chunk, in an order that depends on the tree alone: no state is shared between
+/// threads, `apply` is called by several. A state is made by `State{}` and moved. Where `apply`
+/// returns true (it may return nothing), the search stops: the state it was given is the last of
+/// those returned, and they hold what one thread would have found.
+template <class State, any_tree Tree, class Apply>
+[[nodiscard]] std::vector<State> search_self(const Tree& tree, const Apply& apply) {
+    return detail::pair_states<State>(detail::self_pairs(tree), apply);
+}
+
+/// The same of a `tree` by blocks of candidates, `apply(state, block)`: for those who test several
+/// at once. A block names places in leaf order, not ids.
+template <class State, std::size_t D, class Apply>
+[[nodiscard]] std::vector<State> search_self_broad(const tree<D>& tree, const Apply& apply) {
+    return detail::search_states<State>(self_search<D>(tree),
+                                        [&](State& state, const candidate_block& block) {
+                                            return detail::asks_to_stop(apply, state, block);
+                                        });
+}
+
+/// Whether `accept(a, b)` is true for some pair of primitives whose boxes overlap; it is called
+/// from several threads, and no more once a pair is known.
+template <any_tree Tree, class Accept>
+[[nodiscard]] bool search_self_any(const Tree& tree, const Accept& accept) {
+    if constexpr (tree_of_trees<Tree>)
+        return detail::any_of_parts(
+            detail::self_pairs_of_parts(tree), accept, [&](auto x, auto y, const auto& accepted) {
+                return x == y ? search_self_any(tree.part(x), accepted)
+                              : search_any(tree.part(x), tree.part(y), accepted);
+            });
+    else
+        return detail::search_for_any(
+            self_search<Tree::dimensions>(tree), [&](const candidate_block& block) {
+                const std::uint32_t* const ids = tree.ids().data();
+                return detail::any_of_block<false>(block, ids, ids, accept);
+            });
+}
+
+/// The pairs (a, b), a < b, of primitives whose boxes overlap and for which `accept(a, b)` is true,
+/// ascending. `accept` is called from several threads.
+template <any_tree Tree, class Accept>
+[[nodiscard]] std::vector<id_pair> search_self_all(const Tree& tree, const Accept& accept) {
+    return detail::all_pairs<true>(detail::self_pairs(tree), accept);
+}
+
+/// The pairs whose boxes, as the tree holds them, overlap.
+template <any_tree Tree>
+[[nodiscard]] std::vector<id_pair> search_self_all(const Tree& tree) {
+    return search_self_all(tree, detail::every_pair);
 }
 
 }  // namespace treeform

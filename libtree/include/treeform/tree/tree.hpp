@@ -2,8 +2,8 @@
 /// \file
 /// The tree, trees that are searched as one, and trees searched as if their primitives had moved.
 
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/buffer.hpp>
-#include <treeform/tree/transform.hpp>
 
 #include <algorithm>
 #include <array>

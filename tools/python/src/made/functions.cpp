@@ -20,7 +20,8 @@ py::object split(const held_meshes& meshes, tf::boolean_options options) {
 py::object layer_heights(const held_mesh& mesh, const array_of<double>& at,
                          const array_of<double>& normal, double thickness) {
     return as_python(run([&](const tf::progress_callback&) {
-        return tf::layer_heights(mesh.view().points, {point_of(at), point_of(normal)}, thickness);
+        return tf::oriented_plane{point_of(at), point_of(normal)}.layer_heights(mesh.view().points,
+                                                                                thickness);
     }));
 }
 

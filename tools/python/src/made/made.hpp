@@ -12,7 +12,6 @@
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/pack.hpp>
@@ -27,7 +26,6 @@
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/weld_stream.hpp>
-#include <treeform/mesh/wrap.hpp>
 #include <treeform/mesh/write.hpp>
 
 namespace binding {

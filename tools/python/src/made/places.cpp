@@ -206,7 +206,7 @@ py::object object(of_result, tf::pose_result&& from) {
 py::object object(of_result, tf::clash_result&& from) {
     py::dict made;
     made["pairs"] = as_python(std::move(from.pairs));
-    made["counts"] = counts_of<tf::standing>(from.counts);
+    made["counts"] = counts_of<tf::mesh_relation>(from.counts);
     made["boxes_apart"] = as_python(std::move(from.boxes_apart));
     made["clashes"] = as_python(std::move(from.clashes));
     return object_of("treeform._assembly", "ClashResult", made);

@@ -8,19 +8,18 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/lay_flat.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/mesh/triangle.hpp>
 #include <treeform/mesh/weld_options.hpp>
 
 namespace binding {
@@ -80,7 +79,8 @@ struct words_of<tf::mass_of> {
 };
 template <>
 struct words_of<tf::mesh_relation> {
-    static constexpr words<3> all{"separate", "touching", "penetrating"};
+    static constexpr words<5> all{"separate", "touching", "penetrating", "closer_than_clearance",
+                                  "clear"};
 };
 template <>
 struct words_of<tf::motion_end> {
@@ -140,11 +140,6 @@ template <>
 struct words_of<tf::scalar_type> {
     static constexpr words<10> all{"int8",   "uint8", "int16",  "uint16",  "int32",
                                    "uint32", "int64", "uint64", "float32", "float64"};
-};
-template <>
-struct words_of<tf::standing> {
-    static constexpr words<5> all{"separate", "touching", "penetrating", "closer_than_clearance",
-                                  "clear"};
 };
 template <>
 struct words_of<tf::status> {

@@ -2,7 +2,7 @@
 /// \file
 /// Carrying boxes from the frame of a tree, after a transform, into a frame common to two trees.
 
-#include <treeform/tree/transform.hpp>
+#include <treeform/tree/aabb.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>

@@ -84,13 +84,13 @@ typedef struct treeform_contact_region {
 
 /// Two parts that are not clear of each other.
 typedef struct treeform_part_clash {
-    uint32_t a;             ///< the lower number
-    uint32_t b;             ///< number of the second part
-    treeform_standing how;  ///< or penetrating, closer_than_clearance
-    int32_t a_inside_b;     ///< as in `mesh_relation_result`
-    int32_t b_inside_a;     ///< the same with `a` and `b` swapped
-    double distance;        ///< of the surfaces; 0 where they meet
-    double on_a[3];         ///< nearest points of those that are too close; else NaN
+    uint32_t a;                  ///< the lower number
+    uint32_t b;                  ///< number of the second part
+    treeform_mesh_relation how;  ///< or penetrating, closer_than_clearance
+    int32_t a_inside_b;          ///< as in `mesh_relation_result`
+    int32_t b_inside_a;          ///< the same with `a` and `b` swapped
+    double distance;             ///< of the surfaces; 0 where they meet
+    double on_a[3];              ///< nearest points of those that are too close; else NaN
     double on_b[3];
     uint64_t face_pairs;                     ///< that meet
     const treeform_contact_region* regions;  ///< [region_count] by their lowest faces
@@ -111,7 +111,7 @@ typedef struct treeform_clashes {
     void* owner;
     const treeform_part_clash* pairs;  ///< [count] that are not clear, ascending
     size_t count;
-    uint64_t counts[5];    ///< of pairs that were looked at, by `standing`
+    uint64_t counts[5];    ///< of pairs that were looked at, by `mesh_relation`
     uint64_t boxes_apart;  ///< pairs that their boxes keep apart: not looked at
     uint64_t ignored;      ///< pairs left out whose boxes are not apart
     uint64_t parts_indexed;
@@ -153,7 +153,8 @@ TREEFORM_C_API void treeform_poses_options_init(treeform_poses_options* options,
 typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
     uint32_t b;
-    uint8_t how;      ///< or penetrating, closer_than_clearance (a `treeform_standing`)
+    /// or penetrating, closer_than_clearance (a `treeform_mesh_relation`)
+    uint8_t how;
     double distance;  ///< of those that are closer than the clearance; else 0
 } treeform_pose_clash;
 // end

@@ -105,12 +105,12 @@ typedef int (*treeform_progress)(double done, void* data);
 /// a tree (the same).
 TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
 
-/// Takes what one process of a team has told: `bytes` [count].
+/// Takes what one process of a communicator has sent: `bytes` [count].
 typedef void (*treeform_hear)(const void* bytes, size_t count, void* listener);
 
 /// Processes that do one work together, each its share, in a folder that all see, such as those that
 /// mpirun starts. All call the same with the same options; outputs are those of rank 0.
-typedef struct treeform_team {
+typedef struct treeform_communicator {
     size_t rank;
     size_t size;
     /// Gives all of them what each gives (`told` [count]): calls `hear(bytes, count, listener)` for
@@ -118,7 +118,7 @@ typedef struct treeform_team {
     /// where one has failed, ends the call with `TREEFORM_CANCELLED`.
     int (*exchange)(const void* told, size_t count, treeform_hear hear, void* listener, void* data);
     void* data;
-} treeform_team;
+} treeform_communicator;
 
 /// The version of the library that is loaded, comparable with `TREEFORM_C_VERSION`.
 TREEFORM_C_API int32_t treeform_version(void);

@@ -156,7 +156,7 @@ TREEFORM_C_API treeform_code treeform_faces_in_box(const treeform_mesh* mesh,
                                                    const treeform_box* box,
                                                    treeform_indices** faces);
 
-// made of <mesh/curves.hpp>:
+// made of <mesh/intersections.hpp>:
 //   curve_segment segments
 /// What two faces have in common, or one side of it.
 typedef struct treeform_segment {
@@ -179,7 +179,7 @@ TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* m
                                                           size_t count,
                                                           treeform_segments** segments);
 
-// made of <mesh/curves.hpp>:
+// made of <mesh/intersections.hpp>:
 //   curve_path curve_network
 /// A path of different points, each joined to the next by a segment.
 typedef struct treeform_path {
@@ -232,7 +232,7 @@ typedef struct treeform_search_file_options {
     uint64_t faces_per_tile;  ///< at most about this many; 0: as the memory allows
     treeform_progress progress;
     void* progress_data;
-    const treeform_team* team;  ///< not for `stream_search`; or null
+    const treeform_communicator* communicator;  ///< not for `stream_search`; or null
 } treeform_search_file_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_search_file_options_init(treeform_search_file_options* options,

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-// made of <mesh/lay_flat.hpp>:
+// made of <mesh/pack.hpp>:
 //   lay_choice lay_flat_options side_stability laid_flat
 /// Which side of the convex hull goes down.
 typedef int32_t treeform_lay_choice;

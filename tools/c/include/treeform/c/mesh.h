@@ -101,7 +101,7 @@ TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_
 TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
                                                       treeform_precision precision, double* step);
 
-// made of <mesh/rounding.hpp>:
+// made of <mesh/certificate.hpp>:
 //   rounding_options rounding_effects
 /// Which rounding to look at.
 typedef struct treeform_rounding_options {

@@ -87,7 +87,7 @@ typedef struct treeform_ray {
     double t_max;
 } treeform_ray;
 
-// made of <mesh/raycast.hpp>:
+// made of <mesh/distance.hpp>:
 //   mesh_hit
 /// A face that a ray hits. The point hit is origin + t direction.
 typedef struct treeform_hit {
@@ -122,10 +122,11 @@ TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
                                                   const treeform_ray* rays, size_t count,
                                                   treeform_hits** hits);
 
-// made of <mesh/measure.hpp> <mesh/placement.hpp>:
-//   standing mesh_measure measure_options
-/// How a mesh lies to all fixed meshes. The last two occur only with a clearance.
-typedef int32_t treeform_standing;
+// made of <mesh/measure.hpp>:
+//   mesh_relation mesh_measure measure_options
+/// How two meshes lie to each other; see `treeform_relation`. The last two occur only with a
+/// clearance.
+typedef int32_t treeform_mesh_relation;
 enum {
     TREEFORM_SEPARATE = 0,
     TREEFORM_MEETING = 1,
@@ -138,7 +139,7 @@ enum {
 /// How two meshes lie to each other.
 typedef struct treeform_relation {
     void* owner;
-    treeform_standing how;
+    treeform_mesh_relation how;
     /// Faces that show why: two that pass through each other, overlap on the same side of both, or
     /// touch. For a mesh inside the other, or reaching into it, the lowest face there. Both are 0
     /// when the meshes are separate.
@@ -180,11 +181,12 @@ TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const tree
 
 /// Only how they lie, exactly: separate, touching or penetrating.
 TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
-                                             treeform_vertices vertices, treeform_standing* how);
+                                             treeform_vertices vertices,
+                                             treeform_mesh_relation* how);
 
 // made of <mesh/measure.hpp>:
 //   depth_options
-/// How to look for a way out.
+/// How to search for the least move apart.
 typedef struct treeform_depth_options {
     size_t size;
     /// spread over the sphere, tried beside those of faces that meet; default 256

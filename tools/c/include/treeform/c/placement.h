@@ -75,14 +75,14 @@ typedef struct treeform_placement {
     /// new = M * old: a translation. `points` are moved by it and rounded once, except for those
     /// that are set on the bed.
     double matrix[12];
-    double direction[3];         ///< of the travel, of length 1; 0 when there is none
-    double travel;               ///< a length; for `too_far` the one that would be needed
-    double clearance;            ///< the clearance asked for
-    double bed;                  ///< lowest z allowed, as written: the bed plus the clearance
-    double below_bed;            ///< how far it reached below that at the start
-    int32_t on_bed;              ///< the bed stopped it
-    treeform_standing at_start;  ///< exact
-    treeform_standing at_place;  ///< the same at the place
+    double direction[3];              ///< of the travel, of length 1; 0 when there is none
+    double travel;                    ///< a length; for `too_far` the one that would be needed
+    double clearance;                 ///< the clearance asked for
+    double bed;                       ///< lowest z allowed, as written: the bed plus the clearance
+    double below_bed;                 ///< how far it reached below that at the start
+    int32_t on_bed;                   ///< the bed stopped it
+    treeform_mesh_relation at_start;  ///< exact
+    treeform_mesh_relation at_place;  ///< the same at the place
     /// the fixed mesh that matters most; `TREEFORM_NONE` for none
     uint32_t nearest_fixed;
     const treeform_relation* nearest;  ///< how it lies to the moving one, `a`; or null

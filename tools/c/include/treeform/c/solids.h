@@ -246,7 +246,7 @@ TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
 /// What is inside, for `treeform_repair`.
 typedef int32_t treeform_repair_rule;
 enum {
-    /// `positive` where every shell is outward after `orient`, else `nonzero` or labels
+    /// `positive` where each shell is outward after `orient`, else `nonzero` or labels
     TREEFORM_REPAIR_AUTOMATIC = 0,
     TREEFORM_REPAIR_NONZERO = 1,
     TREEFORM_REPAIR_ODD = 2,
@@ -405,7 +405,7 @@ TREEFORM_C_API treeform_code treeform_find_solid_defects_of_file(const treeform_
                                                                  void* progress_data,
                                                                  treeform_solid_defects** defects);
 
-// made of <mesh/wrap.hpp>:
+// made of <mesh/offset.hpp>:
 //   wrap_options wrap_result
 /// How to wrap.
 typedef struct treeform_wrap_options {

@@ -35,7 +35,7 @@ typedef struct treeform_weld_stream_options {
     const treeform_write_options* write;  ///< how to write the output; or null
     treeform_progress progress;           ///< its share starts anew with each step
     void* progress_data;
-    const treeform_team* team;  ///< null: this process alone
+    const treeform_communicator* communicator;  ///< null: this process alone
     int32_t keep_seams;         ///< of a mesh, as in `treeform_weld_options`, as are the next three
     const char* const* across;  ///< [across_count]
     size_t across_count;
@@ -88,7 +88,7 @@ TREEFORM_C_API treeform_code treeform_weld_stream(const char* const* inputs, siz
 /// `remove_folder`. A tile that is finished is not welded again.
 typedef struct treeform_shared_weld treeform_shared_weld;
 /// Begins, and has a hold on the folder until it is freed: all processes give the same inputs and
-/// options. What options say of outputs is for `finish`; `team` is not for this.
+/// options. What options say of outputs is for `finish`; `communicator` is not for this.
 TREEFORM_C_API treeform_code treeform_shared_weld_create(
     const char* const* inputs, size_t count, const treeform_weld_stream_options* options,
     treeform_shared_weld** weld);

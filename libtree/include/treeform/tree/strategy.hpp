@@ -1,17 +1,70 @@
 #pragma once
 /// \file
-/// The order in which a nearness search opens nodes: one class a strategy, all with the same calls.
+/// Strategies: selection algorithms for `build`, and orders in which a nearness search opens nodes.
 ///
-/// A frontier holds entries with a lower bound `lower` each. A search opens the entry that `pop`
-/// hands out, `push`es its children between `open` and `close`, and ends when `pop` returns false:
-/// then no entry is left whose bound is not above `bound`. Answers do not depend on the strategy.
+/// An order has a frontier, which holds entries with a lower bound `lower` each. A search opens the
+/// entry that `pop` hands out, `push`es its children between `open` and `close`, and ends when
+/// `pop` returns false: then no entry is left whose bound is not above `bound`. Answers do not
+/// depend on the strategy.
+
+#include <treeform/tree/detail/partition_around.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace treeform::strategy {
+
+/// Names the built-in selection of `build` (libtree/split.cpp). It works on packed records with a
+/// scratch array, so unlike the others it has no `partition` over arbitrary iterators.
+struct bracketed_select {};
+
+/// `std::nth_element`.
+struct nth_element {
+    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    template <class Iterator, class Less>
+    static void partition(Iterator first, Iterator nth, Iterator last, Less less) {
+        std::nth_element(first, nth, last, less);
+    }
+};
+
+/// Selection by Floyd and Rivest.
+struct floyd_rivest {
+    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    ///
+    /// In a large range, it first selects in a sample around nth. So the element at nth becomes a
+    /// pivot that is very probably next to the wanted one.
+    ///
+    /// \cost n + min(k, n - k) + O(sqrt(n)) comparisons expected
+    /// \source Floyd and Rivest, Algorithm 489: SELECT, CACM 18 (1975)
+    template <class Iterator, class Less>
+    static void partition(Iterator first, Iterator nth, Iterator last, Less less) {
+        if (nth == last) return;
+        detail::quickselect(first, nth, last, less, [&](Iterator begin, Iterator at, Iterator end) {
+            if (end - begin > 600) select_in_sample(begin, at, end, less);
+            return at;
+        });
+    }
+
+  private:
+    template <class Iterator, class Less>
+    static void select_in_sample(Iterator first, Iterator nth, Iterator last, const Less& less) {
+        const auto n = static_cast<double>(last - first);
+        const auto k = static_cast<double>(nth - first);
+        const double log_n = std::log(n);
+        const double size = 0.5 * std::exp(2.0 * log_n / 3.0);
+        const double spread =
+            0.5 * std::sqrt(log_n * size * (n - size) / n) * (k < n / 2.0 ? -1.0 : 1.0);
+        const double low = std::max(0.0, k - k * size / n + spread);
+        const double high = std::min(n - 1.0, k + (n - k) * size / n + spread);
+        // nth lies in the sample whatever the rounding.
+        const auto begin = std::min(first + static_cast<std::ptrdiff_t>(low), nth);
+        const auto end = std::max(first + static_cast<std::ptrdiff_t>(high), nth) + 1;
+        partition(begin, nth, end, less);
+    }
+};
 
 /// Depth first, the children of one node by distance: entries never move once their node is
 /// closed. The default.
