@@ -41,7 +41,8 @@ constexpr std::size_t most_listed = 100;
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
-constexpr std::size_t pairs_cut_a_face = 8, fewest_cut = 100;
+/// More pairs than that, and one for each eight faces given, are not cut: the reach is too short.
+constexpr std::size_t fewest_cut = 100;
 /// Pairs of faces that are held against each other for that, of all rounds, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
 constexpr std::uint64_t visits_a_face = 1024, fewest_visits = std::uint64_t{1} << 20;
@@ -109,26 +110,29 @@ class rounding {
         std::frexp(largest, &exponent);
         const double step = std::ldexp(1.0, exponent - (to_float32() ? 24 : 53));
         const double limit = std::min(options_.max_displacement, longest_reach * largest);
-        visits_ = fewest_visits + visits_a_face * faces_given_;
+        const std::uint64_t visits = fewest_visits + visits_a_face * faces_given_;
+        std::uint64_t first = visits / 8, later = visits - first;  // the rest would be begun anew
         double reach = first_reach * step;
         if (!(reach <= limit)) return;
         remember_places();
         if (options_.rest) {
             fix_rim();
-            visits_ /= 8;  // else all is begun once more, with the rest
-            take_out_slivers(reach, sliver_height * step);
+            take_out_slivers(reach, sliver_height * step, first);
             return;
         }
         for (int round = 1; reach <= limit; ++round) {
             const state before = now();
+            if (first > 0 && take_out_slivers(reach, sliver_height * step, first)) return;
+            if (is_cancelled()) return;
+            go_back(before);
             if (flatten_parts(reach) || is_cancelled()) return;
-            if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
-            if (pairs_.size() > faces_given_ / pairs_cut_a_face + fewest_cut) {
+            if (pairs_.size() > faces_given_ / 8 + fewest_cut) {
                 go_back(before);
                 reach *= 4.0;
                 continue;
             }
-            if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
+            if (take_out_slivers(reach, sliver_height * step, later) || is_cancelled()) return;
+            if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
             ++result_.rounds;
             if (!cut_again() || !settle()) return;
             if (check() || is_cancelled()) return;
@@ -169,7 +173,7 @@ class rounding {
     }
 
     /// Whether the surface is certified without them.
-    bool take_out_slivers(double reach, double height) {
+    bool take_out_slivers(double reach, double height, std::uint64_t& visits) {
         std::vector<face_pair> bad = pairs_;
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
             if (certified_.empty() || certified_[f] == 0) bad.push_back({f, f});
@@ -179,8 +183,8 @@ class rounding {
                                            .thin = height,
                                            .solid = options_.solid,
                                            .fixed = fixed_,
-                                           .visits = visits_});
-        visits_ -= std::min(visits_, left.visits);
+                                           .visits = visits});
+        visits -= std::min(visits, left.visits);
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
         joined_ += left.moved;
@@ -194,9 +198,8 @@ class rounding {
         std::optional<detail::round::flattened> made = detail::round::flatten(
             result_.surface, pairs_,
             {.reach = reach / 2, .solid = options_.solid, .certified = certified_});
-        if (!made) return false;
+        if (!made || made->faces.empty()) return false;
         detail::round::flattened& flat = *made;
-        if (flat.parts == 0) return false;
         const state before = now();
         result_.surface.points = std::move(flat.points);
         if (to_float32())
@@ -482,11 +485,10 @@ class rounding {
     std::size_t faces_given_;
     mesh before_{};  ///< as `exact_` was given, in doubles, once something is mended
     double first_move_ = 0.0;
-    std::uint64_t visits_ = 0;  ///< of `take_out_slivers`, left
-    double joined_ = 0.0;       ///< how far apart at most, of all rounds together
-    double moved_most_ = 0.0;   ///< in the last rounding
-    double moved_ = 0.0;        ///< the same; infinite where points were joined
-    bool vanished_ = false;     ///< some faces, so that points may be left that none has
+    double joined_ = 0.0;      ///< how far apart at most, of all rounds together
+    double moved_most_ = 0.0;  ///< in the last rounding
+    double moved_ = 0.0;       ///< the same; infinite where points were joined
+    bool vanished_ = false;    ///< some faces, so that points may be left that none has
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
 };
