@@ -1,7 +1,6 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/compact.hpp>
-#include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/resize_all.hpp>
@@ -13,6 +12,7 @@
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/remove_slivers.hpp>
 #include <libmesh/round/round_surface.hpp>
+#include <libmesh/round/rounding_steps.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <libmesh/round/surface_faults.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
@@ -41,29 +41,13 @@ constexpr std::size_t most_listed = 100;
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
-/// More pairs than that, and one for each eight faces given, are not cut: the reach is too short.
-constexpr std::size_t fewest_cut = 100;
+/// More pairs than that, and one for as many faces given, are not cut: the reach is too short.
+constexpr std::size_t fewest_cut = 100, faces_a_cut = 64;
 /// Pairs of faces that are held against each other for that, of all rounds, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
 constexpr std::uint64_t visits_a_face = 1024, fewest_visits = std::uint64_t{1} << 20;
 /// Nothing longer than this share of the largest coordinate goes.
 constexpr double longest_reach = 0x1p-10;
-
-point3 to_single(const point3& p) {
-    return {detail::base::nearest_float(p.x), detail::base::nearest_float(p.y),
-            detail::base::nearest_float(p.z)};
-}
-
-double largest_difference(const point3& p, const point3& q) {
-    return detail::base::largest_of(detail::base::minus(p, q));
-}
-
-/// Half a unit in the last place of the largest coordinate: rounding to nearest moves none further.
-double half_unit(const point3& p) {
-    const double largest = detail::base::largest_of(p);
-    const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-    return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // half of which is none
-}
 
 /// The surface, exact and as rounded so far. Of the exact one, points of the surface that was
 /// rounded before come first.
@@ -126,7 +110,7 @@ class rounding {
             if (is_cancelled()) return;
             go_back(before);
             if (flatten_parts(reach) || is_cancelled()) return;
-            if (pairs_.size() > faces_given_ / 8 + fewest_cut) {
+            if (pairs_.size() > faces_given_ / faces_a_cut + fewest_cut) {
                 go_back(before);
                 reach *= 4.0;
                 continue;
@@ -203,7 +187,7 @@ class rounding {
         const state before = now();
         result_.surface.points = std::move(flat.points);
         if (to_float32())
-            for (point3& p : result_.surface.points) p = to_single(p);
+            for (point3& p : result_.surface.points) p = detail::round::to_single(p);
         point_of_.resize(result_.surface.points.size(), rounded_surface::none);
         take_changed(flat);
         const bool certified = check();
@@ -246,7 +230,8 @@ class rounding {
 
     void measure() {
         double slack = 0.0;  // of the places of before
-        for (const point3& p : result_.surface.points) slack = std::max(slack, half_unit(p));
+        for (const point3& p : result_.surface.points)
+            slack = std::max(slack, detail::round::half_unit(p));
         const detail::round::surface_moves moves =
             detail::round::displacement(result_.surface, result_.point_of, before_);
         // What is gone further away than all rounds have joined has vanished.
@@ -266,7 +251,8 @@ class rounding {
 
     [[nodiscard]] point3 rounded_point(std::uint32_t p) const {
         const std::size_t given = exact_.given.size();
-        if (p < given) return to_float32() ? to_single(exact_.given[p]) : exact_.given[p];
+        if (p < given)
+            return to_float32() ? detail::round::to_single(exact_.given[p]) : exact_.given[p];
         const implicit_point& made = exact_.constructed[p - given];
         return to_float32() ? rounded_to_float(made) : rounded(made);
     }
@@ -299,11 +285,11 @@ class rounding {
     /// `known`, perhaps not the least: to see that a point has not moved takes exact arithmetic.
     [[nodiscard]] double move_of(std::uint32_t p, const point3& to, double known) const {
         const std::size_t given = exact_.given.size();
-        if (p < given) return largest_difference(exact_.given[p], to);
+        if (p < given) return detail::round::largest_difference(exact_.given[p], to);
         const implicit_point& made = exact_.constructed[p - given];
-        const double most = largest_difference(made.center(), to) + made.radius();
+        const double most = detail::round::largest_difference(made.center(), to) + made.radius();
         if (!(most < std::numeric_limits<double>::infinity())) return most;
-        const double bound = to_float32() ? most : std::min(most, half_unit(to));
+        const double bound = to_float32() ? most : std::min(most, detail::round::half_unit(to));
         return bound <= known || !equal(made, to) ? bound : 0.0;
     }
 
