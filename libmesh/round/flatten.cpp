@@ -44,16 +44,16 @@ class flattening {
   public:
     flattening(mesh_view surface, std::span<const face_pair> meeting,
                const flatten_options& options)
-        : options_(options),
-          given_(surface.faces),
-          faces_(surface.faces.begin(), surface.faces.end()) {
+        : options_(options), faces_(surface.faces.begin(), surface.faces.end()) {
         exact_.given.assign(surface.points.begin(), surface.points.end());
+        exact_.faces = faces_;
         std::vector<std::uint8_t> meets(surface.points.size(), 0);
         for (const face_pair& pair : meeting)
             for (const std::uint32_t f : {pair.a, pair.b})
-                for (const std::uint32_t p : given_[f]) meets[p] = 1;
-        for (std::uint32_t f = 0; f < given_.size(); ++f)
-            if (std::ranges::any_of(given_[f], [&](std::uint32_t p) { return meets[p] != 0; }))
+                for (const std::uint32_t p : exact_.faces[f]) meets[p] = 1;
+        for (std::uint32_t f = 0; f < exact_.faces.size(); ++f)
+            if (std::ranges::any_of(exact_.faces[f],
+                                    [&](std::uint32_t p) { return meets[p] != 0; }))
                 begin_at_.push_back(f);
     }
 
@@ -434,7 +434,7 @@ class flattening {
             if (gone[i] != 0) continue;
             result.faces.push_back(made[i]);
             result.face_of.push_back(of[i]);
-            result.is_new.push_back(made[i] != given_[of[i]] ? 1 : 0);
+            result.is_new.push_back(made[i] != exact_.faces[of[i]] ? 1 : 0);
         }
         return result;
     }
@@ -445,7 +445,7 @@ class flattening {
         if (part.faces.size() == 1) return sources;
         const dynamic_tree<3> tree(part.faces, [&](std::uint32_t f) {
             aabb<double, 3> box;
-            for (const std::uint32_t p : given_[f]) box.include(at(p));
+            for (const std::uint32_t p : exact_.faces[f]) box.include(at(p));
             return box;
         });
         for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -453,10 +453,10 @@ class flattening {
             const point3 middle = base::scaled(base::plus(a, base::plus(b, c)), 1.0 / 3.0);
             double least = std::numeric_limits<double>::infinity();
             search(tree, around(middle, middle), [&](std::uint32_t n) {
-                const double away =
-                    closest_point(
-                        base::triangle_of(points_view(exact_.given), given_[part.faces[n]]), middle)
-                        .squared_distance;
+                const double away = closest_point(base::triangle_of(points_view(exact_.given),
+                                                                    exact_.faces[part.faces[n]]),
+                                                  middle)
+                                        .squared_distance;
                 if (away > least || (away == least && part.faces[n] > sources[i])) return;
                 least = away;
                 sources[i] = part.faces[n];
@@ -466,7 +466,6 @@ class flattening {
     }
 
     flatten_options options_;
-    std::span<const face> given_;
     std::vector<face> faces_;
     numbers begin_at_{};                 ///< faces at corners of those that meet, ascending
     exact_surface exact_{};              ///< the points alone

@@ -1,7 +1,6 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/compact.hpp>
-#include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/resize_all.hpp>
@@ -13,6 +12,7 @@
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/remove_slivers.hpp>
 #include <libmesh/round/round_surface.hpp>
+#include <libmesh/round/rounding_steps.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <libmesh/round/surface_faults.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
@@ -41,28 +41,13 @@ constexpr std::size_t most_listed = 100;
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
-constexpr std::size_t pairs_cut_a_face = 8, fewest_cut = 100;
+/// More pairs than that, and one for as many faces given, are not cut: the reach is too short.
+constexpr std::size_t fewest_cut = 100, faces_a_cut = 64;
 /// Pairs of faces that are held against each other for that, of all rounds, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
 constexpr std::uint64_t visits_a_face = 1024, fewest_visits = std::uint64_t{1} << 20;
 /// Nothing longer than this share of the largest coordinate goes.
 constexpr double longest_reach = 0x1p-10;
-
-point3 to_single(const point3& p) {
-    return {detail::base::nearest_float(p.x), detail::base::nearest_float(p.y),
-            detail::base::nearest_float(p.z)};
-}
-
-double largest_difference(const point3& p, const point3& q) {
-    return detail::base::largest_of(detail::base::minus(p, q));
-}
-
-/// Half a unit in the last place of the largest coordinate: rounding to nearest moves none further.
-double half_unit(const point3& p) {
-    const double largest = detail::base::largest_of(p);
-    const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-    return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // half of which is none
-}
 
 /// The surface, exact and as rounded so far. Of the exact one, points of the surface that was
 /// rounded before come first.
@@ -109,26 +94,29 @@ class rounding {
         std::frexp(largest, &exponent);
         const double step = std::ldexp(1.0, exponent - (to_float32() ? 24 : 53));
         const double limit = std::min(options_.max_displacement, longest_reach * largest);
-        visits_ = fewest_visits + visits_a_face * faces_given_;
+        const std::uint64_t visits = fewest_visits + visits_a_face * faces_given_;
+        std::uint64_t first = visits / 8, later = visits - first;  // the rest would be begun anew
         double reach = first_reach * step;
         if (!(reach <= limit)) return;
         remember_places();
         if (options_.rest) {
             fix_rim();
-            visits_ /= 8;  // else all is begun once more, with the rest
-            take_out_slivers(reach, sliver_height * step);
+            take_out_slivers(reach, sliver_height * step, first);
             return;
         }
         for (int round = 1; reach <= limit; ++round) {
             const state before = now();
+            if (first > 0 && take_out_slivers(reach, sliver_height * step, first)) return;
+            if (is_cancelled()) return;
+            go_back(before);
             if (flatten_parts(reach) || is_cancelled()) return;
-            if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
-            if (pairs_.size() > faces_given_ / pairs_cut_a_face + fewest_cut) {
+            if (pairs_.size() > faces_given_ / faces_a_cut + fewest_cut) {
                 go_back(before);
                 reach *= 4.0;
                 continue;
             }
-            if (take_out_slivers(reach, sliver_height * step) || is_cancelled()) return;
+            if (take_out_slivers(reach, sliver_height * step, later) || is_cancelled()) return;
+            if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
             ++result_.rounds;
             if (!cut_again() || !settle()) return;
             if (check() || is_cancelled()) return;
@@ -169,7 +157,7 @@ class rounding {
     }
 
     /// Whether the surface is certified without them.
-    bool take_out_slivers(double reach, double height) {
+    bool take_out_slivers(double reach, double height, std::uint64_t& visits) {
         std::vector<face_pair> bad = pairs_;
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
             if (certified_.empty() || certified_[f] == 0) bad.push_back({f, f});
@@ -179,8 +167,8 @@ class rounding {
                                            .thin = height,
                                            .solid = options_.solid,
                                            .fixed = fixed_,
-                                           .visits = visits_});
-        visits_ -= std::min(visits_, left.visits);
+                                           .visits = visits});
+        visits -= std::min(visits, left.visits);
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
         joined_ += left.moved;
@@ -194,13 +182,12 @@ class rounding {
         std::optional<detail::round::flattened> made = detail::round::flatten(
             result_.surface, pairs_,
             {.reach = reach / 2, .solid = options_.solid, .certified = certified_});
-        if (!made) return false;
+        if (!made || made->faces.empty()) return false;
         detail::round::flattened& flat = *made;
-        if (flat.parts == 0) return false;
         const state before = now();
         result_.surface.points = std::move(flat.points);
         if (to_float32())
-            for (point3& p : result_.surface.points) p = to_single(p);
+            for (point3& p : result_.surface.points) p = detail::round::to_single(p);
         point_of_.resize(result_.surface.points.size(), rounded_surface::none);
         take_changed(flat);
         const bool certified = check();
@@ -243,7 +230,8 @@ class rounding {
 
     void measure() {
         double slack = 0.0;  // of the places of before
-        for (const point3& p : result_.surface.points) slack = std::max(slack, half_unit(p));
+        for (const point3& p : result_.surface.points)
+            slack = std::max(slack, detail::round::half_unit(p));
         const detail::round::surface_moves moves =
             detail::round::displacement(result_.surface, result_.point_of, before_);
         // What is gone further away than all rounds have joined has vanished.
@@ -263,7 +251,8 @@ class rounding {
 
     [[nodiscard]] point3 rounded_point(std::uint32_t p) const {
         const std::size_t given = exact_.given.size();
-        if (p < given) return to_float32() ? to_single(exact_.given[p]) : exact_.given[p];
+        if (p < given)
+            return to_float32() ? detail::round::to_single(exact_.given[p]) : exact_.given[p];
         const implicit_point& made = exact_.constructed[p - given];
         return to_float32() ? rounded_to_float(made) : rounded(made);
     }
@@ -296,11 +285,11 @@ class rounding {
     /// `known`, perhaps not the least: to see that a point has not moved takes exact arithmetic.
     [[nodiscard]] double move_of(std::uint32_t p, const point3& to, double known) const {
         const std::size_t given = exact_.given.size();
-        if (p < given) return largest_difference(exact_.given[p], to);
+        if (p < given) return detail::round::largest_difference(exact_.given[p], to);
         const implicit_point& made = exact_.constructed[p - given];
-        const double most = largest_difference(made.center(), to) + made.radius();
+        const double most = detail::round::largest_difference(made.center(), to) + made.radius();
         if (!(most < std::numeric_limits<double>::infinity())) return most;
-        const double bound = to_float32() ? most : std::min(most, half_unit(to));
+        const double bound = to_float32() ? most : std::min(most, detail::round::half_unit(to));
         return bound <= known || !equal(made, to) ? bound : 0.0;
     }
 
@@ -482,11 +471,10 @@ class rounding {
     std::size_t faces_given_;
     mesh before_{};  ///< as `exact_` was given, in doubles, once something is mended
     double first_move_ = 0.0;
-    std::uint64_t visits_ = 0;  ///< of `take_out_slivers`, left
-    double joined_ = 0.0;       ///< how far apart at most, of all rounds together
-    double moved_most_ = 0.0;   ///< in the last rounding
-    double moved_ = 0.0;        ///< the same; infinite where points were joined
-    bool vanished_ = false;     ///< some faces, so that points may be left that none has
+    double joined_ = 0.0;      ///< how far apart at most, of all rounds together
+    double moved_most_ = 0.0;  ///< in the last rounding
+    double moved_ = 0.0;       ///< the same; infinite where points were joined
+    bool vanished_ = false;    ///< some faces, so that points may be left that none has
     double done_ = 0.0;
     rounded_surface result_{};  ///< `face_of` is by the faces of `exact_` in between
 };

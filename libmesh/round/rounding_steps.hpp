@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// How far rounding moves a point.
+
+#include <libmesh/base/nearest_float.hpp>
+#include <libmesh/base/point_math.hpp>
+#include <treeform/mesh/mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treeform::detail::round {
+
+inline point3 to_single(const point3& p) {
+    return {base::nearest_float(p.x), base::nearest_float(p.y), base::nearest_float(p.z)};
+}
+
+inline double largest_difference(const point3& p, const point3& q) {
+    return base::largest_of(base::minus(p, q));
+}
+
+/// Half a unit in the last place of the largest coordinate: rounding to nearest moves none further.
+inline double half_unit(const point3& p) {
+    const double largest = base::largest_of(p);
+    const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+    return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // half of which is none
+}
+
+}  // namespace treeform::detail::round
