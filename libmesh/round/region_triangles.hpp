@@ -42,10 +42,13 @@ struct sides_cross : std::logic_error {
     std::size_t a, b;  ///< by number
 };
 
-/// The region as triangles between its points, near-Delaunay, oriented as `plane`.
+/// The region as triangles between its points, near-Delaunay, oriented as `plane`: what the rim winds
+/// around as seen along the axis, several times where it does so several times, and turned over
+/// where it does so the other way.
 ///
 /// \pre    no side has a point of the region but its ends, and all ends are among the points
-/// \throws std::logic_error when the rim bounds nothing
+/// \throws sides_cross where sides of the rim do
+/// \throws std::logic_error when the rim bounds nothing, or two points are one as seen so
 /// \cost   about O(n^1.5) for n points
 [[nodiscard]] std::vector<face> triangles_of(const exact_surface& surface,
                                              const flat_region& region);
