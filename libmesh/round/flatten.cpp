@@ -27,7 +27,7 @@ namespace treeform::detail::round {
 namespace {
 
 constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
-constexpr int most_attempts = 40, most_crossings = 100;
+constexpr int most_widenings = 4, most_attempts = 40, most_crossings = 100;
 
 using numbers = std::vector<std::uint32_t>;
 
@@ -42,28 +42,33 @@ struct flat_part {
 
 class flattening {
   public:
-    flattening(mesh_view surface, std::span<const face_pair> meeting,
-               const flatten_options& options)
-        : options_(options), faces_(surface.faces.begin(), surface.faces.end()) {
+    /// \param begin_at    faces that meet, or could not be made flat without others at their corners
+    /// \param falls_apart  what cannot be made does so
+    flattening(mesh_view surface, const numbers& begin_at, const flatten_options& options,
+               bool falls_apart)
+        : options_(options),
+          faces_(surface.faces.begin(), surface.faces.end()),
+          falls_apart_(falls_apart) {
         exact_.given.assign(surface.points.begin(), surface.points.end());
         exact_.faces = faces_;
-        std::vector<std::uint8_t> meets(surface.points.size(), 0);
-        for (const face_pair& pair : meeting)
-            for (const std::uint32_t f : {pair.a, pair.b})
-                for (const std::uint32_t p : exact_.faces[f]) meets[p] = 1;
-        for (std::uint32_t f = 0; f < exact_.faces.size(); ++f)
-            if (std::ranges::any_of(exact_.faces[f],
-                                    [&](std::uint32_t p) { return meets[p] != 0; }))
+        std::vector<std::uint8_t> is_near(surface.points.size(), 0);
+        for (const std::uint32_t f : begin_at)
+            for (const std::uint32_t p : faces_[f]) is_near[p] = 1;
+        for (std::uint32_t f = 0; f < faces_.size(); ++f)
+            if (std::ranges::any_of(faces_[f], [&](std::uint32_t p) { return is_near[p] != 0; }))
                 begin_at_.push_back(f);
     }
 
+    /// Faces to begin at, too, in another attempt; then there is no result.
+    [[nodiscard]] const numbers& wanted() const { return wanted_; }
+
     std::optional<flattened> run() {
         join_points();
-        find_edges();
         grow_parts();
         split_edges();
         for (int i = 0; i < most_attempts; ++i) {
             if (make_parts()) return collect();
+            if (!wanted_.empty()) break;
         }
         return std::nullopt;
     }
@@ -129,19 +134,20 @@ class flattening {
         return std::uint64_t{std::min(p, q)} << 32U | std::max(p, q);
     }
 
-    /// Of loose faces: what is across each side, and which edges faces that stay have, too.
-    void find_edges() {
+    /// Of faces that may change: what is across each side, if that is one other.
+    [[nodiscard]] std::vector<face> neighbors() const {
         numbers all;
         for (std::uint32_t f = 0; f < faces_.size(); ++f)
             if (is_there(f) && (!is_fixed(f) || may_grow_into(f))) all.push_back(f);
-        neighbor_.assign(faces_.size(), {nothing, nothing, nothing});
+        std::vector<face> across(faces_.size(), {nothing, nothing, nothing});
         near_edges(mesh_view{exact_.given, faces_}, all)
             .for_each([&](std::span<const near_edges::use> uses) {
                 if (uses.size() != 2 || uses[0].way == uses[1].way) return;
                 const std::uint32_t f = all[uses[0].place], g = all[uses[1].place];
-                neighbor_[f][side_at(f, uses[0].edge)] = g;
-                neighbor_[g][side_at(g, uses[0].edge)] = f;
+                across[f][side_at(f, uses[0].edge)] = g;
+                across[g][side_at(g, uses[0].edge)] = f;
             });
+        return across;
     }
 
     [[nodiscard]] std::size_t side_at(std::uint32_t f, std::uint64_t edge) const {
@@ -186,9 +192,10 @@ class flattening {
             seeds.emplace_back(-base::dot(n, n), f);
         }
         std::ranges::sort(seeds);
+        const std::vector<face> across = neighbors();
         part_of_.assign(faces_.size(), nothing);
         for (const auto& [square, f] : seeds)
-            if (part_of_[f] == nothing && square < 0.0) grow(f, std::sqrt(-square));
+            if (part_of_[f] == nothing && square < 0.0) grow(f, std::sqrt(-square), across);
         std::vector<std::uint8_t> is_near(exact_.given.size(), 0);
         for (const flat_part& part : parts_)
             for (const std::uint32_t f : part.faces)
@@ -207,7 +214,7 @@ class flattening {
         parts_.emplace_back().faces.push_back(f);
     }
 
-    void grow(std::uint32_t seed, double length) {
+    void grow(std::uint32_t seed, double length, const std::vector<face>& across) {
         const point3 unit = base::scaled(normal(seed), 1.0 / length);
         const point3 origin = at(faces_[seed][0]);
         const auto is_near = [&](std::uint32_t p) {
@@ -217,7 +224,7 @@ class flattening {
         add_part(seed);
         numbers& faces = parts_.back().faces;
         for (std::size_t i = 0; i < faces.size(); ++i)
-            for (const std::uint32_t g : neighbor_[faces[i]]) {
+            for (const std::uint32_t g : across[faces[i]]) {
                 if (g == nothing || part_of_[g] != nothing) continue;
                 if (!std::ranges::all_of(faces_[g], is_near)) continue;
                 part_of_[g] = number;
@@ -351,6 +358,10 @@ class flattening {
             part.is_straight = false;
             return;
         }
+        if (part.faces.size() > 1 && !falls_apart_) {
+            wanted_.insert(wanted_.end(), part.faces.begin(), part.faces.end());
+            return;
+        }
         for (std::size_t i = 1; i < part.faces.size(); ++i) {
             add_part(part.faces[i]);
             parts_.back().is_straight = false;
@@ -476,17 +487,25 @@ class flattening {
     std::set<std::uint64_t> blocked_{};          ///< edges that would not split
     std::map<std::uint64_t, numbers> way_of_{};  ///< what is on edges, from their lower ends
     std::map<std::uint64_t, std::uint32_t> crossing_of_{};  ///< sides of rims
-    std::vector<std::array<std::uint32_t, 3>> neighbor_{};
-    std::deque<flat_part> parts_{};  ///< stay where they are
-    numbers part_of_{};              ///< of each face, or none
-    bool is_grown_ = false;          ///< there are crossings, or parts, that rims do not know yet
+    std::deque<flat_part> parts_{};                         ///< stay where they are
+    numbers part_of_{};                                     ///< of each face, or none
+    bool falls_apart_;
+    numbers wanted_{};
+    bool is_grown_ = false;  ///< there are crossings, or parts, that rims do not know yet
 };
 
 }  // namespace
 
 std::optional<flattened> flatten(mesh_view surface, std::span<const face_pair> meeting,
                                  const flatten_options& options) {
-    return flattening(surface, meeting, options).run();
+    numbers begin_at;
+    for (const face_pair& pair : meeting) begin_at.insert(begin_at.end(), {pair.a, pair.b});
+    for (int i = 1;; ++i) {
+        flattening attempt(surface, begin_at, options, i == most_widenings);
+        std::optional<flattened> result = attempt.run();
+        if (attempt.wanted().empty()) return result;
+        begin_at.insert(begin_at.end(), attempt.wanted().begin(), attempt.wanted().end());
+    }
 }
 
 }  // namespace treeform::detail::round

@@ -36,15 +36,16 @@ struct flattened {
 ///   becomes triangles between what its rim winds around, seen along an axis. What covers each other
 ///   back to back cancels. Rims between two parts become straight where all is within reach of that,
 ///   and where sides of a rim cross, both get a point.
-/// A part that cannot be made so keeps its rim, then falls apart into its faces. Nothing, where that
-/// does not end.
+/// A part that cannot be made so keeps its rim; then all begins anew with its faces, too, as those
+/// that meet, at most three times; then it falls apart into its faces. Nothing, where that does not
+/// end.
 ///
 /// The sum of the boundaries stays what it was, so that a closed surface stays closed; points stay
 /// where they are. Whether less meets afterwards is for the caller to see.
 ///
 /// \param  meeting  pairs of faces that meet
 /// \cost   O(F), O(n log n) for the n corners there, and O(n^1.5) for those of a rim; each at most
-///         40 times
+///         160 times
 /// \same   on any number of threads
 /// \source Devillers, Lazard and Lenhart, 3D Snap Rounding, SoCG 2018, for points that go into edges
 ///         near them

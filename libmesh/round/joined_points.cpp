@@ -40,10 +40,14 @@ std::vector<std::uint32_t> joined_points(std::span<const point3> points,
         while (now[p] != p) p = now[p] = now[now[p]];
         return p;
     };
+    std::vector<double> radius(points.size(), 0.0);  // of what has become a point
     for (const auto& [length, p, q] : pairs) {
         std::uint32_t a = root(p), b = root(q);
-        if (a == b || distance(a, b) > reach || (is_held[a] != 0 && is_held[b] != 0)) continue;
+        if (a == b || (is_held[a] != 0 && is_held[b] != 0)) continue;
         if (is_held[b] != 0 || (is_held[a] == 0 && b < a)) std::swap(a, b);
+        const double moved = distance(a, b) + radius[b];
+        if (moved > reach) continue;
+        radius[a] = std::max(radius[a], moved);
         now[b] = a;
     }
     for (const std::uint32_t p : near) now[p] = root(p);

@@ -131,10 +131,12 @@ class rounding {
         std::vector<std::uint8_t> certified;
         std::vector<face_pair> pairs;
         treeform::certificate certificate;
+        double joined;
+        std::uint64_t slivers;
     };
     [[nodiscard]] state now() const {
-        return {result_.surface, result_.face_of, point_of_,
-                certified_,      pairs_,          result_.certificate};
+        return {result_.surface, result_.face_of,     point_of_, certified_,
+                pairs_,          result_.certificate, joined_,   result_.slivers};
     }
     void go_back(const state& before) {
         result_.surface = before.surface;
@@ -143,6 +145,8 @@ class rounding {
         certified_ = before.certified;
         pairs_ = before.pairs;
         result_.certificate = before.certificate;
+        joined_ = before.joined;
+        result_.slivers = before.slivers;
     }
 
     /// Certified faces at edges where the rest of the surface is, or where it ends, are to stay.
