@@ -50,7 +50,7 @@ double furthest(const simplified_surface& from, const simplified_surface& to) {
         from, to, CGAL::parameters::number_of_points_on_faces(20'000));
 }
 
-double diagonal_of(const tf::mesh& mesh) {
+double simplified_diagonal(const tf::mesh& mesh) {
     treeform::aabb<double, 3> box;
     for (const tf::point3& p : mesh.points) box.include(p);
     return std::hypot(box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]);
@@ -67,7 +67,7 @@ void check_simplified(const tf::mesh& mesh, double distance, tf::precision preci
     CHECK(CGAL::is_closed(after) == CGAL::is_closed(before));
     CHECK_FALSE(processing::does_self_intersect(after));
     // What CGAL computes is rounded, too.
-    const double rounding = 1e-12 * diagonal_of(mesh);
+    const double rounding = 1e-12 * simplified_diagonal(mesh);
     CHECK(furthest(before, after) <= made.there_at_most + rounding);
     CHECK(furthest(after, before) <= made.back_at_most + rounding);
 }
@@ -79,7 +79,7 @@ TEST_CASE("simplified solids are solids to CGAL, and as near as was said") {
     std::uint64_t models = 0;
     test::for_each_solid(1'100'000, [&](const tf::mesh& mesh) {
         if (mesh.faces.size() > 30'000) return;
-        const double diagonal = diagonal_of(mesh);
+        const double diagonal = simplified_diagonal(mesh);
         check_simplified(mesh, (models % 2 == 0 ? 1e-3 : 1e-2) * diagonal,
                          models % 3 == 0 ? tf::precision::float32 : tf::precision::float64);
         ++models;
