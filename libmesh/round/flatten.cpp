@@ -11,13 +11,11 @@
 #include <treeform/tree/search.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <deque>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -63,9 +61,9 @@ class flattening {
     [[nodiscard]] const numbers& wanted() const { return wanted_; }
 
     std::optional<flattened> run() {
-        join_points();
+        const numbers near = join_points();
         grow_parts();
-        split_edges();
+        split_edges(near);
         for (int i = 0; i < most_attempts; ++i) {
             if (make_parts()) return collect();
             if (!wanted_.empty()) break;
@@ -108,19 +106,22 @@ class flattening {
 
     /// Corners of the faces to begin at that are within reach of each other become one: that of a
     /// face that stays, or the lowest.
-    void join_points() {
+    /// \return those that are left, ascending
+    [[nodiscard]] numbers join_points() {
         fixed_.assign(faces_.size(), 1);
         for (const std::uint32_t f : begin_at_) fixed_[f] = 0;
         find_held_points();
+        numbers near;
         for (const std::uint32_t f : begin_at_)
-            near_.insert(near_.end(), faces_[f].begin(), faces_[f].end());
-        std::ranges::sort(near_);
-        near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
-        const numbers now = joined_points(exact_.given, near_, is_held_, options_.reach);
+            near.insert(near.end(), faces_[f].begin(), faces_[f].end());
+        std::ranges::sort(near);
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+        const numbers now = joined_points(exact_.given, near, is_held_, options_.reach);
         for (const std::uint32_t f : begin_at_)
             for (std::uint32_t& p : faces_[f]) p = now[p];
         stars_.emplace(exact_.given.size(), faces_);
-        std::erase_if(near_, [&](std::uint32_t p) { return now[p] != p; });
+        std::erase_if(near, [&](std::uint32_t p) { return now[p] != p; });
+        return near;
     }
 
     void find_held_points() {
@@ -156,8 +157,8 @@ class flattening {
     }
 
     /// Each edge gets the points that are within reach of it.
-    void split_edges() {
-        const dynamic_tree<3> tree(near_, [&](std::uint32_t p) {
+    void split_edges(const numbers& near) {
+        const dynamic_tree<3> tree(near, [&](std::uint32_t p) {
             aabb<double, 3> box;
             box.include(at(p));
             return box;
@@ -172,7 +173,7 @@ class flattening {
                 const point3 along = base::minus(at(q), at(p));
                 std::vector<std::pair<double, std::uint32_t>> on;
                 search(tree, around(at(p), at(q)), [&](std::uint32_t n) {
-                    const std::uint32_t r = near_[n];
+                    const std::uint32_t r = near[n];
                     if (r == p || r == q || distance_to_edge(at(r), at(p), at(q)) > options_.reach)
                         return;
                     on.emplace_back(base::dot(base::minus(at(r), at(p)), along), r);
@@ -305,17 +306,9 @@ class flattening {
 
     /// Gives both sides a point where they pass each other; false when they are too far apart.
     bool add_crossing(const rim_side& s, const rim_side& t) {
-        const point3 a = at(s[0]), c = at(t[0]);
-        const point3 u = base::minus(at(s[1]), a), v = base::minus(at(t[1]), c),
-                     w = base::minus(c, a);
-        const point3 n = base::cross(u, v);
-        const double square = base::dot(n, n);
-        if (!(square > 0.0)) return false;
-        const point3 x = base::plus(a, base::scaled(u, base::dot(base::cross(w, v), n) / square));
-        const point3 y = base::plus(c, base::scaled(v, base::dot(base::cross(w, u), n) / square));
-        const point3 way = base::minus(x, y);
-        if (!(base::dot(way, way) <= options_.reach * options_.reach)) return false;
-        const point3 middle = base::scaled(base::plus(x, y), 0.5);
+        const std::optional<point3> middle =
+            passing_point({at(s[0]), at(s[1])}, {at(t[0]), at(t[1])}, options_.reach);
+        if (!middle) return false;
         const auto put = [&](const rim_side& e, std::uint32_t p) {
             loosen(e);
             if (is_held(e[0], e[1]) || leads_to(e[0], p, e) || leads_to(p, e[1], e)) return false;
@@ -323,7 +316,7 @@ class flattening {
             return is_grown_ = true;
         };
         const auto is_at = [&](std::uint32_t p) {
-            const point3 to = base::minus(at(p), middle);
+            const point3 to = base::minus(at(p), *middle);
             return base::dot(to, to) <= options_.reach * options_.reach;
         };
         for (const std::uint32_t p : s)
@@ -334,7 +327,7 @@ class flattening {
         loosen(t);
         if (is_held(s[0], s[1]) || is_held(t[0], t[1])) return false;
         const auto made = static_cast<std::uint32_t>(exact_.given.size());
-        exact_.given.push_back(middle);
+        exact_.given.push_back(*middle);
         put(s, made);
         put(t, made);
         return true;
@@ -407,7 +400,10 @@ class flattening {
     [[nodiscard]] std::vector<face> triangles(const flat_part& part) const {
         if (part.rim.empty()) return {};
         const face& seed = faces_[part.faces[0]];
-        if (part.faces.size() == 1 && part.rim == sides_of(seed)) return {seed};
+        if (part.faces.size() == 1 &&
+            part.rim ==
+                without_opposites({{seed[0], seed[1]}, {seed[1], seed[2]}, {seed[2], seed[0]}}))
+            return {seed};
         flat_region region{.first_face = part.faces[0], .plane = seed};
         for (const auto& [from, to] : part.rim) {
             region.points.push_back(from);
@@ -415,10 +411,6 @@ class flattening {
             region.rim.push_back({from, to, flat_region::no_line});
         }
         return triangles_of(exact_, region);
-    }
-
-    [[nodiscard]] static std::vector<rim_side> sides_of(const face& f) {
-        return without_opposites({{f[0], f[1]}, {f[1], f[2]}, {f[2], f[0]}});
     }
 
     [[nodiscard]] flattened collect() const {
@@ -480,7 +472,6 @@ class flattening {
     std::vector<face> faces_;
     numbers begin_at_{};                 ///< faces at corners of those that meet, ascending
     exact_surface exact_{};              ///< the points alone
-    numbers near_{};                     ///< points that edges may get, ascending
     std::vector<std::uint8_t> fixed_{};  ///< [F] 1 for faces that stay
     std::optional<base::stars> stars_{};
     std::vector<std::uint8_t> is_held_{};        ///< [V] by faces that stay

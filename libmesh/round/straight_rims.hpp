@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,11 @@ using rim_side =
 
 /// How far `p` is from the straight way between two other points.
 [[nodiscard]] double distance_to_edge(const point3& p, const point3& a, const point3& b);
+
+/// The middle between two lines, each through two points, where they are nearest, if they come within
+/// `reach` of each other and are not parallel.
+[[nodiscard]] std::optional<point3> passing_point(const std::array<point3, 2>& s,
+                                                  const std::array<point3, 2>& t, double reach);
 
 /// Where two parts run along each other and nothing else has the points between, these go as long
 /// as all of them are within `reach` of the straight way.
