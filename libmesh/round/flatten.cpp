@@ -73,10 +73,6 @@ class flattening {
 
   private:
     [[nodiscard]] bool is_fixed(std::uint32_t f) const { return fixed_[f] != 0; }
-    [[nodiscard]] bool may_grow_into(std::uint32_t f) const {
-        return options_.certified.empty() || options_.certified[f] == 0;
-    }
-
     /// Whether an edge has to stay as it is: a face that stays has it.
     [[nodiscard]] bool is_held(std::uint32_t p, std::uint32_t q) const {
         if (blocked_.contains(name(p, q))) return true;
@@ -139,7 +135,9 @@ class flattening {
     [[nodiscard]] std::vector<face> neighbors() const {
         numbers all;
         for (std::uint32_t f = 0; f < faces_.size(); ++f)
-            if (is_there(f) && (!is_fixed(f) || may_grow_into(f))) all.push_back(f);
+            if (is_there(f) &&
+                (!is_fixed(f) || options_.certified.empty() || options_.certified[f] == 0))
+                all.push_back(f);
         std::vector<face> across(faces_.size(), {nothing, nothing, nothing});
         near_edges(mesh_view{exact_.given, faces_}, all)
             .for_each([&](std::span<const near_edges::use> uses) {
