@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace treeform::detail::round {
@@ -49,7 +50,9 @@ class straightening {
             for (const rim_side& s : rims_[part]) all.emplace_back(s, part);
         std::ranges::sort(all);
         const auto parts_at = [&](const rim_side& s) {
-            return std::ranges::equal_range(all, s, {}, &std::pair<rim_side, std::uint32_t>::first);
+            constexpr std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
+            return std::span(std::lower_bound(all.begin(), all.end(), std::pair{s, 0U}),
+                             std::upper_bound(all.begin(), all.end(), std::pair{s, last}));
         };
         for (const auto& [ends, part] : all) {
             const auto mine = parts_at(ends), others = parts_at({ends[1], ends[0]});
@@ -62,9 +65,9 @@ class straightening {
     }
 
     [[nodiscard]] std::span<const shared_side> sides_at(std::uint32_t from) const {
-        const auto found = std::ranges::equal_range(shared_, from, {},
-                                                    [](const shared_side& s) { return s.ends[0]; });
-        return {found.begin(), found.end()};
+        const auto is_before = [](const shared_side& s, std::uint32_t p) { return s.ends[0] < p; };
+        const auto begin = std::lower_bound(shared_.begin(), shared_.end(), from, is_before);
+        return {begin, std::lower_bound(begin, shared_.end(), from + 1, is_before)};
     }
     [[nodiscard]] std::size_t number(const shared_side& s) const {
         return static_cast<std::size_t>(&s - shared_.data());
@@ -134,7 +137,7 @@ std::vector<rim_side> without_opposites(const std::vector<rim_side>& sides) {
         next = i;
         while (next < sorted.size() && sorted[next] == sorted[i]) ++next;
         const auto [first, last] =
-            std::ranges::equal_range(sorted, rim_side{sorted[i][1], sorted[i][0]});
+            std::equal_range(sorted.begin(), sorted.end(), rim_side{sorted[i][1], sorted[i][0]});
         const auto back = static_cast<std::size_t>(last - first);
         for (std::size_t k = back; k < next - i; ++k) left.push_back(sorted[i]);
     }

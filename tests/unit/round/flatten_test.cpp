@@ -9,6 +9,7 @@
 #include <support/random.hpp>
 #include <support/solid_checks.hpp>
 #include <support/solids.hpp>
+#include <support/soups.hpp>
 
 #include <vector>
 
