@@ -41,7 +41,7 @@ constexpr std::size_t most_listed = 100;
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
-/// More pairs than that, and one for as many faces given, are not cut: the reach is too short.
+/// More pairs of a solid than that, and one for as many faces, are not cut: the reach is too short.
 constexpr std::size_t fewest_cut = 100, faces_a_cut = 64;
 /// Pairs of faces that are held against each other for that, of all rounds, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
@@ -104,13 +104,17 @@ class rounding {
             take_out_slivers(reach, sliver_height * step, first);
             return;
         }
+        const std::size_t most_cut =
+            options_.solid ? faces_given_ / faces_a_cut + fewest_cut : 3 * faces_given_ + 1000;
         for (int round = 1; reach <= limit; ++round) {
             const state before = now();
             if (first > 0 && take_out_slivers(reach, sliver_height * step, first)) return;
             if (is_cancelled()) return;
-            go_back(before);
-            if (flatten_parts(reach) || is_cancelled()) return;
-            if (pairs_.size() > faces_given_ / faces_a_cut + fewest_cut) {
+            if (options_.solid) {  // of a complex, parts that lie on each other stay
+                go_back(before);
+                if (flatten_parts(reach) || is_cancelled()) return;
+            }
+            if (pairs_.size() > most_cut) {
                 go_back(before);
                 reach *= 4.0;
                 continue;
