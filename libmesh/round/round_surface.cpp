@@ -46,8 +46,7 @@ constexpr std::size_t fewest_cut = 100, faces_a_cut = 64;
 /// Pairs of faces that are held against each other for that, of all rounds, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
 constexpr std::uint64_t visits_a_face = 1024, fewest_visits = std::uint64_t{1} << 20;
-/// Nothing longer than this share of the largest coordinate goes.
-constexpr double longest_reach = 0x1p-10;
+constexpr double longest_reach = 0x1p-10;  ///< nothing longer goes: of the largest coordinate
 
 /// The surface, exact and as rounded so far. Of the exact one, points of the surface that was
 /// rounded before come first.
@@ -108,8 +107,8 @@ class rounding {
             options_.solid ? faces_given_ / faces_a_cut + fewest_cut : 3 * faces_given_ + 1000;
         for (int round = 1; reach <= limit; ++round) {
             const state before = now();
-            if (first > 0 && take_out_slivers(reach, sliver_height * step, first)) return;
-            if (is_cancelled()) return;
+            if (first > 0) take_out_slivers(reach, sliver_height * step, first);
+            if (result_.certificate || is_cancelled()) return;
             if (options_.solid) {  // of a complex, parts that lie on each other stay
                 go_back(before);
                 if (flatten_parts(reach) || is_cancelled()) return;
@@ -164,7 +163,6 @@ class rounding {
         });
     }
 
-    /// Whether the surface is certified without them.
     bool take_out_slivers(double reach, double height, std::uint64_t& visits) {
         std::vector<face_pair> bad = pairs_;
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
@@ -206,7 +204,6 @@ class rounding {
         return certified;
     }
 
-    /// Other faces between the same points.
     template <class Changed>
     void take_changed(Changed& changed) {
         std::vector<std::uint8_t> certified;
