@@ -180,9 +180,8 @@ std::string lines_format(const std::filesystem::path& path) {
 
 exit_status make_section(job& work, const usable_input& input, cut_settings s) {
     if (s.layers > 0.0) {
-        s.heights = suitable("--layers", [&] {
-            return s.plane.layer_heights(input.file.mesh.points, s.layers);
-        });
+        s.heights = suitable(
+            "--layers", [&] { return s.plane.layer_heights(input.file.mesh.points, s.layers); });
         work.entry["planes"]["heights"] = s.heights;
     }
     tf::section_result made;
