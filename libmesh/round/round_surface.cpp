@@ -103,22 +103,33 @@ class rounding {
             take_out_slivers(reach, sliver_height * step, first);
             return;
         }
+        const state start = now();
+        if (options_.solid) run_rounds(reach, step, limit, first, later, true);
+        if (result_.certificate || is_cancelled()) return;
+        go_back(start);  // a complex, or layers that all meet: these are cut as they are
+        first = visits;
+        run_rounds(reach, step, limit, first, later, false);
+    }
+
+    void run_rounds(double reach, double step, double limit, std::uint64_t& first,
+                    std::uint64_t& later, bool flat) {
         const std::size_t most_cut =
-            options_.solid ? faces_given_ / faces_a_cut + fewest_cut : 3 * faces_given_ + 1000;
+            flat ? faces_given_ / faces_a_cut + fewest_cut : 3 * faces_given_ + 1000;
         for (int round = 1; reach <= limit; ++round) {
             const state before = now();
             if (first > 0) take_out_slivers(reach, sliver_height * step, first);
             if (result_.certificate || is_cancelled()) return;
-            if (options_.solid) {  // of a complex, parts that lie on each other stay
+            if (flat) {
                 go_back(before);
                 if (flatten_parts(reach) || is_cancelled()) return;
             }
             if (pairs_.size() > most_cut) {
-                go_back(before);
+                if (flat) go_back(before);
                 reach *= 4.0;
                 continue;
             }
-            if (take_out_slivers(reach, sliver_height * step, later) || is_cancelled()) return;
+            if (flat && (take_out_slivers(reach, sliver_height * step, later) || is_cancelled()))
+                return;
             if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
             ++result_.rounds;
             if (!cut_again() || !settle()) return;
@@ -127,16 +138,7 @@ class rounding {
         }
     }
 
-    /// What a round changes before it cuts.
-    struct state {
-        mesh surface;
-        std::vector<std::uint32_t> face_of, point_of;
-        std::vector<std::uint8_t> certified;
-        std::vector<face_pair> pairs;
-        treeform::certificate certificate;
-        double joined;
-        std::uint64_t slivers;
-    };
+    using state = detail::round::rounding_state;
     [[nodiscard]] state now() const {
         return {result_.surface, result_.face_of,     point_of_, certified_,
                 pairs_,          result_.certificate, joined_,   result_.slivers};

@@ -1,16 +1,31 @@
 #pragma once
 /// \file
-/// How far rounding moves a point.
+/// How far rounding moves a point, and what a round of it changes.
 
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace treeform::detail::round {
+
+/// What a round changes before it cuts.
+struct rounding_state {
+    mesh surface;
+    std::vector<std::uint32_t> face_of, point_of;
+    std::vector<std::uint8_t> certified;
+    std::vector<face_pair> pairs;
+    treeform::certificate certificate;
+    double joined;
+    std::uint64_t slivers;
+};
 
 inline point3 to_single(const point3& p) {
     return {base::nearest_float(p.x), base::nearest_float(p.y), base::nearest_float(p.z)};
