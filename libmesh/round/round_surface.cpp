@@ -74,7 +74,6 @@ class rounding {
         return std::move(result_);
     }
 
-    /// As it was given, where nothing has been cut.
     [[nodiscard]] exact_surface take_exact() { return std::move(exact_); }
 
   private:
@@ -132,8 +131,7 @@ class rounding {
                 return;
             if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
             ++result_.rounds;
-            if (!cut_again() || !settle()) return;
-            if (check() || is_cancelled()) return;
+            if (!cut_again() || !settle() || check() || is_cancelled()) return;
             if (round % rounds_of_reach == 0) reach *= 4.0;
         }
     }
