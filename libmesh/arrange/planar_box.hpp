@@ -5,6 +5,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -28,14 +29,18 @@ class planar_box {
     /// A triangle that strictly holds the box in projection, and turns left as seen along the axis
     /// times `orientation` (+1 or -1).
     ///
-    /// With extents w and h of the box and d = w + h, its legs are 6 d, it begins d before the box,
-    /// and the box needs 3 d of the legs; rounding moves a corner by no more than an ulp of a
-    /// coordinate, and d is at least one, as w and h are differences of doubles.
+    /// With extents w and h of the box and u an ulp of its largest coordinate, d is the larger of
+    /// w + h and 4 u. Legs of 6 d begin d before the box, which rounding makes 1.5 d at most (half
+    /// an ulp, and one for `nextafter`), and end less than d / 8 early. Seen from the right angle,
+    /// coordinates in the box add up to at most w + h + 2 * 1.5 d, which is 4 d.
     ///
     /// \pre something is included
     [[nodiscard]] std::array<point3, 3> triangle_around(int orientation) const {
-        const double d = (box_.max[0] - box_.min[0]) + (box_.max[1] - box_.min[1]);
         constexpr double infinity = std::numeric_limits<double>::infinity();
+        const double largest = std::max({std::abs(box_.min[0]), std::abs(box_.max[0]),
+                                         std::abs(box_.min[1]), std::abs(box_.max[1])});
+        const double d = std::max((box_.max[0] - box_.min[0]) + (box_.max[1] - box_.min[1]),
+                                  4.0 * (std::nextafter(largest, infinity) - largest));
         const double left = std::nextafter(box_.min[0] - d, -infinity);
         const double bottom = std::nextafter(box_.min[1] - d, -infinity);
         std::array<point3, 3> result{};

@@ -2,6 +2,7 @@
 #include <libmesh/base/stars.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/round/cancelled_faces.hpp>
+#include <libmesh/round/edge_gap.hpp>
 #include <libmesh/round/flatten.hpp>
 #include <libmesh/round/joined_points.hpp>
 #include <libmesh/round/near_edges.hpp>
@@ -18,7 +19,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 namespace treeform::detail::round {
@@ -304,9 +304,8 @@ class flattening {
 
     /// Gives both sides a point where they pass each other; false when they are too far apart.
     bool add_crossing(const rim_side& s, const rim_side& t) {
-        const std::optional<point3> middle =
-            passing_point({at(s[0]), at(s[1])}, {at(t[0]), at(t[1])}, options_.reach);
-        if (!middle) return false;
+        const std::optional<edge_gap> gap = gap_between({at(s[0]), at(s[1])}, {at(t[0]), at(t[1])});
+        if (!gap || gap->length > options_.reach) return false;
         const auto put = [&](const rim_side& e, std::uint32_t p) {
             loosen(e);
             if (is_held(e[0], e[1]) || leads_to(e[0], p, e) || leads_to(p, e[1], e)) return false;
@@ -314,7 +313,7 @@ class flattening {
             return is_grown_ = true;
         };
         const auto is_at = [&](std::uint32_t p) {
-            const point3 to = base::minus(at(p), *middle);
+            const point3 to = base::minus(at(p), gap->middle);
             return base::dot(to, to) <= options_.reach * options_.reach;
         };
         for (const std::uint32_t p : s)
@@ -325,7 +324,7 @@ class flattening {
         loosen(t);
         if (is_held(s[0], s[1]) || is_held(t[0], t[1])) return false;
         const auto made = static_cast<std::uint32_t>(exact_.given.size());
-        exact_.given.push_back(*middle);
+        exact_.given.push_back(gap->middle);
         put(s, made);
         put(t, made);
         return true;
@@ -382,7 +381,7 @@ class flattening {
                 if (!add_crossing(part.rim[found.a], part.rim[found.b])) return false;
                 part.rim = with_crossings(part.rim);
                 continue;
-            } catch (const std::logic_error&) {
+            } catch (const rim_fault&) {
                 return false;
             }
             std::vector<rim_side> sides;
@@ -425,12 +424,11 @@ class flattening {
             }
             if (part_of_[f] == nothing || parts_[part_of_[f]].faces[0] != f) continue;
             const flat_part& part = parts_[part_of_[f]];
-            ++result.parts;
             const numbers sources = sources_of(part);
             made.insert(made.end(), part.made.begin(), part.made.end());
             of.insert(of.end(), sources.begin(), sources.end());
         }
-        const std::vector<std::uint8_t> gone = cancelled_faces(made, options_.solid);
+        const std::vector<std::uint8_t> gone = cancelled_faces(made, true);
         for (std::size_t i = 0; i < made.size(); ++i) {
             if (gone[i] != 0) continue;
             result.faces.push_back(made[i]);
@@ -469,7 +467,7 @@ class flattening {
     flatten_options options_;
     std::vector<face> faces_;
     numbers begin_at_{};                 ///< faces at corners of those that meet, ascending
-    exact_surface exact_{};              ///< the points alone
+    exact_surface exact_{};              ///< as given, then with points where rims cross
     std::vector<std::uint8_t> fixed_{};  ///< [F] 1 for faces that stay
     std::optional<base::stars> stars_{};
     std::vector<std::uint8_t> is_held_{};        ///< [V] by faces that stay
@@ -479,7 +477,7 @@ class flattening {
     std::deque<flat_part> parts_{};                         ///< stay where they are
     numbers part_of_{};                                     ///< of each face, or none
     bool falls_apart_;
-    numbers wanted_{};
+    numbers wanted_{};       ///< faces to begin at, too
     bool is_grown_ = false;  ///< there are crossings, or parts, that rims do not know yet
 };
 

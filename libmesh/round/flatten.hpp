@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts of a surface that all but lie in one plane get as few corners as their rims need.
+/// Parts of a solid's surface that nearly lie in one plane, made of as few faces as their rims need.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -14,7 +14,6 @@ namespace treeform::detail::round {
 
 struct flatten_options {
     double reach = 0.0;  ///< how far corners may be from a plane, a straight rim, and each other
-    bool solid = true;   ///< the faces bound a solid: what covers each other back to back goes
     std::span<const std::uint8_t> certified{};  ///< [F] 1 for faces that no part grows into
 };
 
@@ -24,21 +23,21 @@ struct flattened {
     std::vector<std::uint32_t>
         face_of;                       ///< [F] face that the middle of each one lies in, or next to
     std::vector<std::uint8_t> is_new;  ///< [F] 0 for faces that are as they were
-    std::uint64_t parts = 0;           ///< with other faces than before
 };
 
-/// Where faces that were meant to lie in one plane do so but for rounding, as of a CAD part that was
-/// turned, cutting them along each other makes many pieces, as far apart as rounding moves them.
-/// Around the faces that meet:
+/// Faces of a CAD part that share a plane no longer do exactly once the part has been rotated. Cut
+/// along each other, they become many pieces, no further apart than rounding moves them. Around the
+/// faces that meet:
 /// - points that are within reach of each other become one;
 /// - edges get the points that are within reach of them;
-/// - each flat part, grown over edges from the largest of these faces that is not in one yet,
-///   becomes triangles between what its rim winds around, seen along an axis. What covers each other
-///   back to back cancels. Rims between two parts become straight where all is within reach of that,
-///   and where sides of a rim cross, both get a point.
-/// A part that cannot be made so keeps its rim; then all begins anew with its faces, too, as those
-/// that meet, at most three times; then it falls apart into its faces. Nothing, where that does not
-/// end.
+/// - connected faces near one plane are a flat part, grown from the largest face that is in none;
+/// - a part is replaced by triangles of what its rim winds around, seen along an axis; where it winds
+///   around nothing, as around two sheets back to back, nothing is left;
+/// - a rim between two parts becomes straight where all of it is within reach of the straight way;
+/// - where two sides of a rim cross, both get a new point.
+/// If a part has no such triangles, its rim is not straightened. If it still has none, all starts
+/// over with its faces among those that meet, at most three times. After that it is replaced face by
+/// face. No result, if that does not end.
 ///
 /// The sum of the boundaries stays what it was, so that a closed surface stays closed; points stay
 /// where they are. Whether less meets afterwards is for the caller to see.

@@ -38,7 +38,7 @@ class triangulator {
     using edge = std::array<std::uint32_t, 2>;
 
     [[noreturn]] static void fail() {
-        throw std::logic_error("treeform: a flat part of the surface has no rim");
+        throw rim_fault("treeform: a flat part of the surface has no rim");
     }
 
     [[nodiscard]] implicit_point point(std::uint32_t p) const {

@@ -35,10 +35,15 @@ struct flat_region {
     std::vector<side> rim{};
 };
 
-/// Two sides of a rim cross each other.
-struct sides_cross : std::logic_error {
+/// There are no triangles with a rim.
+struct rim_fault : std::logic_error {
+    using std::logic_error::logic_error;
+};
+
+/// Two of its sides cross each other.
+struct sides_cross : rim_fault {
     sides_cross(std::size_t a, std::size_t b)
-        : std::logic_error("treeform: sides of a flat part of the surface cross"), a(a), b(b) {}
+        : rim_fault("treeform: sides of a flat part of the surface cross"), a(a), b(b) {}
     std::size_t a, b;  ///< by number
 };
 
@@ -48,7 +53,7 @@ struct sides_cross : std::logic_error {
 ///
 /// \pre    no side has a point of the region but its ends, and all ends are among the points
 /// \throws sides_cross where sides of the rim do
-/// \throws std::logic_error when the rim bounds nothing, or two points are one as seen so
+/// \throws rim_fault when the rim bounds nothing, or two points are one as seen so
 /// \cost   about O(n^1.5) for n points
 [[nodiscard]] std::vector<face> triangles_of(const exact_surface& surface,
                                              const flat_region& region);

@@ -3,6 +3,7 @@
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/round/cancelled_faces.hpp>
+#include <libmesh/round/edge_gap.hpp>
 #include <libmesh/round/remove_slivers.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/dynamic_tree.hpp>
@@ -16,6 +17,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
@@ -204,15 +206,8 @@ class sliver_removal {
     /// Between the edges from p to q and from r to s where these pass each other; else infinite.
     [[nodiscard]] double distance_of_diagonals(std::uint32_t p, std::uint32_t q, std::uint32_t r,
                                                std::uint32_t s) const {
-        const point3 u = base::minus(at(q), at(p)), v = base::minus(at(s), at(r)),
-                     w = base::minus(at(r), at(p));
-        const point3 normal = base::cross(u, v);
-        const double square = base::dot(normal, normal);
-        const double along_u = base::dot(base::cross(w, v), normal),
-                     along_v = base::dot(base::cross(w, u), normal);
-        if (!(along_u > 0.0 && along_u < square && along_v > 0.0 && along_v < square))
-            return std::numeric_limits<double>::infinity();
-        return std::abs(base::dot(w, normal)) / std::sqrt(square);
+        const std::optional<edge_gap> gap = gap_between({at(p), at(q)}, {at(r), at(s)});
+        return gap ? gap->length : std::numeric_limits<double>::infinity();
     }
 
     void add_changes(std::uint32_t from, std::uint32_t to,

@@ -122,24 +122,22 @@ class rounding {
                 go_back(before);
                 if (flatten_parts(reach) || is_cancelled()) return;
             }
-            if (pairs_.size() > most_cut) {
-                if (flat) go_back(before);
-                reach *= 4.0;
-                continue;
-            }
-            if (flat && (take_out_slivers(reach, sliver_height * step, later) || is_cancelled()))
-                return;
+            const bool is_too_much = pairs_.size() > most_cut;
+            if (is_too_much && flat) go_back(before);
+            if (flat && !is_too_much) take_out_slivers(reach, sliver_height * step, later);
+            if (result_.certificate || is_cancelled()) return;
+            if (round % rounds_of_reach == 0 || (flat && is_too_much)) reach *= 4.0;
             if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
+            if (is_too_much) continue;
             ++result_.rounds;
             if (!cut_again() || !settle() || check() || is_cancelled()) return;
-            if (round % rounds_of_reach == 0) reach *= 4.0;
         }
     }
 
     using state = detail::round::rounding_state;
     [[nodiscard]] state now() const {
-        return {result_.surface, result_.face_of,     point_of_, certified_,
-                pairs_,          result_.certificate, joined_,   result_.slivers};
+        return {result_.surface,     result_.face_of, point_of_,       certified_,    pairs_,
+                result_.certificate, joined_,         result_.slivers, result_.rounds};
     }
     void go_back(const state& before) {
         result_.surface = before.surface;
@@ -150,6 +148,7 @@ class rounding {
         result_.certificate = before.certificate;
         joined_ = before.joined;
         result_.slivers = before.slivers;
+        result_.rounds = before.rounds;
     }
 
     /// Certified faces at edges where the rest of the surface is, or where it ends, are to stay.
@@ -168,7 +167,7 @@ class rounding {
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
             if (certified_.empty() || certified_[f] == 0) bad.push_back({f, f});
         detail::round::slivers_removed left =
-            detail::round::remove_slivers(result_.surface, pairs_,
+            detail::round::remove_slivers(result_.surface, bad,
                                           {.reach = reach,
                                            .thin = height,
                                            .solid = options_.solid,
@@ -186,8 +185,7 @@ class rounding {
     /// as before, unless less meets.
     bool flatten_parts(double reach) {
         std::optional<detail::round::flattened> made = detail::round::flatten(
-            result_.surface, pairs_,
-            {.reach = reach / 2, .solid = options_.solid, .certified = certified_});
+            result_.surface, pairs_, {.reach = reach / 2, .certified = certified_});
         if (!made || made->faces.empty()) return false;
         detail::round::flattened& flat = *made;
         const state before = now();

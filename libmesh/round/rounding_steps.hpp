@@ -25,6 +25,7 @@ struct rounding_state {
     treeform::certificate certificate;
     double joined;
     std::uint64_t slivers;
+    int rounds;
 };
 
 inline point3 to_single(const point3& p) {

@@ -152,19 +152,6 @@ double distance_to_edge(const point3& p, const point3& a, const point3& b) {
     return std::sqrt(base::dot(off, off));
 }
 
-std::optional<point3> passing_point(const std::array<point3, 2>& s, const std::array<point3, 2>& t,
-                                    double reach) {
-    const point3 u = base::minus(s[1], s[0]), v = base::minus(t[1], t[0]),
-                 w = base::minus(t[0], s[0]), n = base::cross(u, v);
-    const double square = base::dot(n, n);
-    if (!(square > 0.0)) return std::nullopt;
-    const point3 x = base::plus(s[0], base::scaled(u, base::dot(base::cross(w, v), n) / square));
-    const point3 y = base::plus(t[0], base::scaled(v, base::dot(base::cross(w, u), n) / square));
-    const point3 way = base::minus(x, y);
-    if (!(base::dot(way, way) <= reach * reach)) return std::nullopt;
-    return base::scaled(base::plus(x, y), 0.5);
-}
-
 void straighten(std::vector<std::vector<rim_side>>& rims, std::span<const point3> points,
                 std::vector<std::uint8_t> stays, std::span<const std::uint8_t> may, double reach) {
     straightening(rims, points, std::move(stays), may, reach).run();

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,15 +20,10 @@ using rim_side =
 /// How far `p` is from the straight way between two other points.
 [[nodiscard]] double distance_to_edge(const point3& p, const point3& a, const point3& b);
 
-/// The middle between two lines, each through two points, where they are nearest, if they come within
-/// `reach` of each other and are not parallel.
-[[nodiscard]] std::optional<point3> passing_point(const std::array<point3, 2>& s,
-                                                  const std::array<point3, 2>& t, double reach);
-
 /// Where two parts run along each other and nothing else has the points between, these go as long
 /// as all of them are within `reach` of the straight way.
 ///
-/// \param rims   each without opposites, ascending; so they are afterwards, but for the order
+/// \param rims   of each part, without opposites; in any order afterwards
 /// \param stays  [V] 1 for points that stay in any case
 /// \param may    [parts] 1 for those whose rims may change
 /// \source Douglas and Peucker, The Canadian Cartographer 10 (1973)
