@@ -8,6 +8,7 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/round/displacement.hpp>
 #include <libmesh/round/drop_unused_points.hpp>
+#include <libmesh/round/exact_parts.hpp>
 #include <libmesh/round/flatten.hpp>
 #include <libmesh/round/near_edges.hpp>
 #include <libmesh/round/remove_slivers.hpp>
@@ -43,7 +44,7 @@ constexpr double first_reach = 8.0;
 constexpr int rounds_of_reach = 2;
 /// More pairs of a solid than that, and one for as many faces, are not cut: the reach is too short.
 constexpr std::size_t fewest_cut = 100, faces_a_cut = 64;
-/// Pairs of faces that are held against each other for that, of all rounds, for each face and
+/// Pairs that are held against each other for that, of all rounds of an attempt, for each face and
 /// beyond: real parts take 50 to 1000. Where one face meets thousands, it is better to cut.
 constexpr std::uint64_t visits_a_face = 1024, fewest_visits = std::uint64_t{1} << 20;
 constexpr double longest_reach = 0x1p-10;  ///< nothing longer goes: of the largest coordinate
@@ -63,12 +64,13 @@ class rounding {
         if (settle()) {
             first_move_ = result_.certificate.max_displacement = moved_most_;
             const bool certified = check();
-            if (vanished_ || !certified) remember_parts();
+            if (vanished_ || !certified)
+                exact_parts_ = {exact_, [&](std::uint32_t p) { return rounded_point(p); }};
             if (!certified && !is_cancelled()) mend();
         }
         point_of_.resize(result_.surface.points.size());  // a step may have ended half way
         if (vanished_) detail::round::drop_unused_points(result_.surface, point_of_);
-        count_vanished_components();
+        exact_parts_.count_vanished(result_, before_);
         result_.point_of = std::move(point_of_);
         if (!before_.faces.empty()) measure();
         return std::move(result_);
@@ -77,6 +79,9 @@ class rounding {
     [[nodiscard]] exact_surface take_exact() { return std::move(exact_); }
 
   private:
+    using state = detail::round::rounding_state;
+    using rounds = detail::round::rounding_rounds;
+
     [[nodiscard]] bool to_float32() const { return options_.precision == precision::float32; }
     [[nodiscard]] bool is_cancelled() const {
         return result_.certificate.status == status::cancelled;
@@ -92,49 +97,70 @@ class rounding {
         std::frexp(largest, &exponent);
         const double step = std::ldexp(1.0, exponent - (to_float32() ? 24 : 53));
         const double limit = std::min(options_.max_displacement, longest_reach * largest);
-        const std::uint64_t visits = fewest_visits + visits_a_face * faces_given_;
-        std::uint64_t first = visits / 8, later = visits - first;  // the rest would be begun anew
-        double reach = first_reach * step;
-        if (!(reach <= limit)) return;
+        rounds all{.reach = first_reach * step,
+                   .limit = limit,
+                   .height = sliver_height * step,
+                   .visits = fewest_visits + visits_a_face * faces_given_};
+        if (!(all.reach <= limit)) return;
         remember_places();
         if (options_.rest) {
             fix_rim();
-            take_out_slivers(reach, sliver_height * step, first);
+            all.visits /= 8;  // else all is begun once more, with the rest
+            take_out_slivers(all);
             return;
         }
         const state start = now();
-        if (options_.solid) run_rounds(reach, step, limit, first, later, true);
-        if (result_.certificate || is_cancelled()) return;
-        go_back(start);  // a complex, or layers that all meet: these are cut as they are
-        first = visits;
-        run_rounds(reach, step, limit, first, later, false);
+        cut_rounds(all, options_.solid);
+        if (options_.solid && goes_on_from(start)) flat_rounds(all);
+        if (options_.solid && goes_on_from(start)) cut_rounds(all, false);
     }
 
-    void run_rounds(double reach, double step, double limit, std::uint64_t& first,
-                    std::uint64_t& later, bool flat) {
-        const std::size_t most_cut =
-            flat ? faces_given_ / faces_a_cut + fewest_cut : 3 * faces_given_ + 1000;
-        for (int round = 1; reach <= limit; ++round) {
-            const state before = now();
-            if (first > 0) take_out_slivers(reach, sliver_height * step, first);
-            if (result_.certificate || is_cancelled()) return;
-            if (flat) {
-                go_back(before);
-                if (flatten_parts(reach) || is_cancelled()) return;
-            }
-            const bool is_too_much = pairs_.size() > most_cut;
-            if (is_too_much && flat) go_back(before);
-            if (flat && !is_too_much) take_out_slivers(reach, sliver_height * step, later);
-            if (result_.certificate || is_cancelled()) return;
-            if (round % rounds_of_reach == 0 || (flat && is_too_much)) reach *= 4.0;
-            if (result_.surface.faces.size() > 3 * faces_given_ + 1000) return;
-            if (is_too_much) continue;
-            ++result_.rounds;
-            if (!cut_again() || !settle() || check() || is_cancelled()) return;
+    /// Whether another attempt is made; then all is as it was.
+    bool goes_on_from(const state& start) {
+        if (result_.certificate || is_cancelled()) return false;
+        go_back(start);
+        return true;
+    }
+
+    /// Slivers go, and what meets all the same is cut. `only_less`: until a cut makes more pairs
+    /// than it mends, or many faces, as cuts of faces that nearly share a plane do.
+    void cut_rounds(rounds all, bool only_less) {
+        const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
+        for (int round = 1; all.reach <= all.limit; ++round) {
+            if (take_out_slivers(all) || is_cancelled()) return;
+            if (round % rounds_of_reach == 0) all.reach *= 4.0;
+            if (result_.surface.faces.size() > most) return;
+            if (pairs_.size() > most) continue;
+            const std::size_t pairs = pairs_.size();
+            if (!cut_once()) return;
+            const std::size_t faces = result_.surface.faces.size();
+            if (only_less && (pairs_.size() > pairs || faces > faces_given_ + faces_given_ / 8))
+                return;
         }
     }
 
-    using state = detail::round::rounding_state;
+    /// Flat parts come first. Where too much meets after that, nothing is cut: the round begins anew
+    /// with a longer reach.
+    void flat_rounds(rounds all) {
+        for (int round = 1; all.reach <= all.limit; ++round) {
+            const state before = now();
+            if (flatten_parts(all.reach) || is_cancelled()) return;
+            if (pairs_.size() > faces_given_ / faces_a_cut + fewest_cut) {
+                go_back(before);
+                all.reach *= 4.0;
+                continue;
+            }
+            if (take_out_slivers(all) || is_cancelled() || !cut_once()) return;
+            if (round % rounds_of_reach == 0) all.reach *= 4.0;
+        }
+    }
+
+    /// Whether something meets still, so that another round may help.
+    bool cut_once() {
+        ++result_.rounds;
+        return cut_again() && settle() && !check() && !is_cancelled();
+    }
+
     [[nodiscard]] state now() const {
         return {result_.surface,     result_.face_of, point_of_,       certified_,    pairs_,
                 result_.certificate, joined_,         result_.slivers, result_.rounds};
@@ -162,18 +188,18 @@ class rounding {
         });
     }
 
-    bool take_out_slivers(double reach, double height, std::uint64_t& visits) {
+    bool take_out_slivers(rounds& all) {
         std::vector<face_pair> bad = pairs_;
         for (std::uint32_t f = 0; f < result_.surface.faces.size(); ++f)
             if (certified_.empty() || certified_[f] == 0) bad.push_back({f, f});
         detail::round::slivers_removed left =
             detail::round::remove_slivers(result_.surface, bad,
-                                          {.reach = reach,
-                                           .thin = height,
+                                          {.reach = all.reach,
+                                           .thin = all.height,
                                            .solid = options_.solid,
                                            .fixed = fixed_,
-                                           .visits = visits});
-        visits -= std::min(visits, left.visits);
+                                           .visits = all.visits});
+        all.visits -= std::min(all.visits, left.visits);
         if (left.changes == 0) return false;
         result_.slivers += left.changes;
         joined_ += left.moved;
@@ -359,28 +385,6 @@ class rounding {
         result_.face_of = std::move(face_of);
     }
 
-    /// Of the exact surface as it was given, while it still is.
-    void remember_parts() {
-        part_of_ = face_components(exact_.given.size() + exact_.constructed.size(), exact_.faces);
-        for (std::size_t f = 0; f < part_of_.size(); ++f)
-            if (part_of_[f] == place_of_part_.size())
-                place_of_part_.push_back(rounded_point(exact_.faces[f][0]));
-    }
-    void count_vanished_components() {
-        std::vector<std::uint8_t> is_left(place_of_part_.size(), 0);
-        if (!is_left.empty())
-            for (const std::uint32_t f : result_.face_of) is_left[part_of_[f]] = 1;
-        for (std::size_t part = 0; part < is_left.size(); ++part) {
-            if (is_left[part] != 0) continue;
-            ++result_.vanished_components;
-            if (result_.vanished_at.size() < most_listed)
-                result_.vanished_at.push_back(place_of_part_[part]);
-        }
-        if (result_.vanished_components == 0 || before_.faces.empty()) return;
-        std::size_t f = 0;  // what is gone as a whole has not moved
-        std::erase_if(before_.faces, [&](const face&) { return is_left[part_of_[f++]] == 0; });
-    }
-
     /// Whether what is known of an exact face holds of it as `rounded`: no corner has moved.
     [[nodiscard]] std::uint8_t stays_certified(std::size_t f, points_view points,
                                                const face& rounded) const {
@@ -465,9 +469,7 @@ class rounding {
     const round_options& options_;
     exact_surface exact_;
     std::vector<std::uint32_t> point_of_;  ///< by point, of the original surface
-    /// By face of the surface given, from 0 on in the order of their lowest faces; or empty.
-    std::vector<std::uint32_t> part_of_;
-    std::vector<point3> place_of_part_;
+    detail::round::exact_parts exact_parts_{};
     std::vector<std::uint8_t> certified_;  ///< by face, or empty
     std::vector<face_pair> pairs_{};       ///< of faces that meet
     std::vector<std::uint8_t> fixed_{};    ///< by face, or empty

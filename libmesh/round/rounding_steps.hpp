@@ -16,6 +16,14 @@
 
 namespace treeform::detail::round {
 
+/// How far rounds of mending go.
+struct rounding_rounds {
+    double reach;          ///< how far apart what is joined may be, at first
+    double limit;          ///< and in the end
+    double height;         ///< of slivers
+    std::uint64_t visits;  ///< pairs of faces that may be held against each other to take these out
+};
+
 /// What a round changes before it cuts.
 struct rounding_state {
     mesh surface;

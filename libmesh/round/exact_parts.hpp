@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// The components of an exact surface, and which of them rounding leaves nothing of.
+
+#include <libmesh/round/round_surface.hpp>
+#include <treeform/mesh/properties.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace treeform::detail::round {
+
+class exact_parts {
+  public:
+    exact_parts() = default;
+    /// \param place_of  where a point of the surface is when rounded
+    template <class PlaceOf>
+    exact_parts(const exact_surface& exact, const PlaceOf& place_of)
+        : part_of_(face_components(exact.given.size() + exact.constructed.size(), exact.faces)) {
+        for (std::size_t f = 0; f < part_of_.size(); ++f)
+            if (part_of_[f] == place_of_part_.size())
+                place_of_part_.push_back(place_of(exact.faces[f][0]));
+    }
+
+    /// Counts the parts of which `result` has no face, and takes these out of `before`, the surface
+    /// that was rounded: what is gone as a whole has not moved.
+    void count_vanished(rounded_surface& result, mesh& before) const {
+        constexpr std::size_t most_listed = 100;
+        std::vector<std::uint8_t> is_left(place_of_part_.size(), 0);
+        if (!is_left.empty())
+            for (const std::uint32_t f : result.face_of) is_left[part_of_[f]] = 1;
+        for (std::size_t part = 0; part < is_left.size(); ++part) {
+            if (is_left[part] != 0) continue;
+            ++result.vanished_components;
+            if (result.vanished_at.size() < most_listed)
+                result.vanished_at.push_back(place_of_part_[part]);
+        }
+        if (result.vanished_components == 0 || before.faces.empty()) return;
+        std::size_t f = 0;
+        std::erase_if(before.faces, [&](const face&) { return is_left[part_of_[f++]] == 0; });
+    }
+
+  private:
+    /// By face, from 0 on in the order of their lowest faces; or empty.
+    std::vector<std::uint32_t> part_of_{};
+    std::vector<point3> place_of_part_{};
+};
+
+}  // namespace treeform::detail::round
