@@ -74,16 +74,18 @@ struct rounded_surface {
 /// certified, against all others. Where it is broken, it is mended in rounds:
 /// - What all but touches is joined, and slivers are taken out, as long as less meets by that
 ///   (`remove_slivers`).
-/// - Else flat parts become what their rims describe (`flatten`), and slivers are taken out again.
 /// - What meets all the same is cut along each other (`arrange_faces`), of a solid what it does not
 ///   wind around any more is left out, and what was cut is rounded.
+///
+/// Where cuts of a solid make more than they mend, all begins anew, and before slivers flat parts
+/// become what their rims describe (`flatten`). If that fails, too, cutting goes on to its end.
 ///
 /// What is joined is at most 8 steps of the precision at the largest coordinate apart in the first
 /// two rounds, four times as far in each two that follow, and never further than `max_displacement`
 /// and than 2^-10 of the largest coordinate: so there are at most 12 rounds for float32 and 42 for
-/// float64. Success is not proved, but checked: the certificate says so. A round that would have to
-/// cut more pairs than one for each 64 faces, and 100, cuts nothing, and the next one begins where
-/// it began, four times as far; a surface that has grown to three times its faces is given up.
+/// float64, in each of three attempts. Success is not proved, but checked: the certificate says so.
+/// A round that would have to cut more than three times as many pairs of faces as there were faces
+/// cuts nothing, and a surface that has grown to three times its faces is given up.
 ///
 /// Where anything was mended, `certificate::max_displacement` and `vanished_reach` are measured at
 /// the end (`detail::round::displacement`), so that moves on the way do not add up. Status
