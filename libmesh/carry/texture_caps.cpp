@@ -59,9 +59,9 @@ plane_frame frame_across(point3 normal) {
 
 }  // namespace
 
-void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap, const carry_source& of) {
+void carry_source::texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const {
     if (cap.empty()) return;
-    const double scale = texture_scale(of);
+    const double scale = texture_scale(*this);
     if (scale == 0.0) return;
     std::map<std::uint32_t, point3> normals;
     for (std::size_t f = 0; f < cap.size(); ++f) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts of a solid's surface that nearly lie in one plane, made of as few faces as their rims need.
+/// Parts of a solid's surface that nearly lie in one plane, with as few faces as their rims need.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -26,13 +26,13 @@ struct flattened {
 };
 
 /// Faces of a CAD part that share a plane no longer do exactly once the part has been rotated. Cut
-/// along each other, they become many pieces, no further apart than rounding moves them. Around the
-/// faces that meet:
+/// along each other, they become many pieces, no further apart than rounding moves them. Around
+/// the faces that meet:
 /// - points that are within reach of each other become one;
 /// - edges get the points that are within reach of them;
 /// - connected faces near one plane are a flat part, grown from the largest face that is in none;
-/// - a part is replaced by triangles of what its rim winds around, seen along an axis; where it winds
-///   around nothing, as around two sheets back to back, nothing is left;
+/// - a part is replaced by triangles of what its rim winds around, seen along an axis; where it
+///   winds around nothing, as around two sheets back to back, nothing is left;
 /// - a rim between two parts becomes straight where all of it is within reach of the straight way;
 /// - where two sides of a rim cross, both get a new point.
 /// If a part has no such triangles, its rim is not straightened. If it still has none, all starts
@@ -46,8 +46,8 @@ struct flattened {
 /// \cost   O(F), O(n log n) for the n corners there, and O(n^1.5) for those of a rim; each at most
 ///         160 times
 /// \same   on any number of threads
-/// \source Devillers, Lazard and Lenhart, 3D Snap Rounding, SoCG 2018, for points that go into edges
-///         near them
+/// \source Devillers, Lazard and Lenhart, 3D Snap Rounding, SoCG 2018, for points that go into
+///         edges near them
 [[nodiscard]] std::optional<flattened> flatten(mesh_view surface,
                                                std::span<const face_pair> meeting,
                                                const flatten_options& options);

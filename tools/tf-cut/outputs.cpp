@@ -38,7 +38,7 @@ tf::mesh_file carried(const cut_settings& s, const usable_input& input, cut_off&
     tf::mesh_file file = file_of(std::move(piece.mesh), piece.certificate);
     tf::carry_sources(input.source())
         .carry(file, piece.face_source, piece.vertex_source, piece.face_of_new_vertex);
-    tf::texture_caps(file, piece.cap, input.source());
+    input.source().texture_caps(file, piece.cap);
     if (!s.caps.empty()) {
         std::vector<std::int32_t> cap(piece.cap.begin(), piece.cap.end());  // none is -1
         file.attributes.obtain("face", file.mesh.faces.size())

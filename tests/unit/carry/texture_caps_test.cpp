@@ -47,7 +47,7 @@ tf::mesh_file textured(const tf::cut_piece& piece, const tf::mesh_file& of) {
     file.mesh = piece.mesh;
     tf::carry_sources(tf::carry_source{&of, {}})
         .carry(file, piece.face_source, piece.vertex_source);
-    tf::texture_caps(file, piece.cap, {&of, {}});
+    tf::carry_source{&of, {}}.texture_caps(file, piece.cap);
     return file;
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("both sides in one file, several planes, and no texture") {
     }
     tf::mesh_file together;
     together.mesh = tf::concatenate(meshes);
-    tf::texture_caps(together, all.cap, {&file, {}});
+    tf::carry_source{&file, {}}.texture_caps(together, all.cap);
     for (const auto& [p, t] : on_caps(together, all.cap))
         CHECK(t == triple{0.5 * p[0], 0.5 * p[1], 0});
     CHECK(together.attributes.corners.fault(together.mesh.faces.size()).empty());

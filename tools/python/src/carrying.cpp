@@ -122,7 +122,7 @@ py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> fac
                         std::span<const std::uint32_t> cap) const {
     return carried(made, [&](tf::mesh_file& file) {
         sources_.carry(file, face_source, vertex_source, face_of_new_vertex);
-        if (!cap.empty()) tf::texture_caps(file, cap, sources_.all().front());
+        if (!cap.empty()) sources_.all().front().texture_caps(file, cap);
     });
 }
 

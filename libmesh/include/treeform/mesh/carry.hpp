@@ -37,6 +37,13 @@ struct carry_source {
         const std::uint32_t t = triangle(f);
         return file->stored_face.empty() ? t : file->stored_face[t];
     }
+    /// Gives the corners of caps (`cut_piece::cap`) texture coordinates, where this, the mesh that
+    /// was cut, has any: coordinates in their planes, by the axes of `oriented_plane::frame`
+    /// across the mean normal of a cap, turned so that its largest part is positive: the same on
+    /// both sides of a cut. One unit of length is as many of texture as in this one, on average.
+    ///
+    /// \pre `cap` has a number for each face of `piece`, or is empty
+    TREEFORM_API void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const;
 };
 
 /// The source of each face and vertex of the result, as in `boolean_result`.
@@ -103,15 +110,6 @@ class carry_sources {
   private:
     std::vector<carry_source> all_;
 };
-
-/// Gives the corners of caps (`cut_piece::cap`) texture coordinates, where the mesh that was cut, `of`,
-/// has any: coordinates in their planes, by the axes of `oriented_plane::frame` across the mean normal
-/// of a cap, turned so that its largest part is positive: the same on both sides of a cut. One unit
-/// of length is as many of texture as in `of`, on average.
-///
-/// \pre `cap` has a number for each face of `piece`, or is empty
-TREEFORM_API void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap,
-                               const carry_source& of);
 
 /// Gives faces the uint32 columns NAME_mesh and NAME_face: the operand that each comes from, and
 /// its number there. A comment for each of `inputs` says which one a number stands for. Columns and

@@ -76,8 +76,8 @@ struct cut_result {
 /// piece is checked as results of `boolean` are. Caps between axes stay flat and alike when
 /// rounded; others may bend by a step of the precision.
 ///
-/// `carry_sources` gives pieces the attributes of a file, by their sources, and `texture_caps` caps
-/// texture coordinates in their planes.
+/// `carry_sources` gives pieces the attributes of a file, by their sources, and
+/// `carry_source::texture_caps` gives caps texture coordinates in their planes.
 ///
 /// The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has
 /// parts that are inside out or hidden in others, it is first made the solid that it winds around,
