@@ -4,6 +4,7 @@
 
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
+#include <libmesh/intersect/pairs_by_tree.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -59,5 +60,10 @@ struct cut_operand {
 /// The same however many there are.
 [[nodiscard]] std::span<const face_pair> own_pairs(const prepared_mesh& mesh,
                                                    const progress_callback& progress);
+
+/// Those that are wanted.
+[[nodiscard]] std::vector<face_pair> own_pairs(const prepared_mesh& mesh,
+                                               const intersect::wanted_pairs& wanted,
+                                               const progress_callback& progress);
 
 }  // namespace treeform::detail::boolean

@@ -3,7 +3,6 @@
 #include <libmesh/boolean/sample_faces.hpp>
 #include <libmesh/boolean/undecided_part.hpp>
 #include <libmesh/intersect/meetings.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -16,8 +15,6 @@ namespace {
 constexpr double least_hidden = 0.25;
 /// Cutting costs in proportion to the faces near each other, and so may finding out what is hidden.
 constexpr double neighbors_of_effort = 8.0, least_effort = 0.125, most_effort = 64.0;
-
-constexpr std::size_t pairs_a_chunk = 1024;
 
 }  // namespace
 
@@ -56,27 +53,11 @@ std::size_t undecided_part::left_out() const {
     return static_cast<std::size_t>(std::ranges::count(space_.is_undecided_face(), 0));
 }
 
-std::vector<face_pair> undecided_part::pairs_within(mesh_view mesh,
-                                                    std::span<const face_pair> pairs) const {
+bool undecided_part::is_undecided(mesh_view mesh, const face_pair& pair) const {
     const auto box_of = base::face_boxes(mesh.points);
-    std::vector<std::uint8_t> is_within(pairs.size());
-    for_chunks(pairs.size(), pairs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto& [a, b, kind] = pairs[i];
-            const auto around = common_box(box_of(mesh.faces[a]), box_of(mesh.faces[b]));
-            is_within[i] =
-                space_.reaches_undecided(around) &&
-                        space_.reaches_undecided(intersect::box_of_meeting(mesh, pairs[i]))
-                    ? 1
-                    : 0;
-        }
-    });
-    std::vector<face_pair> within;
-    base::compact(
-        pairs.size(), [&](std::size_t i) { return is_within[i] != 0; },
-        [&](std::size_t count) { within.resize(count); },
-        [&](std::size_t i, std::size_t place) { within[place] = pairs[i]; });
-    return within;
+    const auto around = common_box(box_of(mesh.faces[pair.a]), box_of(mesh.faces[pair.b]));
+    return space_.reaches_undecided(around) &&
+           space_.reaches_undecided(intersect::box_of_meeting(mesh, pair));
 }
 
 }  // namespace treeform::detail::boolean
