@@ -11,10 +11,8 @@
 namespace treeform::detail::boolean {
 namespace {
 
-/// The least share of faces that has to be hidden: below, halving boxes costs more than it saves.
-constexpr double least_hidden = 0.25;
-/// Cutting costs in proportion to the faces near each other, and so may finding out what is hidden.
-constexpr double neighbors_of_effort = 8.0, least_effort = 0.125, most_effort = 64.0;
+/// What may be spent on a face for each face or neighbor that is hidden, as cutting these is saved.
+constexpr double effort_of_hidden = 0.125, most_effort = 64.0;
 
 }  // namespace
 
@@ -26,11 +24,12 @@ std::unique_ptr<const undecided_part> undecided_part::find(joined_operands& join
     edges = {};
     const partial_expression at_nowhere(expression, rule);
     const face_samples samples = sample_faces(components, at_nowhere);
-    if (samples.hidden < least_hidden) return nullptr;
-    const double effort =
-        std::clamp(samples.neighbors / neighbors_of_effort, least_effort, most_effort);
+    const division_limits limits{
+        .effort =
+            std::min(effort_of_hidden * samples.hidden * (1.0 + samples.neighbors), most_effort)};
+    if (!undecided_space::is_divided(components, limits)) return nullptr;
     return std::make_unique<const undecided_part>(std::move(joined), std::move(components),
-                                                  at_nowhere, division_limits{.effort = effort});
+                                                  at_nowhere, limits);
 }
 
 undecided_part::undecided_part(joined_operands&& joined, surface_components&& components,

@@ -19,8 +19,8 @@ namespace treeform::detail::boolean {
 /// tell what winds around a place pass through all of it, though.
 class undecided_part {
   public:
-    /// None where operands hide too little of each other to look for it. How far to look follows
-    /// from what a few faces have beside them (`sample_faces`); the result is the same.
+    /// None where operands hide too little of each other to halve even one box. How far to look
+    /// follows from what a few faces have beside them (`sample_faces`); the result is the same.
     ///
     /// \param joined closed operands; used up where there is a part
     /// \param edges  theirs; used up
