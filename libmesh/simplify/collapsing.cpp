@@ -163,9 +163,7 @@ simplify_result simplifying::run() {
 void simplifying::add_quadrics() {
     if (!faces_.empty()) center_ = points_[faces_.front()[0]];
     const auto add = [&](std::uint32_t p, const point3& normal, const point3& at, double weight) {
-        const double length = std::sqrt(base::dot(normal, normal));
-        if (!(length > 0.0)) return;
-        const point3 unit = base::scaled(normal, 1.0 / length);
+        const point3 unit = unit_of(normal);
         quadric_[p].add_plane(unit, -base::dot(unit, base::minus(at, center_)), weight);
     };
     for (const face& f : faces_) {

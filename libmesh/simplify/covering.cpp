@@ -121,6 +121,7 @@ bool covering::settle(std::span<const target> by, double distance) {
         const std::uint32_t i = near_[n];
         if (!are_near(by[i].box, box, distance)) continue;
         near_.push_back(i);
+        if (squared_distance(by[i].box, middle) >= least) continue;
         if (const double d = squared(i, middle); d < least) least = d, best = i;
     }
     whole.near_begin = whole.near_end;
