@@ -36,11 +36,12 @@ constexpr std::size_t most_places = 2;  ///< tried for an edge
 }
 
 struct candidate {
+    bool anew = false;  ///< no step was proven: the input is to be looked at
     double cost = 0.0;
     std::uint32_t p = 0, q = 0;
     std::uint64_t version = 0;  ///< of both ends together
     friend bool operator>(const candidate& a, const candidate& b) {
-        return std::tie(a.cost, a.p, a.q) > std::tie(b.cost, b.p, b.q);
+        return std::tie(a.anew, a.cost, a.p, a.q) > std::tie(b.anew, b.cost, b.p, b.q);
     }
 };
 
@@ -74,8 +75,8 @@ class simplifying {
     };
     [[nodiscard]] places_of_edge places(std::uint32_t p, std::uint32_t q) const;
     void line_up(std::uint32_t p, std::uint32_t q);
-    void collapse(std::uint32_t p, std::uint32_t q);
-    std::uint64_t* attempt(std::uint32_t p, std::uint32_t q, const place& to);
+    void collapse(candidate c);
+    std::uint64_t* attempt(const candidate& c, const place& to);
     [[nodiscard]] bool meets();
     void apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, double chain,
                std::uint32_t source);
@@ -149,7 +150,7 @@ simplify_result simplifying::run() {
         next_.pop();
         if (c.version == version_[c.p] + version_[c.q] && !star_[c.p].empty() &&
             !star_[c.q].empty())
-            collapse(c.p, c.q);
+            collapse(c);
     }
     if (progress.cancelled()) {
         result_ = {};
@@ -220,11 +221,12 @@ void simplifying::line_up(std::uint32_t p, std::uint32_t q) {
     if (all.count == 0) return;
     const point3 way = base::minus(points_[p], points_[q]);
     const double short_first = 1e-9 * base::dot(way, way) * base::dot(way, way);
-    next_.push({all.best[0].cost + short_first, std::min(p, q), std::max(p, q),
+    next_.push({false, all.best[0].cost + short_first, std::min(p, q), std::max(p, q),
                 version_[p] + version_[q]});
 }
 
-void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
+void simplifying::collapse(candidate c) {
+    const std::uint32_t p = c.p, q = c.q;
     ids &common = workspace_[0], &gone = workspace_[1];
     common.clear();
     gone.clear();
@@ -245,19 +247,26 @@ void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
     change_.same_rim = gone.size() == 2;
     const std::array<point3, 2> before{points_[p], points_[q]};
     std::uint64_t* refused = &result_.refused_by_distance;
+    bool is_far = false;
     const places_of_edge all = places(p, q);
     for (std::size_t i = 0; i < all.count; ++i) {
-        refused = attempt(p, q, all.best[i]);
+        refused = attempt(c, all.best[i]);
         if (refused == nullptr) return;
+        is_far = is_far || refused == &result_.refused_by_distance;
         points_[p] = before[0];
         points_[q] = before[1];
+    }
+    if (is_far && !std::exchange(c.anew, true)) {
+        next_.push(c);
+        return;
     }
     ++*refused;
     if (refused != &result_.refused_by_distance) shelved_.insert(edge_of(p, q));
 }
 
 /// Makes it, or returns the counter of what speaks against it.
-std::uint64_t* simplifying::attempt(std::uint32_t p, std::uint32_t q, const place& to) {
+std::uint64_t* simplifying::attempt(const candidate& c, const place& to) {
+    const std::uint32_t p = c.p, q = c.q;
     const std::uint32_t gone = to.at == points_[p] ? q : p;
     std::optional<double> chain = 0.0;
     if (chains_.has(p, q)) {
@@ -282,7 +291,8 @@ std::uint64_t* simplifying::attempt(std::uint32_t p, std::uint32_t q, const plac
     }
     for (const triangle3& t : change_.after)
         if (collinear(t[0], t[1], t[2])) return &result_.refused_by_turning;
-    if (!proof_.holds(change_, tree_)) return &result_.refused_by_distance;
+    if (!proof_.holds_by_step(change_) && !(c.anew && proof_.holds_anew(change_, tree_)))
+        return &result_.refused_by_distance;
     if (meets()) return &result_.refused_by_contact;
     apply(p, q, gone, *chain, to.source);
     return nullptr;

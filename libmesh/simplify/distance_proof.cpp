@@ -72,8 +72,18 @@ distance_proof::distance_proof(mesh_view given, const connected_faces& now, doub
     }
 }
 
+void distance_proof::make_room(const change& c) {
+    made_.resize(c.kept.size());
+    for (std::size_t i = 0; i < made_.size(); ++i) {
+        made_[i].now = c.after[i];
+        made_[i].there = made_[i].back = 0.0;
+        made_[i].near.clear();
+    }
+}
+
 /// Triangles of the input in lists of old faces.
 void distance_proof::find_affected(const change& c) {
+    raised_.clear();
     affected_.clear();
     ++visit_;
     for (const std::uint32_t f : c.old)
@@ -81,28 +91,11 @@ void distance_proof::find_affected(const change& c) {
             if (std::exchange(given_[t].visited, visit_) != visit_) affected_.push_back(t);
 }
 
-bool distance_proof::holds(const change& c, const dynamic_tree<3>& tree) {
-    made_.resize(c.kept.size());
-    raised_.clear();
-    for (std::size_t i = 0; i < made_.size(); ++i) {
-        made_[i].now = c.after[i];
-        made_[i].there = made_[i].back = 0.0;
-        made_[i].near.clear();
-    }
-    const bool by_step = c.same_rim && holds_by_step(c);
-    find_affected(c);
-    if (!by_step) return holds_anew(c, tree);
-    for (bounded& made : made_) {
-        const surroundings reach(made.now, std::max(made.there, made.back) + rounding_);
-        for (const std::uint32_t t : affected_)
-            if (reach.may_meet(given_[t].corners, given_[t].box)) made.near.push_back(t);
-    }
-    return true;
-}
-
 /// Old and new disks have one rim, and all faces of both face the eye: of each place in view, they
 /// cover it equally often, and where one does, so does the other.
 bool distance_proof::holds_by_step(const change& c) {
+    make_room(c);
+    if (!c.same_rim) return false;
     point3 along;
     for (const auto* all : {&c.before, &c.after})
         for (const triangle3& t : *all) along = base::plus(along, unit_of(normal_of(t)));
@@ -123,11 +116,18 @@ bool distance_proof::holds_by_step(const change& c) {
                 made_[i].back = std::max(made_[i].back, faces_[c.old[j]].back + *gap);
                 if (made_[i].there > limit_ || made_[i].back > limit_) return false;
             }
+    find_affected(c);
+    for (bounded& made : made_) {
+        const surroundings reach(made.now, std::max(made.there, made.back) + rounding_);
+        for (const std::uint32_t t : affected_)
+            if (reach.may_meet(given_[t].corners, given_[t].box)) made.near.push_back(t);
+    }
     return true;
 }
 
 bool distance_proof::holds_anew(const change& c, const dynamic_tree<3>& tree) {
-    for (bounded& made : made_) made.there = made.back = 0.0;
+    make_room(c);
+    find_affected(c);
     find_targets(c, tree);
     if (!covers_there(c)) return false;
     for (std::size_t i = 0; i < made_.size(); ++i)

@@ -45,8 +45,9 @@ class distance_proof {
     /// \param largest no coordinate has a larger magnitude, nor will
     distance_proof(mesh_view given, const connected_faces& now, double largest, double limit);
 
+    [[nodiscard]] bool holds_by_step(const change& c);
     /// \param tree of faces as they are before
-    [[nodiscard]] bool holds(const change& c, const dynamic_tree<3>& tree);
+    [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
     /// Makes the change that was last asked for, and holds.
     void accept(const change& c);
 
@@ -74,8 +75,7 @@ class distance_proof {
         std::uint32_t face, given;
         double there;
     };
-    [[nodiscard]] bool holds_by_step(const change& c);
-    [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
+    void make_room(const change& c);
     void find_targets(const change& c, const dynamic_tree<3>& tree);
     [[nodiscard]] bool covers_there(const change& c);
     [[nodiscard]] bool covers_back(std::size_t i, const triangle3& t);
