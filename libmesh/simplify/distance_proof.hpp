@@ -55,6 +55,9 @@ class distance_proof {
     [[nodiscard]] const aabb<double, 3>& box_of_given(std::uint32_t t) const {
         return given_[t].box;
     }
+    [[nodiscard]] const std::array<std::uint32_t, 3>& mates_of_given(std::uint32_t t) const {
+        return given_[t].mates;
+    }
     [[nodiscard]] const ids& near(std::uint32_t f) const { return faces_[f].near; }
     [[nodiscard]] double there(std::uint32_t f) const { return faces_[f].there; }
     [[nodiscard]] double back(std::uint32_t f) const { return faces_[f].back; }
