@@ -15,6 +15,11 @@ namespace treeform::detail::simplify {
 using ids = std::vector<std::uint32_t>;
 inline constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
 
+/// Where in the face the vertex is.
+[[nodiscard]] inline std::uint32_t corner_of(const face& f, std::uint32_t p) {
+    return f[0] == p ? 0 : f[1] == p ? 1 : 2;
+}
+
 /// What is simplified: equal points are one, faces have three different corners.
 struct connected_faces {
     std::vector<point3> points;

@@ -45,14 +45,18 @@ class distance_proof {
     /// \param largest no coordinate has a larger magnitude, nor will
     distance_proof(mesh_view given, const connected_faces& now, double largest, double limit);
 
+    [[nodiscard]] bool holds_by_step(const change& c);
     /// \param tree of faces as they are before
-    [[nodiscard]] bool holds(const change& c, const dynamic_tree<3>& tree);
+    [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
     /// Makes the change that was last asked for, and holds.
     void accept(const change& c);
 
     [[nodiscard]] const triangle3& given(std::uint32_t t) const { return given_[t].corners; }
     [[nodiscard]] const aabb<double, 3>& box_of_given(std::uint32_t t) const {
         return given_[t].box;
+    }
+    [[nodiscard]] const std::array<std::uint32_t, 3>& mates_of_given(std::uint32_t t) const {
+        return given_[t].mates;
     }
     [[nodiscard]] const ids& near(std::uint32_t f) const { return faces_[f].near; }
     [[nodiscard]] double there(std::uint32_t f) const { return faces_[f].there; }
@@ -74,8 +78,7 @@ class distance_proof {
         std::uint32_t face, given;
         double there;
     };
-    [[nodiscard]] bool holds_by_step(const change& c);
-    [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
+    void make_room(const change& c);
     void find_targets(const change& c, const dynamic_tree<3>& tree);
     [[nodiscard]] bool covers_there(const change& c);
     [[nodiscard]] bool covers_back(std::size_t i, const triangle3& t);

@@ -6,12 +6,19 @@
 #include <treeform/mesh/predicates.hpp>
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace treeform::detail::simplify {
 
 [[nodiscard]] inline point3 normal_of(const triangle3& t) {
     return base::cross(base::minus(t[1], t[0]), base::minus(t[2], t[0]));
+}
+
+/// Of length 1 to a few u, or 0 where `v` has no length.
+[[nodiscard]] inline point3 unit_of(const point3& v) {
+    const double square = base::dot(v, v);
+    return base::scaled(v, square > 0.0 ? 1.0 / std::sqrt(square) : 0.0);
 }
 
 /// Where in the view corners are, as x and y, and how near to the eye, as z.

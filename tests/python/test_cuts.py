@@ -81,6 +81,11 @@ def test_pieces_fit_and_keep_attributes():
         assert (red[own] == piece.face_source[own]).all() and (red[~own] == 0).all()
 
 
+def test_pieces_say_whether_faces_met():
+    assert tf.cut(SPHERES).resolved and not tf.cut(CUBE, at=(0, 0, 0.5)).resolved
+    assert tf.cut_to_fit(CUBE, (0.5, 2, 2)).certificate
+
+
 def test_parts():
     both = tf.concatenate([CUBE, moved(CUBE, 3, 0, 0), moved(SHEET, 9, 0, 0)])
     assert len(both.vertices) == 19 and tf.concatenate([]).faces.shape == (0, 3)

@@ -325,7 +325,7 @@ COUNTERS = {"boolean_statistics": "", "resolve_statistics": "", "repair_statisti
 OPTIONS = {
     "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
-    "offset_options": "", "simplify_options": "face_groups", "thickness_options": "",
+    "offset_options": "", "simplify_options": "face_groups corner_groups", "thickness_options": "",
     "feature_options": "", "self_intersection_options": "component_of_face between within",
     "mesh_intersection_options": "", "stream_search_options": "box communicator",
     "weld_options": "label may_merge search", "weld_stream_options": "communicator shared las_scale las_offset",
@@ -362,10 +362,10 @@ FUNCTIONS = [
     Function("thicken(mesh: Mesh, thickness: float, side: thick_side, options: offset_options) "
              "-> OffsetResult",
              "tf::thicken($mesh, thickness, $side, options)", kind="long_work"),
-    Function("simplify(mesh: Mesh, max_distance: float, options: simplify_options) "
+    Function("simplify(mesh: Mesh, max_distance: float, face_groups: Ids, options: simplify_options) "
              "-> SimplifyResult",
-             "tf::simplify($mesh, max_distance, options)", "attributes of mesh",
-             kind="long_work"),
+             "attributes.simplify($mesh, max_distance, $face_groups, options)",
+             "attributes of mesh", kind="long_work"),
     Function("wall_thickness(mesh: Mesh, options: thickness_options) -> Thickness",
              "tf::wall_thickness($mesh, options)"),
     Function("oriented_box(points: Points) -> Optional[OrientedBox]",

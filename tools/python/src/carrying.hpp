@@ -5,6 +5,7 @@
 #include "held_mesh.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/simplify.hpp>
 #include <treeform/tree/aabb.hpp>
 
 #include <pybind11/pybind11.h>
@@ -30,12 +31,17 @@ class carrying {
     [[nodiscard]] bool mixes() const;
     /// `boolean_options::face_groups` for merging coplanar faces: only those of equal values.
     [[nodiscard]] std::vector<std::uint32_t> face_groups() const;
+    /// `tf::simplify` of a single operand, with what is carried kept at borders and seams.
+    [[nodiscard]] tf::simplify_result simplify(const tf::mesh_ref& mesh, double max_distance,
+                                               std::span<const std::uint32_t> face_groups,
+                                               tf::simplify_options options) const;
 
     /// The attributes of what was made of the operands; None where these have none.
     [[nodiscard]] py::object to(const tf::mesh& made, const tf::carried_elements& elements) const;
     [[nodiscard]] py::object to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
                                 std::span<const std::uint32_t> vertex_source,
                                 std::span<const std::uint32_t> face_of_new_vertex = {},
+                                std::span<const std::uint32_t> corner_source = {},
                                 std::span<const std::uint32_t> cap = {}) const;
 
   private:

@@ -82,7 +82,7 @@ void write_isolines(const std::filesystem::path& path, const py::list& lines,
     without_lock([&] { tf::write_isolines(path, all, seen, format, unit); });
 }
 
-/// The pieces, and the certificate of all.
+/// The pieces, the certificate of all, and whether the mesh was resolved.
 template <class Cut>
 py::tuple pieces_of(const held_mesh& mesh, tf::cut_options options, const Cut& cut) {
     const carrying attributes({&mesh});
@@ -92,7 +92,7 @@ py::tuple pieces_of(const held_mesh& mesh, tf::cut_options options, const Cut& c
         return cut(options);
     });
     const py::object pieces = as_python(std::move(made.pieces), attributes);
-    return py::make_tuple(pieces, std::move(made.certificate));
+    return py::make_tuple(pieces, std::move(made.certificate), made.resolved);
 }
 
 py::tuple cut(const held_mesh& mesh, const std::array<double, 3>& at,

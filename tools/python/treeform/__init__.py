@@ -18,7 +18,7 @@ from ._attributes import Attributes
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
                         symmetric_difference, union)
 from ._core import Certificate
-from ._cuts import (CutPiece, MassProperties, MeshPart, Section, SectionLoop, components,
+from ._cuts import (CutPiece, CutPieces, MassProperties, MeshPart, Section, SectionLoop, components,
                     concatenate, cut, cut_along, cut_to_fit, layer_heights, mass_properties,
                     section, submesh, transformed)
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
@@ -55,7 +55,8 @@ __version__: str = _core.version()
 
 __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
            "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
-           "ConvexHull", "CutPiece", "Depth", "Deviation", "Error", "FacePairs", "Feature",
+           "ConvexHull", "CutPiece", "CutPieces", "Depth", "Deviation", "Error", "FacePairs",
+           "Feature",
            "FileError", "FilePairs", "Impact", "Isoline", "Isolines", "Joint", "KINDS",
            "LaidFlat", "MadeMesh", "MassProperties", "Measure", "Mesh", "MeshDefects", "MeshLike",
            "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",

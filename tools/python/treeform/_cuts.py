@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Iterable, Union
+from typing import Any, Iterable, List, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,9 +18,9 @@ from ._progress import Progress
 from ._repair import MadeMesh
 from ._results import Result
 
-__all__ = ["CutPiece", "MassProperties", "MeshPart", "Section", "SectionLoop", "components",
-           "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights", "mass_properties", "section",
-           "submesh", "transformed"]
+__all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "SectionLoop",
+           "components", "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights",
+           "mass_properties", "section", "submesh", "transformed"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -174,17 +174,30 @@ class CutPiece(MadeMesh):
 # end
 
 
-def _checked(made: tuple[list[CutPiece], Certificate], check: bool) -> list[CutPiece]:
-    pieces, certificate = made
+class CutPieces(List[CutPiece]):
+    """A list of pieces, and what was checked.
+
+    certificate: That of the first piece that is not ok, or of the mesh where it bounds no solid.
+    resolved: Faces of the mesh met: what was cut is the solid that it winds around, where parts
+        that overlap are one; without caps, the faces cut along each other.
+    """
+
+    certificate: Certificate
+    resolved: bool
+
+
+def _checked(made: tuple[list[CutPiece], Certificate, bool], check: bool) -> CutPieces:
+    pieces = CutPieces(made[0])
+    pieces.certificate, pieces.resolved = made[1:]
     if check:
-        require(certificate, of_one=True)
+        require(pieces.certificate, of_one=True)
     return pieces
 
 
 def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
         heights: ArrayLike | None = None, caps: bool = True, precision: str = "float64",
         max_displacement: float = np.inf, check: bool = True,
-        progress: Progress = None) -> list[CutPiece]:
+        progress: Progress = None) -> CutPieces:
     """A solid below and above a plane; with `heights`, between planes: K + 1 pieces, from the
     lowest up. Each is closed by caps. Some may have no faces.
 
@@ -210,7 +223,7 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
 
 def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, caps: bool = True, precision: str = "float64",
                max_displacement: float = np.inf, check: bool = True,
-               progress: Progress = None) -> list[CutPiece]:
+               progress: Progress = None) -> CutPieces:
     """Pieces of a solid that fit into a box of this size (3,), as the bed of a printer: as few
     along each axis as there can be, of equal length. An infinite size is not cut along. For the
     rest, see `cut`.
@@ -225,7 +238,7 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, caps: bool = True, precision:
 
 
 def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bool = True,
-              progress: Progress = None) -> list[CutPiece]:
+              progress: Progress = None) -> CutPieces:
     """A mesh cut along its isolines: pieces with values below, between and from the levels on, from
     the lowest up, open where they were cut. Levels that repeat count once.
 

@@ -121,8 +121,10 @@ class SimplifyResult(MadeMesh):
     there_at_most: No point of the input is further from the result.
     back_at_most: No point of the result is further from the input.
     vertex_source: (V,) vertex of the input that each is; `NONE`: new.
-    face_of_new_vertex: (V,) of a new vertex, the face of the input that is nearest to it; else
-        `NONE`.
+    face_of_new_vertex: (V,) of a new vertex, the face of the input that is nearest to it, on its
+        side of seams; else `NONE`.
+    corner_source: (3 F,) the corner of the input that each is at (3 f + i for corner i of face f),
+        on its side of seams; none at new vertices.
     """
 
     face_source: Ids
@@ -135,18 +137,21 @@ class SimplifyResult(MadeMesh):
     back_at_most: float
     vertex_source: Ids
     face_of_new_vertex: Ids
+    corner_source: Ids
 # end
 
 
 def simplify(mesh: MeshLike, max_distance: float, *, target_faces: int = 0,
-             feature_angle: float = 180.0, precision: str = "float64", check: bool = True,
+             feature_angle: float = 180.0, face_groups: ArrayLike | None = None,
+             precision: str = "float64", check: bool = True,
              progress: Progress = None) -> SimplifyResult:
     """A mesh with fewer faces: no point of either surface is further than `max_distance` from the
-    other, which is proven face by face, and no faces are made to meet. Values of vertices are
-    interpolated, faces have those of their source, and values of corners are left out.
+    other, which is proven face by face, and no faces are made to meet. Values of vertices and
+    corners are interpolated; seams, and borders of materials and of values of faces, are kept.
 
     target_faces: stop at so many. feature_angle: edges whose faces turn by more degrees, and
-    borders, are simplified along themselves.
+    borders, are simplified along themselves. face_groups: (F,) numbers; edges between faces of
+    different ones are borders, too.
 
     >>> import treeform
     >>> few = treeform.simplify(treeform.read("data/two_spheres.stl"), 0.05)
@@ -154,7 +159,8 @@ def simplify(mesh: MeshLike, max_distance: float, *, target_faces: int = 0,
     (True, True)
     """
     how = options(_core.SimplifyOptions, locals())
-    made = _core.simplify(held(mesh), max_distance, how, progress=progress)
+    groups = _arrays.ids([] if face_groups is None else face_groups, "face_groups")
+    made = _core.simplify(held(mesh), max_distance, groups, how, progress=progress)
     if check:
         require(made.certificate, of_one=True)
     return made

@@ -76,11 +76,13 @@ py::object thicken(const held_mesh& mesh, double thickness, const std::string& s
     }));
 }
 
-py::object simplify(const held_mesh& mesh, double max_distance, tf::simplify_options options) {
+py::object simplify(const held_mesh& mesh, double max_distance, const ids_array& face_groups,
+                    tf::simplify_options options) {
     const carrying attributes({&mesh});
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::simplify(mesh.ref(), max_distance, options);
+                         return attributes.simplify(mesh.ref(), max_distance,
+                                                    rows_of<std::uint32_t>(face_groups), options);
                      }),
                      attributes);
 }
