@@ -267,10 +267,10 @@ typedef struct treeform_certificate {
 /// What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
 /// two: the same for the same input. What it found holds either way.
 typedef struct treeform_search_effort {
-    uint64_t pairs;  ///< looked at
-    uint64_t bound;  ///< of these: the most that it was to look at
-    /// Questions that would have taken more than they may, a 32nd of the bound or what was left of
-    /// it: where there are some, something better may exist.
+    uint64_t pairs;  ///< pairs of faces looked at, a pair in motion counting as two
+    uint64_t bound;  ///< the most that it was to look at
+    /// Questions passed over, where something better may exist: they would have taken more than a
+    /// 32nd of the bound, or than what was left of it.
     uint64_t cut;
 } treeform_search_effort;
 // end
