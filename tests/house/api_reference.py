@@ -3,9 +3,9 @@
 
 FOLDER is build/reference unless named. Fails if Doxygen warns of anything, a link leads nowhere, a
 public header is in no group, or in two, or the door has grown: headers, free functions and types,
-nested ones too, are counted in Doxygen's XML. With --filter, prints FILE as Doxygen is to see it: the
-names of a header in the group of its question, a module of Python as a page, and a document with the
-links that it has on GitHub."""
+nested ones too, are counted in Doxygen's XML. With --filter, prints FILE as Doxygen is to see it:
+the names of a header in the group of its question, a module of Python as a page, and a document
+with the links that it has on GitHub."""
 
 import ast
 import html
@@ -40,7 +40,8 @@ GROUPS = {
     "trees": ("How do I build a tree over boxes?", "tree",
               "aabb build build_within dynamic_tree lazy_tree refit strategy tree"),
     "searching": ("How do I search it?", "tree",
-                  "answers nearness nearness_batch nearness_pair point_search ray search search_pair"),
+                  "answers nearness nearness_batch nearness_pair point_search ray search "
+                  "search_pair"),
     "threads": ("How many threads, and which version?", "tree", "parallel version"),
 }
 GROUP_OF = {f"treeform/{room}/{name}.hpp": group
@@ -99,7 +100,8 @@ def questions(of):
     if of == "rooms":
         return [f"- @subpage {page_of(path)}" for path in links.documents(ROOT)
                 if path not in (START, *shown_at_start())]
-    return [f"- @ref {group} &ndash; " + ", ".join(f"`<treeform/{room}/{name}.hpp>`" for name in names.split())
+    return [f"- @ref {group} &ndash; "
+            + ", ".join(f"`<treeform/{room}/{name}.hpp>`" for name in names.split())
             for group, (_, room, names) in GROUPS.items() if room == of]
 
 
@@ -218,11 +220,13 @@ def check_groups():
 
 def is_inner(name):
     """True for what is no name of the door of C++."""
-    return not name or name.split("::")[0] != "treeform" or "detail" in name.split("::") or "@" in name
+    words = (name or "").split("::")
+    return words[0] != "treeform" or "detail" in words or "@" in name
 
 
 def count_door(folder):
-    """The names of free functions and types that Doxygen's XML has: an overload counts by itself."""
+    """The names of free functions and types that Doxygen's XML has: an overload counts by
+    itself."""
     functions, types = {}, {}
     for path in sorted(folder.glob("*.xml")):
         for compound in xml.etree.ElementTree.parse(path).getroot().iter("compounddef"):

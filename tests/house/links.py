@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """links.py [SOURCE | --self-test]: every link of the documents leads somewhere.
 
-Prints a line for each link of an .md file to a file or heading that is not there, and fails if there
-is one. `site_faults` does the same for the pages of the API reference. Links to other sites are not
-followed."""
+Prints a line for each link of an .md file to a file or heading that is not there, and fails if
+there is one. `site_faults` does the same for the pages of the API reference. Links to other sites
+are not followed."""
 
 import html
 import pathlib
@@ -71,7 +71,8 @@ def faults(root):
 
 def site_faults(folder):
     """Links of the pages of a folder to pages or places in them that are not there."""
-    pages = {path.relative_to(folder).as_posix(): path.read_text() for path in folder.rglob("*.html")}
+    pages = {path.relative_to(folder).as_posix(): path.read_text()
+             for path in folder.rglob("*.html")}
     places = {name: set(map(html.unescape, re.findall(r'\b(?:id|name)="([^"]*)"', text)))
               for name, text in pages.items()}
     for name, text in sorted(pages.items()):
@@ -90,7 +91,8 @@ def site_faults(folder):
 def self_test():
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)
-        (root / "a.md").write_text("# One `two`, three\n[b](b.md#no) [c](c.md) [d\ne](#one-two-three)\n"
+        (root / "a.md").write_text("# One `two`, three\n[b](b.md#no) [c](c.md) [d\n"
+                                   "e](#one-two-three)\n"
                                    "[e](https://e) `[f](g)`\n```\n[h](i)\n# no\n```\n    [j](k)\n")
         (root / "b.md").write_text("## yes\n[a](a.md#one-two-three)\n")
         said = list(faults(root))

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""generate.py [--check | --self-test]: makes the parts of the C library, of the Python package and of
-the tools' reports that follow from the headers of C++. With --check it changes nothing, and fails where a file is not
-what it would make.
-"""
+"""generate.py [--check | --self-test]: makes the parts of the C library, of the Python package and
+of the tools' reports that follow from the headers of C++. With --check it changes nothing, and
+fails where a file is not what it would make. """
 
 from __future__ import annotations
 

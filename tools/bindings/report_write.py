@@ -53,7 +53,8 @@ OBJECTS = [
            "mean mean_absolute rms p50 p95 p99 max lowest highest", ("deviation",)),
     Object("freedom_entry", "align_freedom", "", ("fit.freedoms[]",)),
     Object("fit_entry", "align_result",
-           "rms rms_at_start overlap inliers correlation uncertainty scale converged end iterations "
+           "rms rms_at_start overlap inliers correlation uncertainty scale converged end "
+           "iterations "
            "start pivot pivot_moved freedoms", ("fit",)),
 ]
 
@@ -75,7 +76,8 @@ class Writer:
         inner = re.fullmatch(r"vector<(\w+)>", field.type)
         if inner and inner[1] in self.made_of:
             return f"list_of(from.{field.name}, {self.made_of[inner[1]].name})"
-        return f"tf::name_of(from.{field.name})" if field.type in self.enums else f"from.{field.name}"
+        value = f"from.{field.name}"
+        return f"tf::name_of({value})" if field.type in self.enums else value
 
     def row(self, one: Object, key: str, field: Field, prefixes: list[str]) -> str:
         if not field.doc:
@@ -118,15 +120,18 @@ class Writer:
                                 for key, field in one.keys(self.structs))
             declared += f"[[nodiscard]] {call};\n"
             defined += f"{call} {{ return {{ {members} }}; }}\n\n"
-        header = ("#pragma once\n/// \\file\n/// Made by tools/bindings: fields of results, as reports "
+        header = ("#pragma once\n/// \\file\n/// Made by tools/bindings: fields of results, as "
+                  "reports "
                   "have them.\n\n#include \"tools/page/json.hpp\"\n"
                   + "".join(f"#include <treeform/{name}>\n" for name in headers)
                   + "#include <treeform/tf.hpp>\n\nnamespace tools {\n\n" + declared
                   + "\n}  // namespace tools\n")
         source = ("// Made by tools/bindings.\n#include \"tools/common/made/report_fields.hpp\"\n\n"
                   "namespace tools {\nnamespace {\n\n"
-                  "template <class T>\njson list_of(const std::vector<T>& values, json entry(const T&)) {\n"
-                  "json list = json::array();\nfor (const T& one : values) list.push_back(entry(one));\n"
+                  "template <class T>\njson list_of(const std::vector<T>& values, json entry(const "
+                  "T&)) {\n"
+                  "json list = json::array();\nfor (const T& one : values) "
+                  "list.push_back(entry(one));\n"
                   "return list;\n}\n\n}  // namespace\n\n" + defined + "}  // namespace tools\n")
         name = "tools/common/made/report_fields"
         return {MADE / "report_fields.hpp": formatted(header, f"{name}.hpp"),

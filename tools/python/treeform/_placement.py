@@ -172,7 +172,8 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     (True, 4.0, 'touching')
     """
     how = options(_core.SlideOptions, locals())
-    return _core.slide(held_body(moving), _bodies(onto), _arrays.vector(direction, "direction"), how,
+    return _core.slide(held_body(moving), _bodies(onto), _arrays.vector(direction, "direction"),
+                       how,
                        progress=progress)
 
 
@@ -389,8 +390,8 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     method: 'point_to_plane', 'point_to_point', 'plane_to_plane' (of two clouds) or 'automatic'
     (planes of a mesh, planes of both clouds). overlap: the share of the moving points that have a
     partner. weights: 'welsch', by which far pairs count less, or 'equal'.
-    max_distance: ignore partners further apart. scale: find a uniform scale, too; a pair is its bounds, in
-    addition to the scale of `start`.
+    max_distance: ignore partners further apart. scale: find a uniform scale, too; a pair is its
+    bounds, in addition to the scale of `start`.
     starts: places to start from, turned all around. samples: points used in the steps; 0 is all.
     start: (4, 4) applied first.
 
@@ -489,9 +490,9 @@ def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0
 
 def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coordinates",
             progress: Progress = None) -> Measure | None:
-    """How two bodies lie to each other: separate, touching or penetrating, how far apart, and where.
-    Each is a mesh or a cloud (n, 3). None where one has no faces, or they are further apart than
-    `radius`. The relation is exact, and so is whether a distance is 0.
+    """How two bodies lie to each other: separate, touching or penetrating, how far apart, and
+    where. Each is a mesh or a cloud (n, 3). None where one has no faces, or they are further apart
+    than `radius`. The relation is exact, and so is whether a distance is 0.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -565,7 +566,8 @@ class Impact(NamedTuple):
 def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *,
                    move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
                    latest: float = np.inf, progress: Progress = None) -> Impact:
-    """The least t >= 0 at which `a`, moved by t times `motion` (3,), has a point in common with `b`.
+    """The least t >= 0 at which `a`, moved by t times `motion` (3,), has a point in common with
+    `b`.
     Exact: meshes that only graze each other have a contact. Surfaces count, not solids.
 
     >>> import treeform

@@ -96,20 +96,20 @@ TREEFORM_C_API void treeform_free(void* what);
 typedef int (*treeform_progress)(double done, void* data);
 
 /// From here on, also those calls of this thread report progress that have no progress among their
-/// options and take long: `treeform_find_features`, and those that answer many questions: of points,
-/// rays, boxes, positions, and all pairs of points. Null: none does, as at first. A call that is
-/// cancelled has filled its arrays in part.
+/// options and take long: `treeform_find_features`, and those that answer many questions: of
+/// points, rays, boxes, positions, and all pairs of points. Null: none does, as at first. A call
+/// that is cancelled has filled its arrays in part.
 ///
-/// All other calls without progress run to their end: they read or write a file once, take one or two
-/// meshes through once (a million faces or points in less than half a second on two cores), or build
-/// a tree (the same).
+/// All other calls without progress run to their end: they read or write a file once, take one or
+/// two meshes through once (a million faces or points in less than half a second on two cores), or
+/// build a tree (the same).
 TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
 
 /// Takes what one process of a communicator has sent: `bytes` [count].
 typedef void (*treeform_hear)(const void* bytes, size_t count, void* listener);
 
-/// Processes that do one work together, each its share, in a folder that all see, such as those that
-/// mpirun starts. All call the same with the same options; outputs are those of rank 0.
+/// Processes that do one work together, each its share, in a folder that all see, such as those
+/// that mpirun starts. All call the same with the same options; outputs are those of rank 0.
 typedef struct treeform_communicator {
     size_t rank;
     size_t size;

@@ -203,8 +203,8 @@ TREEFORM_C_API void treeform_depth_options_init(treeform_depth_options* options,
 // end
 
 /// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
-/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate. What
-/// the search took comes in `effort`, which may be null.
+/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
+/// What the search took comes in `effort`, which may be null.
 TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         const treeform_mesh* b,
                                                         const treeform_depth_options* options,
