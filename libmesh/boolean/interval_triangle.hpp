@@ -36,15 +36,16 @@ class interval_triangle {
 
     [[nodiscard]] const aabb<double, 3>& box() const { return all_; }
 
-    /// Whether it is certain that a box has no point of them. Any axis may tell them apart; tried are
-    /// the normal, and what is normal to an edge and to an axis of the box (Akenine-Moeller, Fast 3D
-    /// Triangle-Box Overlap Testing, 2001). There, both ends of the edge are at the same place.
+    /// Whether it is certain that a box has no point of them. Any axis may tell them apart; tried
+    /// are the normal, and what is normal to an edge and to an axis of the box (Akenine-Moeller,
+    /// Fast 3D Triangle-Box Overlap Testing, 2001). There, both ends of the edge are at the same
+    /// place.
     ///
     /// With M for the largest coordinate, all relative to S, the sum of the axis' coordinates:
     /// differences from the middle are off by 2^-52 M, three roundings of products and of their sum
-    /// by 2^-50.4 M, the ends of an edge, which is rounded, by 2^-51 M from each other, and the reach
-    /// by 2^-51 M; together less than 2^-48 M. Products that underflow are off by less than 2^-1000,
-    /// and those of three numbers below 2^330 do not overflow.
+    /// by 2^-50.4 M, the ends of an edge, which is rounded, by 2^-51 M from each other, and the
+    /// reach by 2^-51 M; together less than 2^-48 M. Products that underflow are off by less than
+    /// 2^-1000, and those of three numbers below 2^330 do not overflow.
     [[nodiscard]] bool is_apart_from(const aabb<double, 3>& box) const {
         point3 middle, reach;
         double largest = 0.0;

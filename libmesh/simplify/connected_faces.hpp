@@ -26,7 +26,8 @@ struct connected_faces {
     std::vector<face> faces;
     ids source;             ///< [F] of each face, its number in the input
     std::vector<ids> star;  ///< [V] faces, ascending
-    /// [F] across the side from corner i to the next; `no_face` where there is not one that goes on.
+    /// [F] across the side from corner i to the next; `no_face` where there is not one that goes
+    /// on.
     std::vector<std::array<std::uint32_t, 3>> mates;
 
     connected_faces(mesh_view given, precision of_points);

@@ -173,9 +173,9 @@ bool distance_proof::covers_there(const change& c) {
     return true;
 }
 
-/// Whether the input, seen along the face, covers it no further away than the limit. What is seen of
-/// it grows from a triangle that covers some of it, across all sides of those that cover more. The
-/// face is made smaller by `rim` first, so that what hardly meets it does not count.
+/// Whether the input, seen along the face, covers it no further away than the limit. What is seen
+/// of it grows from a triangle that covers some of it, across all sides of those that cover more.
+/// The face is made smaller by `rim` first, so that what hardly meets it does not count.
 bool distance_proof::is_under(std::size_t i, const triangle3& t) {
     const point3 normal = normal_of(t);
     if (!(base::dot(normal, normal) > 0.0)) return false;

@@ -31,15 +31,15 @@ struct change {
     }
 };
 
-/// Bounds for each face: `there`, of points of the input that are near it, and `back`, of its points
-/// from the input.
+/// Bounds for each face: `there`, of points of the input that are near it, and `back`, of its
+/// points from the input.
 ///
 /// Each point of the input belongs to a face now that it is near to, and that face has the triangle
 /// of the point in its list. When faces change, their points go to the new ones. The two surfaces
 /// before and after, seen along a direction in which both face the eye and have one rim, cover each
 /// other: so bounds grow by the gap between them (a step). Where that is too much, both bounds are
-/// made anew from the input: points of all triangles in lists are covered by faces, and faces by the
-/// input, seen along their normals or in pieces.
+/// made anew from the input: points of all triangles in lists are covered by faces, and faces by
+/// the input, seen along their normals or in pieces.
 class distance_proof {
   public:
     /// \param largest no coordinate has a larger magnitude, nor will
@@ -66,7 +66,8 @@ class distance_proof {
     struct bounded {
         triangle3 now{};
         double there = 0.0, back = 0.0;
-        ids near{};  ///< triangles of the input some of whose points belong to it, or that it is near
+        /// triangles of the input some of whose points belong to it, or that it is near
+        ids near{};
     };
     struct input_triangle {
         triangle3 corners{};

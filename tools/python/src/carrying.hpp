@@ -53,8 +53,8 @@ class carrying {
         std::vector<tf::carry_source>{}};  ///< empty: there is nothing to carry
 };
 
-/// The faces of a body that `by` moves, turned over where it mirrors, and a copy of what the body has,
-/// with normals turned likewise; None where it has nothing.
+/// The faces of a body that `by` moves, turned over where it mirrors, and a copy of what the body
+/// has, with normals turned likewise; None where it has nothing.
 py::tuple turned_over(const held_mesh& body, const tf::transform<3>& by);
 
 }  // namespace binding

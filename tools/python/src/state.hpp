@@ -16,7 +16,8 @@ namespace binding {
 
 namespace py = pybind11;
 
-/// Takes the fields of values one after the other: `all_fields(state, value)` names those of a struct.
+/// Takes the fields of values one after the other: `all_fields(state, value)` names those of a
+/// struct.
 class state_writer {
   public:
     template <class... Values>

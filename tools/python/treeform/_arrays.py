@@ -121,7 +121,8 @@ def triangles_of(corners: Ids, begin: NDArray[Any], sizes: NDArray[Any], name: s
     two, along the diagonal from its first corner."""
     wrong = np.flatnonzero((sizes < 3) | (sizes > 4))
     if wrong.size:
-        raise ValueError(f"{name}: face {wrong[0]} has {sizes[wrong[0]]} corners; only triangles and "
+        raise ValueError(f"{name}: face {wrong[0]} has {sizes[wrong[0]]} corners; only triangles "
+                         f"and "
                          "quads are taken: triangulate first")
     face = np.repeat(np.arange(len(sizes)), sizes - 2)
     first = np.asarray(begin)[face]

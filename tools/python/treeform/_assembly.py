@@ -201,16 +201,18 @@ def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
 
 
 def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *,
-          poses: ArrayLike | None = None, volumes: bool = True, depths: bool = True, limit: int = 1000,
+          poses: ArrayLike | None = None, volumes: bool = True, depths: bool = True,
+          limit: int = 1000,
           ignored: Iterable[Sequence[int]] = (), vertices: str = "by_coordinates",
           progress: Progress = None) -> ClashResult:
-    """Which parts of an assembly penetrate each other, touch, or are nearer than `clearance`; where,
-    and how deep. Exact: boxes only say which pairs need not be looked at.
+    """Which parts of an assembly penetrate each other, touch, or are nearer than `clearance`;
+    where, and how deep. Exact: boxes only say which pairs need not be looked at.
 
     poses: (N, 4, 4) an affine map for each of the N parts: where it is. Corners are rounded to
     float64 after it, and then exact; what is returned is where the parts are. `check_poses` is for
     many poses of all. volumes: of what two closed parts have in common. depths: of those that
-    penetrate. limit: faces listed for each region. ignored: pairs of numbers that are not looked at.
+    penetrate. limit: faces listed for each region. ignored: pairs of numbers that are not looked
+    at.
 
     Raises ValueError naming the part and face.
 

@@ -105,8 +105,8 @@ class NotCertifiedError(CertificateError):
 
 
 def require(certificate: Certificate, *also: str, of_one: bool = False) -> None:
-    """Raises what `certificate` says, unless it is ok or its status is one of `also`. `of_one`: of a
-    single mesh, which is no operand."""
+    """Raises what `certificate` says, unless it is ok or its status is one of `also`. `of_one`: of
+    a single mesh, which is no operand."""
     if certificate or certificate.status in also:
         return
     if certificate.status == "open_input":
@@ -127,8 +127,8 @@ _KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
 
 
 def name_argument(error: TypeError) -> None:
-    """Raises ValueError that names an argument which is not what its function's annotation asks for,
-    where the extension has refused those it was called with."""
+    """Raises ValueError that names an argument which is not what its function's annotation asks
+    for, where the extension has refused those it was called with."""
     frame: FrameType | None = sys._getframe(1)
     if not re.search("incompatible (function|constructor) arguments", str(error)):
         return

@@ -124,8 +124,8 @@ def write(path: Union[Path, IO[bytes]], mesh: PartsLike, format: str = "", *, as
     ascii: text where the format has text and binary.
     precision: 'float32' or 'float64'; None: as in the file that was read, else 'float64'. Binary
     STL and GLB hold float32 only.
-    round: a mesh whose coordinates were certified (`Mesh.certificate`) may be rounded further, which
-    can undo what was certified. Otherwise that is an error: ask the operation for `precision=
+    round: a mesh whose coordinates were certified (`Mesh.certificate`) may be rounded further,
+    which can undo what was certified. Otherwise that is an error: ask the operation for `precision=
     'float32'` instead.
     drop, rename: columns of points that are not written, or under another name: {'old': 'new'}.
     las_scale, las_offset: three numbers for LAS and LAZ; None: those of the file, else chosen.
@@ -140,7 +140,8 @@ def write(path: Union[Path, IO[bytes]], mesh: PartsLike, format: str = "", *, as
     put = partial(_write, mesh, format, (ascii, precision, round, list(drop),
                                          [(b, a) for a, b in (rename or {}).items()],
                                          None if las_scale is None else list(las_scale),
-                                         None if las_offset is None else list(las_offset)), progress)
+                                         None if las_offset is None else list(las_offset)),
+                  progress)
     if isinstance(path, (str, os.PathLike)):
         return put(path_of(path))
     if not hasattr(path, "write"):

@@ -93,8 +93,8 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
                        progress: Progress = None) -> FacePairs:
     """All pairs of a face of `a` and a face of `b` that have a common point. Exact.
 
-    move_a, move_b: (4, 4) affine maps, applied first; corners are rounded to float64 and then exact.
-    The kinds are 'crossing', 'overlap', 'touching' and 'degenerate', as the meshes share no
+    move_a, move_b: (4, 4) affine maps, applied first; corners are rounded to float64 and then
+    exact. The kinds are 'crossing', 'overlap', 'touching' and 'degenerate', as the meshes share no
     corners. Surfaces count, not solids: a mesh inside the other gives no pair.
 
     >>> import treeform
@@ -138,7 +138,8 @@ def _search_options(arguments: dict[str, Any]) -> _core.StreamSearchOptions:
     return options(
         _core.StreamSearchOptions, arguments, kinds=_kinds(arguments["kinds"]),
         format=_arrays.word(arguments["format"], "format"),
-        memory=_arrays.number(arguments["memory"], "memory", 0), folder=path_of(arguments["folder"]),
+        memory=_arrays.number(arguments["memory"], "memory", 0),
+        folder=path_of(arguments["folder"]),
         faces_per_tile=_arrays.number(arguments["faces_per_tile"], "faces_per_tile", 0))
 
 
@@ -154,8 +155,8 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     memory: bytes that the process may take; 0: three quarters of the machine's.
     folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
     faces_per_tile: at most about so many; 0: as the memory allows.
-    communicator: ranks that do it together, as for `weld_stream`; the first one gets the result, all
-    others an empty one.
+    communicator: ranks that do it together, as for `weld_stream`; the first one gets the result,
+    all others an empty one.
 
     Raises FileError, ValueError.
 
@@ -174,13 +175,13 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
     that see the folder: those of Dask, of Slurm, of `multiprocessing`.
 
     All make it with the same arguments. One calls `scatter`; then each calls `search_tile` for its
-    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that is
-    finished is not searched again. Arguments are those of `self_intersections_of_file`; empty
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
+    is finished is not searched again. Arguments are those of `self_intersections_of_file`; empty
     `folder`: the input's name and ".search-tiles".
 
-    It has a hold on the folder until `close`, the end of a `with`, or its own end. A copy for another
-    process (pickle) is made anew from its arguments. A step before its turn raises FileError, a tile
-    that is not there IndexError.
+    It has a hold on the folder until `close`, the end of a `with`, or its own end. A copy for
+    another process (pickle) is made anew from its arguments. A step before its turn raises
+    FileError, a tile that is not there IndexError.
 
     >>> import tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:

@@ -32,10 +32,10 @@ class SearchEffort(NamedTuple):
     """What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
     two: the same for the same input. What it found holds either way.
 
-    pairs: Looked at.
-    bound: Of these: the most that it was to look at.
-    cut: Questions that would have taken more than they may, a 32nd of the bound or what was left of
-        it: where there are some, something better may exist.
+    pairs: Pairs of faces looked at, a pair in motion counting as two.
+    bound: The most that it was to look at.
+    cut: Questions passed over, where something better may exist: they would have taken more than a
+        32nd of the bound, or than what was left of it.
     """
 
     pairs: int
@@ -172,7 +172,8 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     (True, 4.0, 'touching')
     """
     how = options(_core.SlideOptions, locals())
-    return _core.slide(held_body(moving), _bodies(onto), _arrays.vector(direction, "direction"), how,
+    return _core.slide(held_body(moving), _bodies(onto), _arrays.vector(direction, "direction"),
+                       how,
                        progress=progress)
 
 
@@ -339,7 +340,7 @@ class Alignment(MeshResult):
     mesh: The moved mesh; of a cloud, one without faces.
     rms: Root mean square of the distances that count, after, by weights if there are; 0 for none.
         Of two clouds by `plane_to_plane`, the distances to the planes, as far as both sides agree.
-    rms_at_start: The same before, without weights.
+    rms_at_start: The same at the start, without weights.
     overlap: Share of all moving points whose nearest fixed point is within `max_distance`, after.
     inliers: How many of the moving points are within 4.5 medians of the distances that count.
     correlation: Correlation of the signed distances of neighbors, in [-1, 1]: near 0 where they are
@@ -347,11 +348,11 @@ class Alignment(MeshResult):
     uncertainty: How far the points may be from where they belong: the standard deviation that the
         distances leave, and how little they hold, as a root mean square over the points; without
         the motions that `undetermined` counts.
-    scale: Found in addition to that of `start`.
+    scale: The scale found, in addition to that of `start`.
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
     converged: `end` is `converged`.
-    iterations: From the start that was best.
-    start: Which that was: 0 is the present position.
+    iterations: Steps from the best start.
+    start: Which start that was: 0 is the present position.
     undetermined: How many independent motions nothing holds, as where a plane slides on a plane.
     message: Half a sentence for people.
     """
@@ -389,8 +390,8 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     method: 'point_to_plane', 'point_to_point', 'plane_to_plane' (of two clouds) or 'automatic'
     (planes of a mesh, planes of both clouds). overlap: the share of the moving points that have a
     partner. weights: 'welsch', by which far pairs count less, or 'equal'.
-    max_distance: ignore partners further apart. scale: find a uniform scale, too; a pair is its bounds, in
-    addition to the scale of `start`.
+    max_distance: ignore partners further apart. scale: find a uniform scale, too; a pair is its
+    bounds, in addition to the scale of `start`.
     starts: places to start from, turned all around. samples: points used in the steps; 0 is all.
     start: (4, 4) applied first.
 
@@ -489,9 +490,9 @@ def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0
 
 def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coordinates",
             progress: Progress = None) -> Measure | None:
-    """How two bodies lie to each other: separate, touching or penetrating, how far apart, and where.
-    Each is a mesh or a cloud (n, 3). None where one has no faces, or they are further apart than
-    `radius`. The relation is exact, and so is whether a distance is 0.
+    """How two bodies lie to each other: separate, touching or penetrating, how far apart, and
+    where. Each is a mesh or a cloud (n, 3). None where one has no faces, or they are further apart
+    than `radius`. The relation is exact, and so is whether a distance is 0.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -565,7 +566,8 @@ class Impact(NamedTuple):
 def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *,
                    move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
                    latest: float = np.inf, progress: Progress = None) -> Impact:
-    """The least t >= 0 at which `a`, moved by t times `motion` (3,), has a point in common with `b`.
+    """The least t >= 0 at which `a`, moved by t times `motion` (3,), has a point in common with
+    `b`.
     Exact: meshes that only graze each other have a contact. Surfaces count, not solids.
 
     >>> import treeform

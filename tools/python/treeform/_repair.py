@@ -200,7 +200,8 @@ class ConvexHull(Result):
 # end
 
     def mesh(self, points: Union[MeshLike, ArrayLike]) -> Mesh:
-        """The hull as a closed mesh, of the points that it uses. points: those it is the hull of."""
+        """The hull as a closed mesh, of the points that it uses. points: those it is the hull
+        of."""
         cloud = cloud_of(points)
         used, faces = np.unique(self.faces, return_inverse=True)
         vertices = as_mesh(points).vertices if cloud is None else np.asarray(cloud)
@@ -208,8 +209,8 @@ class ConvexHull(Result):
 
 
 def convex_hull(points: Union[MeshLike, ArrayLike], *, progress: Progress = None) -> ConvexHull:
-    """The convex hull of points (n, 3), or of those of a mesh. Exact: no point is outside the plane of a face, and faces
-    are of one side if and only if they are exactly coplanar.
+    """The convex hull of points (n, 3), or of those of a mesh. Exact: no point is outside the plane
+    of a face, and faces are of one side if and only if they are exactly coplanar.
 
     >>> import treeform
     >>> hull = treeform.convex_hull(treeform.read("data/cube.stl"))

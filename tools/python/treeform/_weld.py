@@ -215,14 +215,14 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
     folder: those of Dask, of Slurm, of `multiprocessing`.
 
     All make it with the same arguments. One calls `scatter`; then each calls `weld_tile` for its
-    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that is
-    finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
+    is finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
     input's name and ".tiles".
 
-    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs all
-    others to have let go of it. A copy for another process (pickle) is made anew from its arguments.
-    A step before its turn raises FileError, a tile that is not there IndexError. After Cancelled,
-    make it anew.
+    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs
+    all others to have let go of it. A copy for another process (pickle) is made anew from its
+    arguments. A step before its turn raises FileError, a tile that is not there IndexError. After
+    Cancelled, make it anew.
 
     >>> import os, tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:

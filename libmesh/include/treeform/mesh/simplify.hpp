@@ -76,9 +76,9 @@ struct simplify_result {
 /// cross, at edges of more than two faces or of faces that do not run both ways, and where faces at
 /// a vertex are no fan, vertices stay as they are.
 ///
-/// A distance below what doubles can prove, some 2^-46 of the largest coordinate, collapses nothing,
-/// nor are coordinates whose squares are no doubles. Corners with equal coordinates are one vertex;
-/// faces with two equal corners go, and are no part of either surface.
+/// A distance below what doubles can prove, some 2^-46 of the largest coordinate, collapses
+/// nothing, nor are coordinates whose squares are no doubles. Corners with equal coordinates are
+/// one vertex; faces with two equal corners go, and are no part of either surface.
 ///
 /// \throws std::invalid_argument for a distance that is negative or not finite, another number of
 ///         groups than of faces or corners, or a face with a corner that is out of range or not finite

@@ -139,8 +139,8 @@ typedef struct treeform_simplify_result {
 } treeform_simplify_result;
 // end
 
-/// The mesh with fewer faces, no point of either surface further than `max_distance` from the other.
-/// The code is that of the certificate.
+/// The mesh with fewer faces, no point of either surface further than `max_distance` from the
+/// other. The code is that of the certificate.
 TREEFORM_C_API treeform_code treeform_simplify(const treeform_mesh* mesh, double max_distance,
                                                const treeform_simplify_options* options,
                                                treeform_simplify_result** result);
@@ -230,8 +230,8 @@ TREEFORM_C_API treeform_code treeform_isolines(const treeform_mesh* mesh, const 
                                                treeform_progress progress, void* progress_data,
                                                treeform_isolines_result** lines);
 
-/// Writes isolines as `treeform_write_section` does sections; SVG as seen from where `normal` points
-/// (null: z).
+/// Writes isolines as `treeform_write_section` does sections; SVG as seen from where `normal`
+/// points (null: z).
 TREEFORM_C_API treeform_code treeform_write_isolines(const char* path,
                                                      const treeform_isolines_result* lines,
                                                      const double normal[3], const char* format,
