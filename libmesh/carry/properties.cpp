@@ -12,10 +12,11 @@
 #include <cstring>
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
+#include <unordered_set>
 
 namespace treeform::detail::carry {
 namespace {
@@ -183,6 +184,47 @@ void carry_normals(element& rows, std::span<const carry_source> inputs, const me
         rows.columns.push_back(column::of<float>(std::array{"nx", "ny", "nz"}[axis], values[axis]));
 }
 
+/// Rows of numbers, all of one length, each once.
+class distinct_rows {
+  public:
+    distinct_rows() = default;
+    distinct_rows(const distinct_rows&) = delete;
+    distinct_rows& operator=(const distinct_rows&) = delete;
+
+    /// As they came, from 0. \pre no number is NaN
+    std::uint32_t number_of(std::span<const double> row) {
+        length_ = row.size();
+        values_.insert(values_.end(), row.begin(), row.end());
+        const auto [at, is_new] = numbers_.insert(static_cast<std::uint32_t>(numbers_.size()));
+        if (!is_new) values_.resize(values_.size() - length_);
+        return *at;
+    }
+
+  private:
+    [[nodiscard]] std::span<const double> row(std::uint32_t number) const {
+        return std::span(values_).subspan(number * length_, length_);
+    }
+    struct hash {
+        const distinct_rows* of;
+        std::size_t operator()(std::uint32_t number) const {
+            std::size_t all = 0;
+            for (const double x : of->row(number))
+                all = (all ^ std::hash<double>()(x)) * 0x9E3779B97F4A7C15U;
+            return all ^ (all >> 32U);
+        }
+    };
+    struct equal {
+        const distinct_rows* of;
+        bool operator()(std::uint32_t a, std::uint32_t b) const {
+            return std::ranges::equal(of->row(a), of->row(b));
+        }
+    };
+
+    std::size_t length_ = 0;
+    std::vector<double> values_{};
+    std::unordered_set<std::uint32_t, hash, equal> numbers_{0, hash{this}, equal{this}};
+};
+
 bool any_has_normals(std::span<const carry_source> inputs) {
     return std::any_of(inputs.begin(), inputs.end(), [](const carry_source& s) {
         const element* points = s.file->attributes.find("vertex");
@@ -199,19 +241,19 @@ std::vector<std::uint32_t> groups_of_faces(std::span<const carry_source> inputs,
     const face_kinds kinds(by.values ? inputs : inputs.first(0), by.corners);
     if (properties.empty() && kinds.empty() && !by.input) return {};
     constexpr double nothing = -std::numeric_limits<double>::infinity();
-    std::map<std::vector<double>, std::uint32_t> numbers;
+    distinct_rows rows;
     std::vector<std::uint32_t> groups;
+    std::vector<double> values;
     for (std::uint32_t k = 0; k < inputs.size(); ++k)
         for (std::uint32_t f = 0; f < inputs[k].file->mesh.faces.size(); ++f) {
-            std::vector<double> values{by.input ? static_cast<double>(k) : 0.0};
+            values.assign(1, by.input ? static_cast<double>(k) : 0.0);
             for (const property& p : properties) {
                 const column* column = p.of_input[k];
                 const double value = column ? column->number(inputs[k].stored_face(f)) : nothing;
                 values.push_back(std::isnan(value) ? nothing : value);
             }
             kinds.append(k, f, values);
-            const auto next = static_cast<std::uint32_t>(numbers.size());
-            groups.push_back(numbers.try_emplace(std::move(values), next).first->second);
+            groups.push_back(rows.number_of(values));
         }
     return groups;
 }
