@@ -192,11 +192,10 @@ def seen_by_doxygen(path):
         return "\n".join(module_seen(path))
     text, group = path.read_text(), GROUP_OF.get(public_name(path))
     if path.parent == C_HEADERS:
-        text = re.sub(r'(?m)^(extern "C" \{\n#endif)\n$',
-                      rf"\1 /** \\addtogroup c_{path.stem} {path.name}: {c_title(path.stem)}\n"
-                      "@ingroup in_c\n@{ */",
-                      text)
-        return text.replace("#ifdef __cplusplus\n}", "/** @} */\n#ifdef __cplusplus\n}")
+        group = (f"/** \\addtogroup c_{path.stem} {path.name}: {c_title(path.stem)}\n"
+                 "@ingroup in_c\n@{ */")
+        return re.sub(r"(?s)\A(.*\n#include [^\n]*\n)", lambda includes: includes[1] + group,
+                      text) + "/** @} */\n"
     if not group:
         return text
     title, room, _ = GROUPS[group]
