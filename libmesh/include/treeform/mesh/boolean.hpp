@@ -75,13 +75,13 @@ struct boolean_options {
     fill_rule inside = fill_rule::nonzero;  ///< what is solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    /// Where rounding makes faces meet, only what is at most this far apart is joined, in the mesh's
-    /// own length unit, and never what is further apart than 2^-10 of the largest coordinate. Not
-    /// negative.
+    /// Where rounding makes faces meet, only what is at most this far apart is joined, in the
+    /// mesh's own length unit, and never what is further apart than 2^-10 of the largest
+    /// coordinate. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// Keep coplanar faces apart that were cut, or that overlap. By default they are merged, exactly
-    /// and before rounding: a vertex goes where only such faces meet, or two flat parts of them
-    /// along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    /// Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+    /// exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+    /// them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands, one after the other] or empty: only those of equal numbers are
