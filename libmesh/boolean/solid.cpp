@@ -46,8 +46,10 @@ solid::solid(treeform::mesh&& owned)
     : solid(std::make_shared<const prepared_mesh>(std::move(owned))) {}
 
 solid::solid(std::shared_ptr<const prepared_mesh> shared) {
-    if (certificate found = detail::boolean::check_solid("solid", shared->view()); !found)
+    if (certificate found = detail::boolean::check_solid("solid", shared->view()); !found) {
+        for (open_edge& edge : found.open) edge.face.operand = operand_element::none;
         throw not_certified_error(std::move(found));
+    }
     auto made = std::make_shared<formula>();
     made->leaf = std::move(shared);
     formula_ = std::move(made);

@@ -145,7 +145,7 @@ void add_distances(command_line& line, shape_settings& s) {
                     const auto n = parse_numbers("--drain", v, 4);
                     s.drains.push_back({{n[0], n[1], n[2]}, n[3]});
                 });
-    line.option(s.fewest_faces, {"--faces", "N", "simplify: stop at so many faces", "0"});
+    line.option(s.fewest_faces, {"--faces", "N", "simplify: stop at this many faces", "0"});
 }
 
 void add_options(command_line& line, cut_settings& s) {
@@ -154,7 +154,7 @@ void add_options(command_line& line, cut_settings& s) {
                 [&s](std::string_view v) { s.plane.normal = parse_direction("--normal", v); });
     line.option({"--at", "X,Y,Z", "a point of the plane", "0,0,0"},
                 [&s](std::string_view v) { s.plane.at = parse_point("--at", v); });
-    line.option({"--height", "H,...", "planes so far above --at, along the normal", "0"},
+    line.option({"--height", "H,...", "planes at these heights above --at", "0"},
                 [&s](std::string_view v) {
                     const auto count = static_cast<std::size_t>(std::ranges::count(v, ',')) + 1;
                     s.heights = parse_numbers("--height", v, count);
@@ -164,23 +164,23 @@ void add_options(command_line& line, cut_settings& s) {
                  "thickness, from the lowest point to the highest"},
                 [&s](std::string_view v) { s.layers = parse_number("--layers", v); });
     line.option(s.lines.value, {"--value", "NAME",
-                                "isolines: of what: height, along --normal above --at;\n"
-                                "distance, of --to, below 0 inside a closed mesh;\n"
-                                "or a property of vertices: red, quality, ...",
+                                "isolines: the value: height above --at; distance\n"
+                                "from --to, below 0 inside a closed mesh; or a\n"
+                                "property of vertices: red, quality, ...",
                                 "height"});
-    line.option({"--to", "MESH", "isolines: of the distance from this file"},
+    line.option({"--to", "MESH", "isolines: the mesh that distance is measured from"},
                 [&s](std::string_view v) { s.lines.to = v; });
-    line.option({"--levels", "L,...", "isolines: of the value"}, [&s](std::string_view v) {
+    line.option({"--levels", "L,...", "isolines: levels of the value"}, [&s](std::string_view v) {
         const auto count = static_cast<std::size_t>(std::ranges::count(v, ',')) + 1;
         s.lines.levels = parse_numbers("--levels", v, count);
     });
     line.option(s.lines.count, {"--count", "N",
-                                "isolines: so many levels, equally far apart, between\n"
+                                "isolines: this many levels, evenly spaced between\n"
                                 "the least value and the greatest",
                                 "0"});
     line.option({"--bed", "X,Y[,Z]",
-                 "pieces: that fit into this, across x, y and z, as few\n"
-                 "as there can be, of equal length"},
+                 "pieces: that fit into a box of this size; as few as\n"
+                 "possible, of equal length"},
                 [&s](std::string_view v) {
                     const auto count = static_cast<std::size_t>(std::ranges::count(v, ',')) + 1;
                     const auto size = parse_numbers("--bed", v, count == 2 ? 2 : 3);

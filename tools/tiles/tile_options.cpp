@@ -48,12 +48,12 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
 void add_sharing_options(command_line& line, tile_options& target) {
     line.flag(target.plan, {"--plan", "",
                             "only make the tiles; then any number of processes do\n"
-                            "some each (--tile K, from 0), and one puts all\n"
-                            "together (--finish): with the same INPUT, options and\n"
-                            "--work DIR"});
+                            "them (--tile K, K from 0), and one combines their\n"
+                            "results (--finish), all with the same INPUT, options\n"
+                            "and --work DIR"});
     line.option({"--tile", "K", "only do this tile"},
                 [&target](std::string_view text) { target.tile = parse_count("--tile", text); });
-    line.flag(target.finish, {"--finish", "", "only put together what all tiles gave; DIR stays"});
+    line.flag(target.finish, {"--finish", "", "only combine the results of all tiles; DIR stays"});
 }
 
 void leave_reports_to_first(tile_options& tiles, common_options& options) {

@@ -1,16 +1,15 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstdio>
 
 int main() {
-    const tf::mesh a = tf::as_mesh(tf::read("data/two_spheres.stl")).mesh;
-    const tf::mesh b = tf::as_mesh(tf::read("data/cube.stl")).mesh;
-    const tf::mesh c = tf::as_mesh(tf::read("data/sphere.ply")).mesh;
-    const tf::boolean_result made = tf::boolean({a, b, c}, {"(a-b)*c", 3});
+    const tf::mesh a = tf::read_mesh("data/two_spheres.stl").mesh;
+    const tf::mesh b = tf::read_mesh("data/cube.stl").mesh;
+    const tf::mesh c = tf::read_mesh("data/sphere.ply").mesh;
+    const tf::boolean_result made = tf::boolean({a, b, c}, "(a-b)*c");
     std::puts(made.certificate.message().c_str());
     const double volume = tf::signed_volume(made.value());  // throws unless it is certified
     std::printf("volume %.3f\n", volume);

@@ -1,12 +1,11 @@
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstdio>
 
 int main() {
-    const tf::usable_mesh part = tf::as_mesh(tf::read("data/two_spheres.stl"));
+    const tf::usable_mesh part = tf::read_mesh("data/two_spheres.stl");
     const tf::self_intersection_result found = tf::self_intersections(part);
     for (const tf::face_pair& pair : found.pairs)  // ascending
         if (pair.kind == tf::pair_kind::crossing)

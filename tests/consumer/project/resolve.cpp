@@ -1,6 +1,5 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
@@ -8,7 +7,7 @@
 #include <cstdio>
 
 int main() {
-    const tf::usable_mesh part = tf::as_mesh(tf::read("data/two_spheres.stl"));
+    const tf::usable_mesh part = tf::read_mesh("data/two_spheres.stl");
     const tf::resolve_result solid = tf::resolve_self_intersections(
         part, tf::resolve_mode::outer, {.precision = tf::precision::float32});
     std::puts(solid.certificate.message().c_str());

@@ -1,13 +1,12 @@
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/read.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstdio>
 
 int main() {
-    const tf::mesh cube = tf::as_mesh(tf::read("data/cube.stl")).mesh;
-    tf::mesh ball = tf::as_mesh(tf::read("data/sphere.ply")).mesh;
+    const tf::mesh cube = tf::read_mesh("data/cube.stl").mesh;
+    tf::mesh ball = tf::read_mesh("data/sphere.ply").mesh;
     for (tf::point3& p : ball.points) p.z += 10;  // above the cube
     const tf::placement place = tf::slide(ball, cube, {0, 0, -1}, {.clearance = 0.03});
     if (!place) return 1;

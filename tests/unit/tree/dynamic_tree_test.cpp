@@ -29,6 +29,14 @@ using box = tf::aabb<double, D>;
 
 }  // namespace
 
+TEST_CASE("dynamic_tree: boxes of floats are taken as they are") {
+    using floats = tf::aabb<float, 2>;
+    tf::dynamic_tree<2> scene;
+    CHECK(scene.insert(std::vector{floats{{0, 0}, {1, 1}}, floats{{2, 0}, {3, 1}}}) == ids{0, 1});
+    scene.move(ids{1}, std::vector{floats{{5, 0}, {6, 1}}});
+    CHECK(scene.box(1) == box<2>{{5, 0}, {6, 1}});
+}
+
 TEST_CASE("dynamic_tree: ids stay, and those of removed ones are given out again, last first") {
     const boxes<3> source = box_family<3>("random", 100, 2);
     tf::dynamic_tree<3> tree(source, itself);

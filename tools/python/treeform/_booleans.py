@@ -141,15 +141,17 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
     return _combine("xor", meshes, locals())
 
 
-def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float64",
+def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
+            precision: str = "float64",
             keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
             max_displacement: float = np.inf, min_volume: float = 0.0, check: bool = True,
             progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
-    """The solid that a formula makes of meshes, all cut along each other at once.
+    """The solid that a formula makes of meshes, all cut along each other at once:
+    `boolean("(a - b) * c", cube, ball, box)`, or with names of your own, as below.
 
-    expression: names of `meshes`, `+` or `|` union, `*` or `&` intersection, `-` difference, `^`
-    exclusive or, and brackets. `*` and `&` bind tighter than the others, which go from left to
-    right.
+    expression: `a`, `b`, `c`, ... for `operands`, names of `meshes`, `+` or `|` union, `*` or `&`
+    intersection, `-` difference, `^` exclusive or, and brackets. `*` and `&` bind tighter than the
+    others, which go from left to right.
     inside: what is solid, by how often the surface winds around it: 'nonzero', 'odd', 'positive'.
     precision: of the coordinates returned; 'float32' for STL and GLB.
     keep_cuts: leave coplanar faces apart that were cut, or overlap; they are merged otherwise.
@@ -163,13 +165,13 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     the rounded surface is checked: it is closed, manifold, outward, and no two faces meet but in a
     corner or an edge. Operands may overlap themselves, touch, be equal, be inside out or empty.
 
-    Attributes of operands are carried over: a face has the values of the face that it lies in, a new
-    vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. Only
-    faces of equal values are merged; where vertices have values, only with `simplify`.
+    Attributes of operands are carried over: a face has the values of the face that it lies in, a
+    new vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. Only faces of
+    equal values are merged; where vertices have values, only with `simplify`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result cannot be
-    certified, ValueError naming the face that is out of range or not finite, or the operand that has
-    points but no faces.
+    certified, ValueError naming the face that is out of range or not finite, or the operand that
+    has points but no faces.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -178,8 +180,10 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     0.375
     """
     how = options(_core.BooleanOptions, locals())
-    return _checked(_core.boolean([held(mesh) for mesh in meshes.values()], "", expression,
-                                  list(meshes), how, progress=progress), check)
+    unnamed = _operands(operands)
+    names = [*(chr(ord("a") + i) for i in range(len(unnamed))), *meshes]
+    return _checked(_core.boolean([*unnamed, *(held(mesh) for mesh in meshes.values())], "",
+                                  expression, names, how, progress=progress), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: str = "nonzero",

@@ -77,6 +77,8 @@ class Mesh:
     faces: (F, 3) whole numbers, the vertices of each face, counter-clockwise from outside; uint32
     in one piece is not copied. The flat [3, a, b, c, 3, ...] of PyVista and VTK will do.
 
+    A face with a corner that is no vertex is refused by the first operation.
+
     A mesh does not change: its arrays cannot be written to, and the arrays that it was made of must
     stay as they are as long as it is in use. So indexes that queries build are kept, and the second
     query is fast.

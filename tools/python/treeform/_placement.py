@@ -29,13 +29,13 @@ Body = Union[MeshLike, ArrayLike]
 # made of results:
 #   search_effort
 class SearchEffort(NamedTuple):
-    """What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
-    two: the same for the same input. What it found holds either way.
+    """The work of a bounded search, in pairs of faces looked at. It depends on the input alone.
+    What the search found is valid even where it was cut short.
 
-    pairs: Pairs of faces looked at, a pair in motion counting as two.
-    bound: The most that it was to look at.
-    cut: Questions passed over, where something better may exist: they would have taken more than a
-        32nd of the bound, or than what was left of it.
+    pairs: Pairs of faces looked at; a pair in motion counts as two.
+    bound: The most that the search was to look at.
+    cut: Candidates skipped, since each would take more than 1/32 of the bound, or than what was
+        left of it. If not 0, a better answer may exist.
     """
 
     pairs: int

@@ -49,10 +49,10 @@ class TREEFORM_API boolean_expression {
     [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
 
     /// True when no point outside this operand can belong to the result: in `a-b` for a, in `a+b`
-    /// for neither. Found in one pass, so it may be false for long formulas of which it is true.
+    /// for neither. Found in one pass, so it may be false for long formulas where that holds.
     [[nodiscard]] bool needs(std::size_t operand) const;
 
-    /// The formula, operations behind what they take: operands as numbers from 0, and these.
+    /// The formula in postfix notation: operands as numbers from 0, and these operations.
     enum : std::int32_t { add = -1, intersect = -2, minus = -3, exclude = -4 };
     [[nodiscard]] std::span<const std::int32_t> postfix() const { return postfix_; }
 
@@ -75,12 +75,13 @@ struct boolean_options {
     fill_rule inside = fill_rule::nonzero;  ///< what is solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    /// Where rounding makes faces meet, nothing further apart is joined, in the mesh's own length
-    /// unit, nor further than 2^-10 of the largest coordinate. Not negative.
+    /// Where rounding makes faces meet, only what is at most this far apart is joined, in the
+    /// mesh's own length unit, and never what is further apart than 2^-10 of the largest
+    /// coordinate. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// Otherwise coplanar faces that were cut, or that overlap, are merged, exactly and before
-    /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a
-    /// straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    /// Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+    /// exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+    /// them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands, one after the other] or empty: only those of equal numbers are
@@ -88,9 +89,9 @@ struct boolean_options {
     std::span<const std::uint32_t> face_groups{};
     /// Compute `boolean_result::volumes`, of two operands; not where a `gap` was filled.
     bool volumes = false;
-    /// Of the result, the parts with a volume below this, in cubic units, are left out: specks go,
-    /// and voids are filled, with all that is in them. A part is what edges link, its volume that
-    /// within it. Of solids only. Finite and not negative.
+    /// Parts of the result with a volume below this, in cubic units, are left out: specks are
+    /// dropped, and voids are filled, with all that is in them. A part is a component connected by
+    /// edges; its volume is what it encloses. Of solids only. Finite and not negative.
     double min_volume = 0.0;
     /// In a union, gaps of at most this width, in the mesh's own length unit, are filled between
     /// faces of different operands, where they lie over each other: both look into the gap, they

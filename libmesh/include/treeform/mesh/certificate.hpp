@@ -33,13 +33,13 @@ enum class status : std::uint8_t {
     cancelled        ///< `progress` asked to stop; nothing is returned
 };
 
-/// What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
-/// two: the same for the same input. What it found holds either way.
+/// The work of a bounded search, in pairs of faces looked at. It depends on the input alone. What
+/// the search found is valid even where it was cut short.
 struct search_effort {
-    std::uint64_t pairs = 0;  ///< pairs of faces looked at, a pair in motion counting as two
-    std::uint64_t bound = 0;  ///< the most that it was to look at
-    /// Questions passed over, where something better may exist: they would have taken more than a
-    /// 32nd of the bound, or than what was left of it.
+    std::uint64_t pairs = 0;  ///< pairs of faces looked at; a pair in motion counts as two
+    std::uint64_t bound = 0;  ///< the most that the search was to look at
+    /// Candidates skipped, since each would take more than 1/32 of the bound, or than what was left
+    /// of it. If not 0, a better answer may exist.
     std::uint64_t cut = 0;
     friend bool operator==(const search_effort&, const search_effort&) = default;
 };
@@ -79,8 +79,7 @@ struct TREEFORM_API certificate {
     std::uint64_t misoriented_edges = 0;
     /// Rounding moved no coordinate of a vertex further than this: from where it was, exactly, or,
     /// where it is new or gone since rounding broke something, from the nearest place of the
-    /// surface.
-    /// Measured; moves on the way do not add up.
+    /// surface. Measured; moves on the way do not add up.
     double max_displacement = 0.0;
     treeform::precision precision = treeform::precision::float64;  ///< of the coordinates
     /// Of `vanished`, the faces of the exact result, all of them thinner than the coordinates tell
@@ -92,7 +91,7 @@ struct TREEFORM_API certificate {
     bool size_is_volume = false;
 
     explicit operator bool() const { return status == treeform::status::ok; }
-    /// Half a sentence for people, without a stop at its end. It names a face by the numbers in
+    /// A clause for people, without a full stop. It names a face by the numbers in
     /// `open`, and no operand where that is `operand_element::none`.
     [[nodiscard]] std::string message() const;
 };

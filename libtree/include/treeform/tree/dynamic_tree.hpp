@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <ranges>
 #include <span>
 #include <vector>
@@ -64,14 +65,15 @@ class TREEFORM_API dynamic_tree {
         (void)insert(range, make_aabb);
     }
 
-    /// Adds the elements of `range`, and returns their ids [K]. `make_aabb` as for `build`.
+    /// Adds the elements of `range`, and returns their ids [K]. `make_aabb` as for `build`; without
+    /// one, the elements are boxes.
     ///
     /// \throws std::invalid_argument naming the element whose box is not finite or is empty, or
     ///         when there would be too many; nothing has changed then
     std::vector<std::uint32_t> insert(std::span<const box_type> boxes);
-    template <std::ranges::random_access_range Range, class MakeBox>
-    std::vector<std::uint32_t> insert(const Range& range, const MakeBox& make_aabb) {
-        return insert(boxes_of(range, make_aabb));
+    template <std::ranges::random_access_range Range, class MakeBox = std::identity>
+    std::vector<std::uint32_t> insert(const Range& range, const MakeBox& make_aabb = {}) {
+        return insert(std::span<const box_type>(boxes_of(range, make_aabb)));
     }
 
     /// Takes the primitives `ids` away.
@@ -85,9 +87,10 @@ class TREEFORM_API dynamic_tree {
     /// \throws std::invalid_argument as `remove`, naming the id whose new box is not finite or is
     ///         empty, or when there are not as many boxes as ids; nothing has changed then
     void move(std::span<const std::uint32_t> ids, std::span<const box_type> boxes);
-    template <std::ranges::random_access_range Range, class MakeBox>
-    void move(std::span<const std::uint32_t> ids, const Range& range, const MakeBox& make_aabb) {
-        move(ids, boxes_of(range, make_aabb));
+    template <std::ranges::random_access_range Range, class MakeBox = std::identity>
+    void move(std::span<const std::uint32_t> ids, const Range& range,
+              const MakeBox& make_aabb = {}) {
+        move(ids, std::span<const box_type>(boxes_of(range, make_aabb)));
     }
 
     /// Primitives that are there.

@@ -264,13 +264,13 @@ typedef struct treeform_certificate {
     int32_t size_is_volume;
 } treeform_certificate;
 
-/// What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
-/// two: the same for the same input. What it found holds either way.
+/// The work of a bounded search, in pairs of faces looked at. It depends on the input alone. What
+/// the search found is valid even where it was cut short.
 typedef struct treeform_search_effort {
-    uint64_t pairs;  ///< pairs of faces looked at, a pair in motion counting as two
-    uint64_t bound;  ///< the most that it was to look at
-    /// Questions passed over, where something better may exist: they would have taken more than a
-    /// 32nd of the bound, or than what was left of it.
+    uint64_t pairs;  ///< pairs of faces looked at; a pair in motion counts as two
+    uint64_t bound;  ///< the most that the search was to look at
+    /// Candidates skipped, since each would take more than 1/32 of the bound, or than what was
+    /// left of it. If not 0, a better answer may exist.
     uint64_t cut;
 } treeform_search_effort;
 // end

@@ -54,7 +54,7 @@ typedef struct treeform_section_result {
     /// [point_count][2] In the frame: of p in space, (x . p, y . p), for p within 2^-45 of its
     /// largest coordinate.
     const double* points;
-    /// [points] the face that the side from each point on begins in
+    /// [points] the face in which the segment from each point begins
     const uint32_t* faces;
     size_t point_count;
     double x[3];

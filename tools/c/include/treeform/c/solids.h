@@ -32,12 +32,13 @@ typedef struct treeform_boolean_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
-    /// Where rounding makes faces meet, nothing further apart is joined, in the mesh's own length
-    /// unit, nor further than 2^-10 of the largest coordinate. Not negative; default infinite
+    /// Where rounding makes faces meet, only what is at most this far apart is joined, in the
+    /// mesh's own length unit, and never what is further apart than 2^-10 of the largest
+    /// coordinate. Not negative; default infinite
     double max_displacement;
-    /// Otherwise coplanar faces that were cut, or that overlap, are merged, exactly and before
-    /// rounding: a vertex goes where only such faces meet, or two flat parts of them along a
-    /// straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    /// Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+    /// exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+    /// them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
     /// Compute `boolean_result::volumes`, of two operands; not where a `gap` was filled.
@@ -48,9 +49,9 @@ typedef struct treeform_boolean_options {
     size_t face_group_count;
     treeform_progress progress;
     void* progress_data;
-    /// Of the result, the parts with a volume below this, in cubic units, are left out: specks go,
-    /// and voids are filled, with all that is in them. A part is what edges link, its volume that
-    /// within it. Of solids only. Finite and not negative.
+    /// Parts of the result with a volume below this, in cubic units, are left out: specks are
+    /// dropped, and voids are filled, with all that is in them. A part is a component connected by
+    /// edges; its volume is what it encloses. Of solids only. Finite and not negative.
     double min_volume;
     /// In a union, gaps of at most this width, in the mesh's own length unit, are filled between
     /// faces of different operands, where they lie over each other: both look into the gap, they
