@@ -97,7 +97,8 @@ void enter_result(job& work, const boolean_settings& settings, const std::vector
     std::uint64_t nonmanifold = topology.nonmanifold_edges;
     if (is_stl(work.options) || (bounds_solid && known)) {
         const tf::mesh seen = tf::join_equal_points(tf::mesh(result.mesh));
-        nonmanifold = tf::count_topology(seen.points.size(), seen.faces).nonmanifold_edges;
+        if (seen.points.size() < result.mesh.points.size())
+            nonmanifold = tf::count_topology(seen.points.size(), seen.faces).nonmanifold_edges;
     }
     entry["output"] = {
         {"file", nullptr},
