@@ -21,8 +21,9 @@ namespace treeform::detail::carry {
 ///
 /// Rows of an input stand once in the result, in the order of their first use, so that what shares
 /// one still does. Faces from one face of an input share what lies between at a point that they
-/// share. Of a surface with `corner_source`, values are those of these corners, or in between in the
-/// face of a new vertex; a face whose source has one normal gets its own. Where a PLY had texture coordinates as double, they are double in one that is written.
+/// share. Of a surface with `corner_source`, values are those of these corners, or in between in
+/// the face of a new vertex; a face whose source has one normal gets its own. Where a PLY had
+/// texture coordinates as double, they are double in one that is written.
 void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
                    const carried_elements& made);
 

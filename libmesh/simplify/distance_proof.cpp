@@ -21,8 +21,8 @@ constexpr double rim_share = 0x1p-6;  ///< of the limit
 /// Around what is within a margin of a triangle: a box, and planes along its sides.
 class surroundings {
   public:
-    /// \param margin with 2^-48 of the largest coordinate for rounding: whatever directions come to,
-    ///        planes are where corners and margin put them, to 17 u of that
+    /// \param margin with 2^-48 of the largest coordinate for rounding: whatever directions come
+    ///        to, planes are where corners and margin put them, to 17 u of that
     surroundings(const triangle3& t, double margin) : box_(box_around(t, margin)) {
         const point3 normal = normal_of(t);
         for (std::size_t i = 0; i < 3; ++i) {

@@ -97,8 +97,8 @@ void give_lists(std::size_t count, const ListOf& list_of, treeform_id_lists** ou
     glue::give(std::move(made), out);
 }
 
-/// Rows of k answers from query `begin` on, filled up where there are fewer; `distance_of(neighbor)` is
-/// not squared.
+/// Rows of k answers from query `begin` on, filled up where there are fewer;
+/// `distance_of(neighbor)` is not squared.
 template <class Lists, class DistanceOf>
 void fill_rows(const Lists& found, std::size_t begin, std::size_t k, std::uint32_t* ids,
                double* distances, const DistanceOf& distance_of) {

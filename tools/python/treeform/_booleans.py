@@ -163,13 +163,13 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     the rounded surface is checked: it is closed, manifold, outward, and no two faces meet but in a
     corner or an edge. Operands may overlap themselves, touch, be equal, be inside out or empty.
 
-    Attributes of operands are carried over: a face has the values of the face that it lies in, a new
-    vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. Only
-    faces of equal values are merged; where vertices have values, only with `simplify`.
+    Attributes of operands are carried over: a face has the values of the face that it lies in, a
+    new vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. Only faces of
+    equal values are merged; where vertices have values, only with `simplify`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result cannot be
-    certified, ValueError naming the face that is out of range or not finite, or the operand that has
-    points but no faces.
+    certified, ValueError naming the face that is out of range or not finite, or the operand that
+    has points but no faces.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")

@@ -83,8 +83,8 @@ class carry_sources {
     /// `operand_element::none` stands for no source.
     ///
     /// With those of `simplify_result`, faces may reach beyond their sources. Values of corners are
-    /// those of `corner_source`, and at new vertices in between; a face whose corners had one normal
-    /// gets that of its plane.
+    /// those of `corner_source`, and at new vertices in between; a face whose corners had one
+    /// normal gets that of its plane.
     TREEFORM_API void carry(mesh_file& file, std::span<const std::uint32_t> face_source,
                             std::span<const std::uint32_t> vertex_source,
                             std::span<const std::uint32_t> face_of_new_vertex = {},

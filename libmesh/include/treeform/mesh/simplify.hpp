@@ -27,7 +27,7 @@ struct simplify_options {
     /// [F] or empty: edges between faces of different groups are borders of both.
     std::span<const std::uint32_t> face_groups{};
     /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
-    /// their corners at each of its ends are of one group. Of a file: `carry_sources::corner_groups`.
+    /// their corners at each of its ends are of one group. `carry_sources` has those of a file.
     std::span<const std::uint32_t> corner_groups{};
     progress_callback progress{};
 };
@@ -42,8 +42,8 @@ struct simplify_result {
     /// [V] of a new vertex, the face of the input that is nearest to it, on its side of seams; else
     /// none
     std::vector<std::uint32_t> face_of_new_vertex;
-    /// [3 F] the corner of the input that each is at (3 f + i for corner i of face f), on its side of
-    /// seams; none at new vertices
+    /// [3 F] the corner of the input that each is at (3 f + i for corner i of face f), on its side
+    /// of seams; none at new vertices
     std::vector<std::uint32_t> corner_source;
     std::uint64_t collapses = 0;            ///< edges that became a vertex
     std::uint64_t refused_by_topology = 0;  ///< edges tried whose collapse would change it
@@ -81,7 +81,8 @@ struct simplify_result {
 /// one vertex; faces with two equal corners go, and are no part of either surface.
 ///
 /// \throws std::invalid_argument for a distance that is negative or not finite, another number of
-///         groups than of faces or corners, or a face with a corner that is out of range or not finite
+///         groups than of faces or corners, or a face with a corner that is out of range or not
+///         finite
 /// \cost   50 to 150 microseconds a collapse, serial: O(n log n) for n collapses, more where a face
 ///         comes to stand for many; 1 kB a face; and `find_solid_defects` before and after
 /// \same   on any number of threads

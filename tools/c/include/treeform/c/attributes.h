@@ -43,8 +43,8 @@ TREEFORM_C_API treeform_code treeform_face_groups(const treeform_carry_source* i
                                                   int32_t by_values, int32_t by_input,
                                                   treeform_indices** groups);
 
-/// A group for each corner [3 F] of an input, for `treeform_simplify_options::corner_groups`: seams,
-/// and borders of materials and values, are kept. None where there are no values.
+/// A group for each corner [3 F] of an input, for `treeform_simplify_options::corner_groups`:
+/// seams, and borders of materials and values, are kept. None where there are no values.
 TREEFORM_C_API treeform_code treeform_corner_groups(const treeform_carry_source* input,
                                                     treeform_indices** groups);
 
