@@ -52,6 +52,12 @@ struct place {
     std::uint32_t source = no_face;  ///< vertex of the input that is there
 };
 
+/// What of the input a face comes from, as in the result.
+struct origin {
+    std::uint32_t face = no_face;
+    treeform::face corners{};
+};
+
 class simplifying {
   public:
     simplifying(mesh_view given, connected_faces&& mesh, double distance,
@@ -97,8 +103,7 @@ class simplifying {
     distance_proof proof_;
     std::vector<point3> points_;
     std::vector<face> faces_;
-    ids face_source_;
-    std::vector<face> corner_source_{};  ///< [F] as in the result
+    std::vector<origin> origin_{};
     std::vector<ids> star_;
     ids source_{};  ///< of each vertex, as in the result
     std::vector<quadric> quadric_{};
@@ -132,7 +137,6 @@ simplifying::simplifying(mesh_view given, connected_faces&& mesh, double distanc
       proof_(given, mesh, largest_, distance),
       points_(std::move(mesh.points)),
       faces_(std::move(mesh.faces)),
-      face_source_(std::move(mesh.source)),
       star_(std::move(mesh.star)) {
     // Squares of distances have to be doubles, and what is lost of small ones no more than u.
     if (!(largest_ > 0x1p-400 && largest_ < 0x1p400)) distance_ = 0.0;
@@ -140,8 +144,7 @@ simplifying::simplifying(mesh_view given, connected_faces&& mesh, double distanc
     version_.resize(points_.size());
     source_.resize(points_.size());
     for (std::uint32_t p = 0; p < source_.size(); ++p) source_[p] = p;
-    for (const std::uint32_t f : face_source_)
-        corner_source_.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+    for (const std::uint32_t f : mesh.source) origin_.push_back({f, {3 * f, 3 * f + 1, 3 * f + 2}});
     tree_ = dynamic_tree<3>(faces_, [&](const face& f) { return box_of(f); });
     add_quadrics();
 }
@@ -356,11 +359,11 @@ void simplifying::apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, do
 void simplifying::move_corners(std::uint32_t gone, std::uint32_t kept, bool is_new) {
     for (const std::uint32_t f : change_.kept)
         for (std::size_t i = 0; i < 3; ++i) {
-            std::uint32_t& corner = corner_source_[f][i];
+            std::uint32_t& corner = origin_[f].corners[i];
             if (faces_[f][i] != gone && !(is_new && faces_[f][i] == kept)) continue;
             std::uint32_t moved = no_face;
             for (const std::uint32_t g : workspace_[1]) {
-                const face& at = corner_source_[g];
+                const face& at = origin_[g].corners;
                 if (!is_new && (moved == no_face ||
                                 group_of(at[corner_of(faces_[g], gone)]) == group_of(corner)))
                     moved = at[corner_of(faces_[g], kept)];
@@ -374,7 +377,7 @@ bool simplifying::are_linked(std::uint32_t t, std::uint32_t u) const {
     for (std::uint32_t i = 0; i < 3; ++i)
         for (std::uint32_t j = 0; j < 3; ++j)
             if (proof_.given(t)[i] == proof_.given(u)[j] &&
-                group_of(3 * face_source_[t] + i) != group_of(3 * face_source_[u] + j))
+                group_of(3 * origin_[t].face + i) != group_of(3 * origin_[u].face + j))
                 return false;
     return true;
 }
@@ -422,7 +425,7 @@ simplify_result simplifying::finish() {
         number[p] = static_cast<std::uint32_t>(result_.mesh.points.size());
         result_.mesh.points.push_back(points_[p]);
         result_.vertex_source.push_back(source_[p]);
-        result_.face_of_new_vertex.push_back(source_[p] == no_face ? face_source_[nearest_given(p)]
+        result_.face_of_new_vertex.push_back(source_[p] == no_face ? origin_[nearest_given(p)].face
                                                                    : no_face);
     }
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
@@ -431,9 +434,9 @@ simplify_result simplifying::finish() {
         result_.back_at_most = std::max(result_.back_at_most, proof_.back(f));
         result_.mesh.faces.push_back(
             {number[faces_[f][0]], number[faces_[f][1]], number[faces_[f][2]]});
-        result_.face_source.push_back(face_source_[f]);
-        result_.corner_source.insert(result_.corner_source.end(), corner_source_[f].begin(),
-                                     corner_source_[f].end());
+        result_.face_source.push_back(origin_[f].face);
+        result_.corner_source.insert(result_.corner_source.end(), origin_[f].corners.begin(),
+                                     origin_[f].corners.end());
     }
     return std::move(result_);
 }

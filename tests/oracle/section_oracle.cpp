@@ -1,16 +1,20 @@
 /// \file
 /// Sections against CGAL's slicer (`Polygon_mesh_slicer`): as many polylines, of the same length
-/// and area. Of planes through vertices, edges and faces, against sections a little below.
+/// and area. Halves against CGAL's `clip`: of the same volume and area.
 ///
 /// TREEFORM_STRESS_COUNT is the number of planes for each mesh (default 20).
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/clip.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_slicer.h>
 #include <CGAL/Surface_mesh.h>
 #include <doctest/doctest.h>
@@ -24,8 +28,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -52,12 +58,35 @@ struct slice_totals {
     double area = 0.0;
 };
 
+kernel::Plane_3 plane_of_cgal(const tf::oriented_plane& plane) {
+    return {kernel::Point_3(plane.at.x, plane.at.y, plane.at.z),
+            kernel::Vector_3(plane.normal.x, plane.normal.y, plane.normal.z)};
+}
+
+/// Halves have the volume and area of CGAL's; \returns whether CGAL makes one.
+bool check_half(const tf::mesh& solid, sliced_surface theirs, const tf::oriented_plane& plane) {
+    namespace pmp = CGAL::Polygon_mesh_processing;
+    const tf::cut_result mine = tf::cut(solid, plane);
+    REQUIRE(mine.certificate);
+    try {
+        if (!pmp::clip(theirs, plane_of_cgal(plane), CGAL::parameters::clip_volume(true)) ||
+            !CGAL::is_closed(theirs))
+            return false;
+    } catch (const std::exception&) {  // of solids that meet themselves
+        return false;
+    }
+    const double whole = tf::signed_volume(solid), area = tf::surface_area(solid);
+    const double below = tf::signed_volume(mine.pieces[0].mesh);
+    CHECK(std::abs(below - pmp::volume(theirs)) <= 1e-12 * whole + 1e-13 * area);
+    CHECK(std::abs(tf::surface_area(mine.pieces[0].mesh) - pmp::area(theirs)) <= 1e-11 * area);
+    CHECK(std::abs(below + tf::signed_volume(mine.pieces[1].mesh) - whole) <= 1e-12 * whole);
+    return true;
+}
+
 slice_totals slices_of_cgal(const sliced_surface& mesh, const tf::oriented_plane& plane) {
     const CGAL::Polygon_mesh_slicer<sliced_surface, kernel> slicer(mesh);
-    const kernel::Plane_3 cut(kernel::Point_3(plane.at.x, plane.at.y, plane.at.z),
-                              kernel::Vector_3(plane.normal.x, plane.normal.y, plane.normal.z));
     std::vector<polyline> lines;
-    slicer(cut, std::back_inserter(lines));
+    slicer(plane_of_cgal(plane), std::back_inserter(lines));
     const tf::plane_frame frame = plane.frame();
     const auto flat = [&](const kernel::Point_3& p) {
         return tf::point2{frame.x.x * p.x() + frame.x.y * p.y() + frame.x.z * p.z(),
@@ -90,7 +119,9 @@ slice_totals slices_of_cgal(const sliced_surface& mesh, const tf::oriented_plane
     return made;
 }
 
-void check_sections(const tf::mesh& solid, std::uint64_t seed) {
+/// \returns how many halves were compared
+std::size_t check_sections(const tf::mesh& solid, std::uint64_t seed) {
+    std::size_t halves = 0;
     const sliced_surface theirs = sliced_surface_of(solid);
     const auto box = tf::bounding_box(solid.points);
     REQUIRE(box.has_value());
@@ -111,7 +142,9 @@ void check_sections(const tf::mesh& solid, std::uint64_t seed) {
         CHECK(mine.loops.size() == expected.count);
         CHECK(mine.layers[0].length == doctest::Approx(expected.length).epsilon(1e-12));
         CHECK(mine.layers[0].area == doctest::Approx(expected.area).epsilon(1e-12));
+        if (i % 4 == seed % 4) halves += check_half(solid, theirs, plane) ? 1 : 0;
     }
+    return halves;
 }
 
 }  // namespace
@@ -127,13 +160,16 @@ TEST_CASE("sections of solids are those of CGAL") {
                             {source.in(-2, 2), source.in(-2, 2), source.in(-2, 2)});
             solid = (i % 2 == 0 ? tf::subtract(solid, ball) : tf::unite(solid, ball)).value();
         }
-        check_sections(solid, seed);
+        CHECK(check_sections(solid, seed) > 2);
     }
 }
 
 TEST_CASE("sections of real solids are those of CGAL") {
     NEEDS_MODELS();
-    std::size_t tried = 0;
-    test::for_each_solid(4'000'000, [&](const tf::mesh& mesh) { check_sections(mesh, ++tried); });
+    std::size_t tried = 0, halves = 0;
+    test::for_each_solid(4'000'000,
+                         [&](const tf::mesh& mesh) { halves += check_sections(mesh, ++tried); });
     CHECK(tried > 20);
+    CHECK(halves > 50);
+    MESSAGE(halves << " halves of " << tried << " models");
 }

@@ -332,10 +332,19 @@ TEST_CASE("Faces that meet are left to do so, and no others are made to") {
 
 TEST_CASE("Nothing is made of nothing, and saying stop stops") {
     CHECK(tf::simplify(tf::mesh{}, 1.0).mesh.faces.empty());
-    const tf::simplify_result made =
-        tf::simplify(fine_torus(40), 0.1, {.progress = [](double done) { return done < 0.1; }});
-    CHECK(made.certificate.status == tf::status::cancelled);
-    CHECK(made.mesh.faces.empty());
+    for (const double stop : {0.1, 0.93}) {  // edges collapsed; surfaces looked at
+        const tf::simplify_result made = tf::simplify(
+            fine_torus(40), 0.1, {.progress = [&](double done) { return done < stop; }});
+        CHECK(made.certificate.status == tf::status::cancelled);
+        CHECK(made.mesh.faces.empty());
+    }
+    double last = 0.0;
+    (void)tf::simplify(fine_torus(40), 0.1, {.progress = [&](double done) {
+                           CHECK(done >= last);
+                           last = done;
+                           return true;
+                       }});
+    CHECK(last > 0.94);
 }
 
 TEST_CASE("Coordinates far from the origin cost accuracy that bounds know of") {

@@ -27,8 +27,7 @@ struct simplify_options {
     /// [F] or empty: edges between faces of different groups are borders of both.
     std::span<const std::uint32_t> face_groups{};
     /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
-    /// their corners at each of its ends are of one group. Of a file:
-    /// `carry_sources::corner_groups`.
+    /// their corners at each of its ends are of one group. `carry_sources` has those of a file.
     std::span<const std::uint32_t> corner_groups{};
     progress_callback progress{};
 };
