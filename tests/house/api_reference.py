@@ -192,11 +192,11 @@ def seen_by_doxygen(path):
         return "\n".join(module_seen(path))
     text, group = path.read_text(), GROUP_OF.get(public_name(path))
     if path.parent == C_HEADERS:
-        text = re.sub(r'(?m)^(extern "C" \{\n#endif)\n$',
-                      rf"\1 /** \\addtogroup c_{path.stem} {path.name}: {c_title(path.stem)}\n"
-                      "@ingroup in_c\n@{ */",
+        text = re.sub(r"(?s)\A(.*\n#include [^\n]+\n)\n",
+                      rf"\1/** \\addtogroup c_{path.stem} {path.name}: {c_title(path.stem)}\n"
+                      "@ingroup in_c\n@{ */\n",
                       text)
-        return text.replace("#ifdef __cplusplus\n}", "/** @} */\n#ifdef __cplusplus\n}")
+        return text + "/** @} */\n"
     if not group:
         return text
     title, room, _ = GROUPS[group]
@@ -298,6 +298,8 @@ def main():
     if not shutil.which("doxygen"):
         print("\n".join(wrong) or "skipped: no doxygen")
         return 1 if wrong else 77
+    if folder in (ROOT, *ROOT.parents):
+        sys.exit(f"{folder} has the sources: it would be emptied")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     pages = [START, *shown_at_start(), *links.documents(ROOT)]
