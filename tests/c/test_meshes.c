@@ -17,7 +17,7 @@ static void test_bad_arrays(void) {
     ENDS(TREEFORM_RANGE, "32 bits",
          treeform_cloud_create(cube_points, (size_t)-1, TREEFORM_COPY, &mesh));
     CHECK(mesh == NULL);
-    INVALID("mesh is null", treeform_mesh_arrays(NULL, NULL));
+    INVALID("result is null", treeform_mesh_arrays(NULL, NULL));
 }
 
 static void test_borrowed_and_copied(void) {

@@ -56,7 +56,7 @@ static void test_inside(void) {
     CHECK(winding[0] == 1 && winding[1] == 0);
     OK(treeform_count_inside_out(solid, counts));
     CHECK(counts[0] == 0);
-    INVALID("count is null", treeform_count_inside_out(solid, NULL));
+    INVALID("result is null", treeform_count_inside_out(solid, NULL));
     solids[0] = solid;
     OK(treeform_count_sides(points, 3, solids, 1, counts));
     CHECK(counts[0] == 1 && counts[1] == 1 && counts[2] == 1);

@@ -178,7 +178,7 @@ static void test_shared_weld(void) {
     OK(treeform_shared_weld_create(inputs, 1, &options, &weld));
     OK(treeform_shared_weld_scatter(weld, &tiles));
     CHECK(tiles > 1);
-    INVALID("tiles is null", treeform_shared_weld_scatter(weld, NULL));
+    INVALID("result is null", treeform_shared_weld_scatter(weld, NULL));
     INVALID("", treeform_shared_weld_tile(weld, tiles));
     INVALID("weld is null", treeform_shared_weld_tile(NULL, 0));
     treeform_free(weld);

@@ -1,5 +1,5 @@
-"""Which structs and enumerations of C++ are in C, where the names differ, and which functions are
-one call. All else follows from the headers: `c_language.py` says how."""
+"""Which structs and enumerations of C++ are in C, and where the names differ. All else follows from
+the headers: `c_language.py` says how."""
 
 from __future__ import annotations
 
@@ -184,6 +184,21 @@ BOUND = [
     Bound("file_weld_result", "weld_result", leave="file", names={"groups": "merged_groups"},
           counts={"group_of_point": "point_count", "first_of_group": "group_count"}),
     # streams.h
+    Bound("weld_stream_options", leave="las_scale las_offset shared step_done", custom={"+": [
+        Member("const char* format", "of the inputs; null: by content"),
+        Member("const char* removed", "write the dropped points to this file; or null"),
+        Member("const char* label", "write all points, with their group in this property; or null"),
+        Member("int32_t withhold", 'write all points, with the flag "withheld" of LAS'),
+        Member("void (*map)(const uint64_t* numbers, size_t count, void* data)",
+               "Called with the new numbers of the next input points, from the first to the last; or "
+               "null."),
+        Member("void* map_data"),
+        Member("const treeform_write_options* write", "how to write the output; or null"),
+        Member("const treeform_named_column* columns",
+               "[column_count] as in `treeform_read_options`"),
+        Member("size_t column_count"),
+        Member("int32_t mixed", "join LAS of other reference systems or time types, which are then "
+               "the first's")]}),
     Bound("weld_stream_result", custom={
         "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
                    for type, name, doc in (
@@ -336,127 +351,3 @@ LISTS = [
     List("double", "heights", "heights", "Numbers."),
     List("string", "strings", "values", "A list of words."),
 ]
-
-#: Headers of C++ that functions need beside those of the structs, by C header.
-INCLUDES = {"mesh": ["mesh/as_mesh.hpp", "mesh/cut.hpp"],
-            "nearness": ["mesh/distance.hpp", "mesh/point_location.hpp"],
-            "properties": ["mesh/boolean.hpp", "mesh/point_location.hpp", "mesh/predicates.hpp"],
-            "intersections": ["mesh/intersections.hpp"]}
-
-#: Functions that are one call. `$name` is an argument as C++ has it; without `$`, as it is in C.
-CALLS = {
-    # mesh.h
-    "treeform_mesh_is_cloud": 'glue::need(mesh, "mesh").prepared->is_cloud()',
-    "treeform_mesh_indexes_built": 'glue::need(mesh, "mesh").prepared->indexes_built()',
-    "treeform_select_faces": "tf::submesh($mesh, $faces).mesh",
-    "treeform_coordinate_step": "tf::coordinate_step(glue::view(mesh).points, $precision)",
-    # properties.h
-    "treeform_is_solid": "static_cast<bool>(tf::check_solid($mesh))",
-    "treeform_check_solid": "tf::check_solid($mesh, $progress)",
-    "treeform_count_topology":
-        "tf::count_topology(glue::view(mesh).points.size(), glue::view(mesh).faces)",
-    "treeform_find_defects": "tf::find_defects($mesh)",
-    "treeform_closing_tolerance":
-        "tf::closing_tolerance(glue::view(mesh), $tolerances).value_or(count)",
-    "treeform_same_triangles":
-        "tf::same_triangles(glue::view(a), glue::view(b), "
-        "any_order != 0 ? tf::face_order::any : tf::face_order::kept)",
-    "treeform_feature_at_face":
-        "glue::as_list(tf::feature_at(glue::view(mesh), $kind, face, $options))",
-    "treeform_fit_feature": "glue::as_list(tf::fit_feature(glue::view(mesh), $kind, $faces))",
-    "treeform_orient2d": 'tf::orient2d(glue::finite2(a, "a"), glue::finite2(b, "b"), '
-                         'glue::finite2(c, "c"))',
-    "treeform_orient3d": 'tf::orient3d(glue::finite(a, "a"), glue::finite(b, "b"), '
-                         'glue::finite(c, "c"), glue::finite(d, "d"))',
-    "treeform_compare_distance":
-        'tf::compare_distance(glue::finite(a, "a"), glue::finite(b, "b"), glue::finite(c, "c"), '
-        'glue::finite(d, "d"))',
-    # intersections.h
-    "treeform_group_pairs": "tf::group_pairs(glue::view(mesh), glue::pairs_of(mesh, pairs, count))",
-    "treeform_intersections": "tf::mesh_intersections($a, $b, $options)",
-    "treeform_intersects": "tf::intersects($a, $b, tf::mesh_positions{$move_a, $move_b})",
-    "treeform_intersection_curves":
-        "tf::intersection_curves(glue::view(mesh), glue::pairs_of(mesh, pairs, count))",
-    "treeform_intersection_paths":
-        "tf::intersection_paths(glue::view(mesh), glue::pairs_of(mesh, pairs, count))",
-    "treeform_write_curves":
-        "tf::write_curves($path, glue::view(mesh), glue::pairs_of(mesh, pairs, count), {}, "
-        "glue::text(format))",
-    "treeform_self_intersections_of_file": "tf::self_intersections_of_file($path, $options)",
-    "treeform_is_searched_in_tiles": "tf::stream_search::accepts($path, glue::text(format))",
-    # solids.h
-    "treeform_boolean":
-        "tf::boolean($operands, tf::boolean_expression($expression, count), $options)",
-    "treeform_boolean_named":
-        "tf::boolean($operands, tf::boolean_expression($expression, $names), $options)",
-    "treeform_names_in": "tf::boolean_expression::names_in($expression)",
-    "treeform_unite": "tf::unite($a, $b, $options)",
-    "treeform_subtract": "tf::subtract($a, $b, $options)",
-    "treeform_intersection": "tf::intersection($a, $b, $options)",
-    "treeform_symmetric_difference": "tf::symmetric_difference($a, $b, $options)",
-    "treeform_unite_all":
-        "tf::boolean($operands, tf::boolean_expression::union_of(count), $options)",
-    "treeform_clip":
-        "tf::clip($operands, sheet, tf::boolean_expression($expression, count), $options)",
-    "treeform_split": "tf::split($operands, $options)",
-    "treeform_resolve_self_intersections":
-        "tf::resolve_self_intersections($mesh, $mode, $options)",
-    "treeform_repair": "tf::repair($mesh, $options)",
-    "treeform_find_solid_defects": "tf::find_solid_defects($mesh, $progress)",
-    "treeform_wrap": "tf::wrap($mesh, size, $options)",
-    # cuts.h
-    "treeform_section":
-        "tf::section($mesh, glue::plane(plane), glue::heights(heights, count), {$progress})",
-    "treeform_layer_heights":
-        "glue::plane(plane).layer_heights(glue::view(mesh).points, thickness)",
-    "treeform_cut": "tf::cut($mesh, glue::plane(plane), glue::heights(heights, count), $options)",
-    "treeform_cut_to_fit": "tf::cut_to_fit($mesh, $size, $options)",
-    "treeform_components": "tf::components($mesh, {.min_volume = min_volume, "
-                           ".largest = largest != 0 ? largest : SIZE_MAX})",
-    "treeform_transform_mesh": "tf::transform_mesh($mesh, $matrix)",
-    # shapes.h
-    "treeform_offset": "tf::offset($mesh, distance, $options)",
-    "treeform_hollow":
-        "tf::hollow($mesh, wall, glue::same_as<tf::drain>($drains), $options)",
-    "treeform_thicken": "tf::thicken($mesh, thickness, $side, $options)",
-    "treeform_simplify": "tf::simplify($mesh, max_distance, $options)",
-    "treeform_wall_thickness": "tf::wall_thickness($mesh, $options)",
-    "treeform_find_oriented_box": "tf::find_oriented_box(glue::view(mesh).points)",
-    "treeform_isolines": "tf::isolines($mesh, glue::array(values, glue::view(mesh).points.size(), \"values\"), $levels, {$progress})",
-    "treeform_cut_along":
-        "tf::cut_along($mesh, glue::array(values, glue::view(mesh).points.size(), \"values\"), $levels, $options)",
-    # nearness.h
-    "treeform_distance": "tf::distance($a, $b, tf::distance_options{$move_a, $move_b})",
-    "treeform_measure": "tf::measure($a, $b, $options)",
-    "treeform_relate":
-        "static_cast<treeform_mesh_relation>(tf::relation($a, $b, {.vertices = $vertices}).relation)",
-    "treeform_count_inside_out": "tf::count_inside_out($mesh)",
-    "treeform_deviation": "tf::deviation($a, $fixed, $options)",
-    # weld.h
-    "treeform_count_nearly_equal": "tf::count_nearly_equal(glue::view(mesh).points, distance)",
-    # placement.h
-    **{f"treeform_{verb}": f"tf::{verb}($moving, $fixed, glue::read_as<tf::{verb}_options>(options))"
-       for verb in ("mate", "separate", "measure_among")},
-    "treeform_slide":
-        "tf::slide($moving, $fixed, $direction, glue::read_as<tf::slide_options>(options))",
-    "treeform_drop":
-        "fixed_count == 0 ? tf::drop($moving, glue::drop_options_of(options, direction)) "
-        ": tf::drop($moving, $fixed, glue::drop_options_of(options, direction))",
-    "treeform_turn": "tf::turn($moving, $fixed, {$origin, $direction}, "
-                     "glue::read_as<tf::turn_options>(options))",
-    "treeform_mate_features":
-        'tf::mate_features($moving, $fixed, glue::feature_of(of_moving, "of_moving"), '
-        'glue::feature_of(of_fixed, "of_fixed"), '
-        "glue::read_as<tf::feature_mate_options>(options))",
-    "treeform_time_of_impact": "tf::time_of_impact($a, $b, $motion, $options)",
-    # assembly.h
-    "treeform_clash": "tf::clash($parts, $options)",
-    # files.h
-    "treeform_read": "tf::read($path, glue::text(format))",
-    "treeform_file_copy": "tf::mesh_file($file)",
-    "treeform_file_split_polygons": "$file.split_polygons()",
-    "treeform_file_round_to_las": "tf::round_to_las($file)",
-    "treeform_file_round_to_float32": "$file.round_to_float32()",
-    "treeform_usable_part": "tf::usable_part($file.mesh, $file.stored_face, $options)",
-    "treeform_files_of": "tf::files_of($paths, $content)",
-}

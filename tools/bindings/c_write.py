@@ -7,13 +7,17 @@ import re
 import subprocess
 import textwrap
 
+from c_functions import Functions
 from c_language import Bound, Language, List, Member
+from functions import Function
 from headers import ROOT, Enum
 
 INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
+#: Words of C++ that are others in C.
+IN_C = {"operand_element::none": "TREEFORM_NONE", "prepared_mesh::cloud": "treeform_cloud_create",
+        "carry_sources": "treeform_carry"}
 _BLOCK = re.compile(r"^// made of [^\n]+:\n((?://   [^\n]+\n)+).*?^// end\n", re.M | re.S)
-SCALARS = ["double", "int32_t", "uint32_t", "uint64_t", "size_t"]
 _STRUCT = re.compile(r"^typedef struct (treeform_\w+) \{\n(.*?)^\} \1;", re.M | re.S)
 
 
@@ -39,16 +43,17 @@ def names_of(block: re.Match[str]) -> list[str]:
 
 class Writer:
     def __init__(self, language: Language, lists: list[List],
-                 enums: dict[str, tuple[str, str | dict[str, str]]], calls: dict[str, str],
-                 includes: dict[str, list[str]]) -> None:
+                 enums: dict[str, tuple[str, str | dict[str, str]]],
+                 functions: dict[str, list[Function]]) -> None:
         self.language, self.enums = language, enums
-        self.calls, self.includes = calls, includes
+        self.functions = Functions(language, lists, functions)
         self.lists = {one.of: one for one in lists}
         self.order: dict[str, list[str]] = {}  #: members of structs as they stand now
-        self.where: dict[str, str] = {}  #: the header of each name of a block
         self.fields: set[str] = set()  #: of the struct that is written
         self.values = {name for one in language.enums.values() for name, _ in one.values}
-        self.known = set(exported()) | {one.c for one in language.bound.values()}
+        self.known = {name for path in INCLUDE.glob("*.h")
+                      for name in re.findall(r"\b(treeform_\w+)\(", path.read_text())}
+        self.known |= {one.c for one in language.bound.values()}
 
     # ---- words ----
 
@@ -61,9 +66,10 @@ class Writer:
                 return f"`{bound.c}`"
             there = f"treeform_{word}" in self.known and word not in self.fields | self.values
             return f"`treeform_{word}`" if there else found.group(0)
-        text = re.sub(r"`(\w+)`", name, text)
-        text = re.sub(r"; none( for|:)", r"; `TREEFORM_NONE`\1", text)
-        return text.replace("`operand_element::none`", "`TREEFORM_NONE`")
+        text = re.sub(r"; none( for|:)", r"; `TREEFORM_NONE`\1", re.sub(r"`(\w+)`", name, text))
+        for cpp, c in IN_C.items():
+            text = text.replace(f"`{cpp}`", f"`{c}`")
+        return text
 
     # ---- headers ----
 
@@ -133,6 +139,8 @@ class Writer:
         return text + "};\n"
 
     def thing(self, name: str) -> str:
+        if name.endswith(")"):
+            return self.function(name)
         if name in self.language.bound:
             return self.struct(self.language.bound[name])
         if name in self.enums:
@@ -140,15 +148,27 @@ class Writer:
         return self.list_struct(next(one for one in self.lists.values()
                                      if one.c == "treeform_" + name))
 
+    def function(self, entry: str) -> str:
+        """Its declaration, and what C++ says about it."""
+        _, it = self.functions.find(entry)
+        self.fields = {name for _, name, _ in it.parameters}
+        said = it.doc or next(one.doc for one in self.functions.functions[it.name] if one.doc)
+        if it.returns.startswith("optional<"):
+            said = re.sub(r"\b([Nn])one (?=when|where)", r"\1ull ", said)
+        if ("points_view", "points", False) in it.parameters:
+            said = said.replace("`points`", "`mesh`")
+        return f"{comment(self.words(said))}TREEFORM_C_API {self.functions.prototype(entry)};\n"
+
     def header_of(self, name: str) -> str:
+        if name.endswith(")"):
+            return self.functions.find(name)[1].header
         for all in (self.language.structs, self.language.enums):
             if name in all:
                 return all[name].header
         return ""
 
     def block(self, names: list[str]) -> str:
-        of = sorted({self.header_of(name) for name in names} - {""})
-        text = f"// made of {' '.join(f'<{one}>' for one in of) or 'lists'}:\n"
+        text = "// made of the headers of C++:\n"
         text += "".join(f"//   {line}\n" for line in textwrap.wrap(" ".join(names), 90))
         return text + "\n".join(self.thing(name) for name in names) + "// end\n"
 
@@ -159,7 +179,6 @@ class Writer:
 
         def made(found: re.Match[str]) -> str:
             names = names_of(found)
-            self.where |= {name: path.stem for name in names}
             return self.block(names)
         return formatted(_BLOCK.sub(made, text), f"tools/c/include/treeform/c/{path.name}")
 
@@ -170,7 +189,7 @@ class Writer:
                 "of C++, and options read.\n\n")
         headers = sorted({self.header_of(name) for name in self.language.bound})
         text += "".join(f"#include <treeform/{one}>\n" for one in headers)
-        text += "\n#include <tools/c/glue.hpp>\n\nnamespace glue {\n\n"
+        text += "\n#include <tools/c/handles.hpp>\n\nnamespace glue {\n\n"
         for bound in self.language.bound.values():
             if bound.of:
                 text += self.read_as(bound)
@@ -251,82 +270,13 @@ class Writer:
             f"static_assert({constant} == static_cast<int>(tf::{name}::{value}));\n"
             for name in names if name in self.enums
             for constant, (value, _) in zip(self.constants(name), self.language.enums[name].values))
-        calls = [self.call(*found) for found in prototypes(text) if found[0] in self.calls]
+        calls = [name for name in names if name.endswith(")")]
+        headers = {self.header_of(name) for name in calls}
+        if (ROOT / f"tools/c/{stem}.hpp").exists():
+            headers.add(f"tools/c/{stem}.hpp")
         result = f"// Made by tools/bindings of {stem}.h and the headers of C++: see its README.\n"
-        result += "".join(f"#include <treeform/{one}>\n" for one in self.includes.get(stem, []))
-        result += "#include <tools/c/made/structs.hpp>\n"
+        result += "".join(f"#include <{'' if one.startswith('tools/') else 'treeform/'}{one}>\n"
+                          for one in sorted({*headers, "tools/c/made/structs.hpp"}, reverse=True))
         result += "\nnamespace tf = treeform;\n\n" + constants + "\n"
-        return formatted(result + "\n".join(parts + calls), f"tools/c/made/{stem}.cpp")
-
-    # ---- functions ----
-
-    def call(self, name: str, parameters: list[tuple[str, str]]) -> str:
-        expression = self.calls[name]
-        out_type, out = parameters[-1]
-        types = dict((n, t) for t, n in parameters)
-
-        def argument(found: re.Match[str]) -> str:
-            return self.argument(found.group(1), types, parameters)
-        value = re.sub(r"\$(\w+)", argument, expression)
-        declared = ", ".join(re.sub(r"(\[\d*\])? (\w+)$", r" \2\1", f"{t} {n}")
-                             for t, n in parameters)
-        text = f"treeform_code {name}({declared}) {{\nreturn glue::guard([&] {{\n"
-        plain = out_type[:-1] in SCALARS or out_type[:-1] in [c for c, _ in self.enums.values()]
-        if out_type.endswith("**"):
-            text += f"glue::start({out});\nreturn glue::give({value}, {out});\n"
-        elif plain and out_type.endswith("*"):
-            text += (f"(void)glue::need({out}, \"{out}\");\n*{out} = {value};\n")
-        else:
-            text += f"{value};\n"
-        return text + "});\n}\n"
-
-    def argument(self, name: str, types: dict[str, str], parameters: list[tuple[str, str]]) -> str:
-        type = types[name]
-        at = [n for _, n in parameters].index(name)
-        after = parameters[at + 1] if at + 1 < len(parameters) else ("", "")
-        counts = [n for t, n in parameters[at + 1:] if t == "size_t"]
-        counted = bool(counts)
-        if type == "const treeform_mesh*":
-            return f'glue::ref({name}, "{name}")'
-        if type == "const treeform_mesh* const*":
-            return f'glue::refs({name}, {counts[0]}, "{name}")'
-        if type == "const char* const*":
-            return f'glue::texts({name}, {counts[0]}, "{name}")'
-        if type == "const char*":
-            return f'std::string(&glue::need({name}, "{name}"))'
-        if type in ("const treeform_file*", "treeform_file*"):
-            return f'glue::need({name}, "{name}").content'
-        if found := re.fullmatch(r"const (treeform_\w+_options)\*", type):
-            return f"glue::read({name})"
-        if type == "const double[3]":
-            return f'glue::point({name}, "{name}")'
-        if type == "treeform_progress":
-            return f"glue::progress({name}, {after[1]})"
-        for cpp, (c, _) in self.enums.items():
-            if c == type and c.startswith("treeform_"):
-                count = len(self.language.enums[cpp].values)
-                return f'glue::choice<tf::{cpp}>({name}, {count}, "{name}")'
-        if type == "const double*" and not counted:
-            return f"glue::matrix({name})"
-        if type.startswith("const ") and type.endswith("*") and counted:
-            return f'glue::array({name}, {counts[0]}, "{name}")'
-        raise ValueError(f"{name}: {type}: no such argument yet")
-
-
-def prototypes(text: str) -> list[tuple[str, list[tuple[str, str]]]]:
-    """Functions of a C header: names, and the types and names of their parameters."""
-    text = re.sub(r"//.*", "", text)
-    found = []
-    for name, inside in re.findall(r"TREEFORM_C_API treeform_code (treeform_\w+)\((.*?)\);", text,
-                                   re.S):
-        parameters = []
-        for one in inside.split(","):
-            one = " ".join(one.split())
-            type, n, size = re.fullmatch(r"(.+?)\s*\b(\w+)((?:\[\d*\])?)", one).groups()
-            parameters.append((type + size, n))
-        found.append((name, parameters))
-    return found
-
-
-def exported() -> list[str]:
-    return re.findall(r"^ +(treeform_\w+);$", (ROOT / "tools/c/exports.map").read_text(), re.M)
+        parts += [self.functions.body(name) for name in calls]
+        return formatted(result + "\n".join(parts), f"tools/c/made/{stem}.cpp")

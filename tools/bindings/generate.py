@@ -12,6 +12,7 @@ import shutil
 import sys
 
 import c_surface
+import functions
 import python_language
 import python_surface
 import python_write
@@ -24,7 +25,7 @@ from headers import ROOT, Enum, Field, Struct, read_all
 def c_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pathlib.Path, str]:
     names = {cpp: c for cpp, (c, _) in c_surface.ENUMS.items()}
     writer = Writer(Language(structs, enums, c_surface.BOUND, names), c_surface.LISTS,
-                    c_surface.ENUMS, c_surface.CALLS, c_surface.INCLUDES)
+                    c_surface.ENUMS, functions.read_all())
     made: dict[pathlib.Path, str] = {}
     for path in sorted(INCLUDE.glob("*.h")):
         made[path] = writer.header(path)

@@ -1,7 +1,9 @@
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tree/version.hpp>
 
-#include <tools/c/glue.hpp>
+#include <tools/c/handles.hpp>
 
 #include <algorithm>
 #include <array>
@@ -84,6 +86,28 @@ tf::oriented_plane plane(const treeform_plane* plane) {
     return {point(plane->at, "at"), point(plane->normal, "normal")};
 }
 
+tf::transform<3> finite_matrix(const double* data) {
+    const tf::transform<3> by = matrix(&need(data, "matrix"));
+    if (!by.finite()) throw std::invalid_argument("the matrix is not finite");
+    return by;
+}
+
+std::vector<tf::named_column> columns_of(const treeform_named_column* columns, std::size_t count,
+                                         const char* what) {
+    std::vector<tf::named_column> all;
+    for (const treeform_named_column& one : array(columns, count, what))
+        all.push_back({&need(one.name, what), &need(one.source, what)});
+    return all;
+}
+
+std::vector<tf::weld_condition> conditions(const treeform_weld_condition* same, std::size_t count,
+                                           const char* what) {
+    std::vector<tf::weld_condition> result;
+    for (const treeform_weld_condition& one : array(same, count, what))
+        result.push_back({&need(one.property, "a property of same"), one.tolerance});
+    return result;
+}
+
 std::vector<double> heights(const double* heights, std::size_t count) {
     if (!heights) return {0.0};
     const std::span<const double> all = array(heights, count, "heights");
@@ -151,10 +175,23 @@ treeform_code code_of(const tf::certificate& certificate) {
     return TREEFORM_NOT_CERTIFIED;
 }
 
-tf::prepared_mesh borrow(const treeform_mesh& mesh) {
-    const tf::mesh_view view = mesh.prepared->view();
-    return mesh.prepared->is_cloud() ? tf::prepared_mesh::borrow_cloud(view.points)
-                                     : tf::prepared_mesh::borrow(view);
+tf::mesh_view finite_view(const treeform_mesh* mesh) {
+    const tf::mesh_view all = view(mesh);
+    if (const auto bad = tf::find_defects(all).nonfinite_faces; !bad.empty())
+        throw std::invalid_argument("face " + std::to_string(bad[0]) +
+                                    " has a corner that is not finite");
+    return all;
+}
+
+const treeform_mesh* const* handles(keeper& kept, const std::vector<tf::prepared_mesh>& row) {
+    auto& handles = kept.keep(std::vector<treeform_mesh>(row.size()));
+    auto& pointers = kept.keep(std::vector<const treeform_mesh*>());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        handles[i].prepared = &row[i];
+        handles[i].set = row.data();
+        pointers.push_back(&handles[i]);
+    }
+    return pointers.data();
 }
 
 tf::mesh_ref ref(const treeform_mesh* mesh, const char* name) {
@@ -207,13 +244,6 @@ const treeform_file* keep(keeper& owner, tf::mesh_file&& file) {
     return &owner.keep(treeform_file{nullptr, std::move(file)});
 }
 
-treeform_code give(tf::mesh_file&& file, treeform_file** out) {
-    auto made = make<treeform_file>();
-    made->value.content = std::move(file);
-    give(std::move(made), out);
-    return TREEFORM_OK;
-}
-
 }  // namespace glue
 
 struct treeform_thread_limit {
@@ -229,28 +259,11 @@ void treeform_set_progress(treeform_progress progress, void* data) {
 }
 
 const char* treeform_code_name(treeform_code code) {
-    switch (code) {
-        case TREEFORM_OK:
-            return "ok";
-        case TREEFORM_NOT_CERTIFIED:
-            return "not certified";
-        case TREEFORM_NO_PLACE:
-            return "no place";
-        case TREEFORM_INVALID:
-            return "invalid";
-        case TREEFORM_FILE:
-            return "file";
-        case TREEFORM_MEMORY:
-            return "memory";
-        case TREEFORM_RANGE:
-            return "range";
-        case TREEFORM_CANCELLED:
-            return "cancelled";
-        case TREEFORM_INTERNAL:
-            return "internal";
-        default:
-            return "unknown";
-    }
+    constexpr std::array names{"internal", "cancelled", "range",         "memory",  "file",
+                               "invalid",  "ok",        "not certified", "no place"};
+    return code < TREEFORM_INTERNAL || code > TREEFORM_NO_PLACE
+               ? "unknown"
+               : names[static_cast<std::size_t>(code - TREEFORM_INTERNAL)];
 }
 
 void treeform_free(void* what) {
@@ -270,6 +283,15 @@ treeform_code treeform_limit_threads(uint32_t threads, treeform_thread_limit** l
         glue::start(limit);
         auto made = glue::make<treeform_thread_limit>();
         made->value.scope.emplace(threads);
-        glue::give(std::move(made), limit);
+        return glue::give(std::move(made), limit);
     });
 }
+
+uint64_t treeform_default_memory(void) {
+    std::uint64_t bytes = 0;
+    const treeform_code code =
+        glue::guard([&] { bytes = treeform::weld_stream_options::default_memory(); });
+    return code == TREEFORM_OK ? bytes : 0;
+}
+
+int32_t treeform_reads_scenes(void) { return treeform::reads_scenes(); }

@@ -71,14 +71,18 @@ struct answer final : keeper {
 };
 
 template <class C>
-[[nodiscard]] std::unique_ptr<answer<C>> make() {
+using answer_of = std::unique_ptr<answer<C>>;
+
+template <class C>
+[[nodiscard]] answer_of<C> make() {
     return std::make_unique<answer<C>>();
 }
 
 /// Hands it out.
 template <class C>
-void give(std::unique_ptr<answer<C>> made, C** out) {
+treeform_code give(answer_of<C> made, C** out) {
     *out = &made.release()->value;
+    return TREEFORM_OK;
 }
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -133,19 +137,6 @@ template <class T>
     return {data, count};
 }
 
-/// Three doubles are a point, three numbers a face: the arrays are used as they are.
-[[nodiscard]] inline tf::points_view points(const double* data, std::size_t count,
-                                            const char* name) {
-    static_assert(sizeof(tf::point3) == 3 * sizeof(double));
-    (void)array(data, count, name);
-    return {reinterpret_cast<const tf::point3*>(data), count};
-}
-[[nodiscard]] inline std::span<const tf::face> faces(const std::uint32_t* data, std::size_t count,
-                                                     const char* name) {
-    static_assert(sizeof(tf::face) == 3 * sizeof(std::uint32_t));
-    (void)array(data, count, name);
-    return {reinterpret_cast<const tf::face*>(data), count};
-}
 [[nodiscard]] inline tf::point3 point(const double* data, const char* name) {
     (void)need(data, name);
     return {data[0], data[1], data[2]};
@@ -156,6 +147,8 @@ template <class T>
     if (data) std::memcpy(result.rows.data(), data, sizeof result.rows);
     return result;
 }
+/// One that is there.
+[[nodiscard]] tf::transform<3> finite_matrix(const double* data);
 [[nodiscard]] inline std::optional<double> given(double value) {
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
@@ -176,6 +169,7 @@ template <class T>
 [[nodiscard]] std::vector<double> heights(const double* heights, std::size_t count);
 template <class T, class C>  // of the same bytes
 [[nodiscard]] std::span<const T> same_as(std::span<const C> all) {
+    static_assert(sizeof(C) == sizeof(T) && alignof(C) == alignof(T));
     return {reinterpret_cast<const T*>(all.data()), all.size()};
 }
 /// Pairs of faces of a mesh, all of them there.
@@ -191,12 +185,26 @@ template <class T, class C>  // of the same bytes
     if (!three) return std::nullopt;
     return std::array{three[0], three[1], three[2]};
 }
-/// Rows of equal numbers as structs of them.
+/// Rows of equal numbers, or structs of C, as structs of them.
 template <class Row, class T>
 [[nodiscard]] std::span<const Row> rows_of(const T* data, std::size_t count, const char* name) {
     static_assert(sizeof(Row) % sizeof(T) == 0 && alignof(Row) == alignof(T));
     (void)array(data, count, name);
     return {reinterpret_cast<const Row*>(data), count};
+}
+[[nodiscard]] inline tf::points_view points(const double* data, std::size_t count,
+                                            const char* name) {
+    return rows_of<tf::point3>(data, count, name);
+}
+[[nodiscard]] inline std::span<const tf::face> faces(const std::uint32_t* data, std::size_t count,
+                                                     const char* name) {
+    return rows_of<tf::face>(data, count, name);
+}
+/// The same, copied.
+template <class Row, class T>
+[[nodiscard]] std::vector<Row> copied_as(const T* data, std::size_t count, const char* name) {
+    const auto all = rows_of<Row>(data, count, name);
+    return {all.begin(), all.end()};
 }
 [[nodiscard]] tf::pair_kinds kinds(std::uint32_t bits);
 /// Null, and null among them, is an error that says `what`.
@@ -212,12 +220,6 @@ template <class E>
         throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
                                     ", which is none of its values");
     return static_cast<E>(value);
-}
-[[nodiscard]] inline tf::precision precision(treeform_precision value) {
-    return choice<tf::precision>(value, 2, "precision");
-}
-[[nodiscard]] inline tf::vertex_identity vertices(treeform_vertices value) {
-    return choice<tf::vertex_identity>(value, 2, "vertices");
 }
 [[nodiscard]] inline std::size_t limit(std::uint64_t value) {
     return static_cast<std::size_t>(value);
@@ -326,19 +328,10 @@ template <class T>
             reinterpret_cast<const std::uint32_t*>(mesh.faces.data()), mesh.faces.size()};
 }
 inline constexpr tf::point3 nowhere{not_known, not_known, not_known};
-inline void copy(const tf::point3& from, double* to) {
-    to[0] = from.x;
-    to[1] = from.y;
-    to[2] = from.z;
-}
-inline void copy(const tf::transform<3>& from, double* to) {
-    std::memcpy(to, from.rows.data(), sizeof from.rows);
-}
-inline void copy(const std::array<double, 3>& from, double* to) {
-    std::memcpy(to, from.data(), sizeof from);
-}
-inline void copy(const std::array<std::array<double, 3>, 3>& from, double* to) {
-    std::memcpy(to, from.data(), sizeof from);
+template <class T>  // of doubles
+void copy(const T& from, double* to) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::memcpy(to, &from, sizeof from);
 }
 [[nodiscard]] inline treeform_box copied(const tf::box3& b) {
     treeform_box result;
@@ -372,127 +365,48 @@ template <class T>
     if (one) made.push_back(std::move(*one));
     return made;
 }
+/// Hands out what a function of C++ returned.
+template <class C, class T>
+C& hand_out(T&& found, C** out) {
+    auto made = make<C>();
+    fill(*made, made->keep(std::forward<T>(found)), made->value);
+    return *(*out = &made.release()->value);
+}
+/// What an answer was made of.
+template <class T, class C>
+[[nodiscard]] T& kept_in(const C& given, const char* name) {
+    auto* const owner = dynamic_cast<answer<C>*>(static_cast<owned*>(given.owner));
+    if (!owner) throw std::invalid_argument(std::string(name) + " is none of this library");
+    return *static_cast<T*>(owner->kept[0].get());
+}
+
 /// The code of a result with this certificate.
 ///
 /// \throws cancelled where that is how it ended
 [[nodiscard]] treeform_code code_of(const tf::certificate& certificate);
 
-/// Hands out what a function of C++ returned; nothing for an optional that is empty.
+/// The same; nothing for an optional that is empty. What a handle holds becomes one.
 ///
 /// \throws cancelled where that is how it ended
 template <class C, class T>
 [[nodiscard]] treeform_code give(T&& found, C** out) {
-    auto made = make<C>();
-    const auto& kept = made->keep(std::forward<T>(found));
     treeform_code code = TREEFORM_OK;
-    if constexpr (requires { kept.certificate; }) code = code_of(kept.certificate);
-    if constexpr (requires { kept.status; }) check(kept.status);
-    if constexpr (requires { kept.relation.status; }) check(kept.relation.status);
-    if constexpr (requires { kept.found.status; }) check(kept.found.status);
-    fill(*made, kept, made->value);
-    give(std::move(made), out);
-    return code;
+    if constexpr (requires { found.certificate; }) code = code_of(found.certificate);
+    if constexpr (requires { found.status; }) check(found.status);
+    if constexpr (requires { found.relation.status; }) check(found.relation.status);
+    if constexpr (requires { found.found.status; }) check(found.found.status);
+    if constexpr (requires { (*out)->content; }) {
+        auto made = make<C>();
+        made->value.content = std::forward<T>(found);
+        return give(std::move(made), out);
+    } else {
+        hand_out(std::forward<T>(found), out);
+        return code;
+    }
 }
 template <class C, class T>
 [[nodiscard]] treeform_code give(std::optional<T>&& found, C** out) {
     return found ? give(std::move(*found), out) : TREEFORM_OK;
 }
-
-}  // namespace glue
-
-struct treeform_mesh {
-    void* owner;
-    treeform::mesh arrays;                    ///< where they are not the caller's
-    treeform::prepared_mesh mine;             ///< unless it is one of a set
-    const treeform::prepared_mesh* prepared;  ///< `mine`, or that of a set
-    const void* set;
-    bool one_use;
-};
-
-struct treeform_file {
-    void* owner;
-    treeform::mesh_file content;
-};
-
-namespace glue {
-
-/// `ask(mesh)` with what keeps its indexes, or with a view that does not.
-template <class Ask>
-[[nodiscard]] auto asked(const treeform_mesh* mesh, const Ask& ask) {
-    const treeform_mesh& m = need(mesh, "mesh");
-    return m.one_use ? ask(m.prepared->view()) : ask(*m.prepared);
-}
-template <class Ask>
-[[nodiscard]] auto asked(const treeform_mesh* first, const treeform_mesh* second, const Ask& ask) {
-    const treeform_mesh& a = need(first, "the first mesh");
-    const treeform_mesh& b = need(second, "the second mesh");
-    return a.one_use && b.one_use ? ask(a.prepared->view(), b.prepared->view())
-                                  : ask(*a.prepared, *b.prepared);
-}
-/// `ask(mesh, begin, end)` for pieces of `count` questions; a piece that is not all of them finds
-/// the indexes that the first one has built.
-template <class Ask>
-void asked_in_pieces(const treeform_mesh* mesh, std::size_t count, const Ask& ask) {
-    if (thread_progress())
-        in_pieces(count, [&, &m = *need(mesh, "mesh").prepared](
-                             std::size_t begin, std::size_t end) { ask(m, begin, end); });
-    else
-        asked(mesh, [&](const auto& m) { ask(m, std::size_t{0}, count); });
-}
-template <class Ask>
-void asked_in_pieces(const treeform_mesh* first, const treeform_mesh* second, std::size_t count,
-                     const Ask& ask) {
-    const auto& a = *need(first, "the first mesh").prepared;
-    const auto& b = *need(second, "the second mesh").prepared;
-    if (thread_progress())
-        in_pieces(count, [&](std::size_t begin, std::size_t end) { ask(a, b, begin, end); });
-    else
-        asked(first, second,
-              [&](const auto& x, const auto& y) { ask(x, y, std::size_t{0}, count); });
-}
-[[nodiscard]] inline tf::mesh_view view(const treeform_mesh* mesh) {
-    return need(mesh, "mesh").prepared->view();
-}
-
-/// Another handle on the arrays of a mesh or cloud.
-[[nodiscard]] tf::prepared_mesh borrow(const treeform_mesh& mesh);
-
-[[nodiscard]] tf::mesh_refs refs(const treeform_mesh* const* meshes, std::size_t count,
-                                 const char* name);
-[[nodiscard]] std::vector<tf::mesh_view> views(const treeform_mesh* const* meshes,
-                                               std::size_t count, const char* name);
-
-[[nodiscard]] inline std::vector<tf::face_pair> pairs_of(const treeform_mesh* mesh,
-                                                         const treeform_face_pair* pairs,
-                                                         std::size_t count) {
-    return pairs_of(view(mesh).faces.size(), pairs, count);
-}
-
-/// A mesh as functions take it: what keeps its indexes, or a view that does not.
-[[nodiscard]] tf::mesh_ref ref(const treeform_mesh* mesh, const char* name);
-
-/// A mesh that was made, and perhaps what its elements come from.
-struct made_mesh {
-    tf::mesh mesh;
-    std::vector<std::uint32_t> index;
-};
-void fill(keeper& kept, const made_mesh& from, treeform_made_mesh& to);
-void fill(keeper& kept, const tf::mesh& from, treeform_made_mesh& to);
-[[nodiscard]] const double* positions_of(keeper& kept, const std::vector<tf::curve_point>& from);
-/// [F] numbers in the file, counting polygons.
-[[nodiscard]] const std::vector<std::uint32_t>& faces_in_file(keeper& kept,
-                                                              const tf::usable_mesh& from);
-
-/// A file within a result.
-[[nodiscard]] const treeform_file* keep(keeper& owner, tf::mesh_file&& file);
-treeform_code give(tf::mesh_file&& file, treeform_file** out);
-treeform_code give(tf::placement&& at, treeform_placement** out);
-treeform_code give(tf::turn_result&& turned, treeform_placement** out);
-treeform_code give(tf::feature_mating&& mated, treeform_placement** out);
-[[nodiscard]] tf::drop_options drop_options_of(const treeform_place_options* options,
-                                               const double* direction);
-[[nodiscard]] tf::mesh_feature feature_of(const treeform_feature* from, const char* name);
-/// Nothing where `out` is null.
-void give_written(tf::write_result from, treeform_written** out);
 
 }  // namespace glue

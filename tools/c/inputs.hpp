@@ -5,7 +5,7 @@
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 
-#include <tools/c/glue.hpp>
+#include <tools/c/handles.hpp>
 
 #include <deque>
 
@@ -14,24 +14,39 @@ namespace glue {
 /// A file without the faces that no operation takes.
 class usable_input {
   public:
-    explicit usable_input(const tf::mesh_file& file) : file_(file) {
-        triangle_of_face_ = tf::drop_unusable_faces(file_.mesh);
-        dropped_ = file.mesh.faces.size() - file_.mesh.faces.size();
-    }
+    explicit usable_input(const tf::mesh_file& file)
+        : file_(file),
+          triangle_of_face_(tf::drop_unusable_faces(file_.mesh)),
+          dropped_(file.mesh.faces.size() - file_.mesh.faces.size()) {}
     [[nodiscard]] tf::carry_source source() const { return {&file_, triangle_of_face_}; }
     [[nodiscard]] std::size_t dropped() const { return dropped_; }  ///< faces
 
   private:
     tf::mesh_file file_;
     std::vector<std::uint32_t> triangle_of_face_;
-    std::size_t dropped_ = 0;
+    std::size_t dropped_;
 };
 
 /// Inputs as `carry_sources` takes them: with the faces that the operation saw. A file all of whose
 /// faces it saw is not copied.
 class carry_inputs {
   public:
-    carry_inputs(const treeform_carry_source* inputs, std::size_t count);
+    carry_inputs(const treeform_carry_source* inputs, std::size_t count) {
+        for (const treeform_carry_source& one : array(inputs, count, "inputs")) {
+            const tf::mesh_file& file = content(one.file, "the file of an input");
+            sources_.push_back({&file, {}});
+            if (!one.triangle_of_face) continue;
+            tf::mesh_file& copy = files_.emplace_back(file);
+            copy.mesh.faces.clear();
+            for (const std::uint32_t triangle : std::span(one.triangle_of_face, one.face_count)) {
+                if (triangle >= file.mesh.faces.size())
+                    throw std::invalid_argument("triangle " + std::to_string(triangle) +
+                                                " is none of the file of an input");
+                copy.mesh.faces.push_back(file.mesh.faces[triangle]);
+            }
+            sources_.back() = {&copy, {one.triangle_of_face, one.face_count}};
+        }
+    }
     [[nodiscard]] std::span<const tf::carry_source> sources() const { return sources_; }
 
   private:

@@ -1,5 +1,4 @@
-#ifndef TREEFORM_H
-#define TREEFORM_H
+#pragma once
 /// \file
 /// treeform in C: everything. Each header answers the questions of one kind.
 
@@ -19,5 +18,3 @@
 #include <treeform/c/streams.h>
 #include <treeform/c/trees.h>
 #include <treeform/c/weld.h>
-
-#endif

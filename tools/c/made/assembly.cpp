@@ -1,4 +1,7 @@
 // Made by tools/bindings of assembly.h and the headers of C++: see its README.
+#include <treeform/mesh/clash.hpp>
+
+#include <tools/c/assembly.hpp>
 #include <tools/c/made/structs.hpp>
 
 namespace tf = treeform;
@@ -100,11 +103,52 @@ static_assert(offsetof(treeform_pose_clash, b) == offsetof(tf::pose_clash, b));
 static_assert(offsetof(treeform_pose_clash, how) == offsetof(tf::pose_clash, how));
 static_assert(offsetof(treeform_pose_clash, distance) == offsetof(tf::pose_clash, distance));
 
+treeform_code treeform_bodies_of(const treeform_file* const* files, const char* const* labels,
+                                 size_t count, treeform_body_kind kind, treeform_bodies** bodies) {
+    return glue::guard([&] {
+        glue::start(bodies);
+        return glue::give(glue::bodies_of(files, labels, count, kind), bodies);
+    });
+}
+
+treeform_code treeform_put_back(treeform_bodies* bodies, size_t body, const double* points,
+                                size_t count, const double* matrix, treeform_precision written_as,
+                                treeform_file** file) {
+    return glue::guard([&] {
+        glue::start(file);
+        return glue::give(glue::put_back(bodies, body, points, count, matrix,
+                                         glue::choice<tf::precision>(written_as, 2, "written_as")),
+                          file);
+    });
+}
+
 treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
                              const treeform_clash_options* options, treeform_clashes** clashes) {
     return glue::guard([&] {
         glue::start(clashes);
         return glue::give(tf::clash(glue::refs(parts, count, "parts"), glue::read(options)),
                           clashes);
+    });
+}
+
+treeform_code treeform_pairs_named(const char* const* names, size_t count, const char* first,
+                                   const char* second, treeform_indices** indices) {
+    return glue::guard([&] {
+        glue::start(indices);
+        return glue::give(glue::pairs_named(glue::texts(names, count, "names"),
+                                            std::string(&glue::need(first, "first")),
+                                            std::string(&glue::need(second, "second"))),
+                          indices);
+    });
+}
+
+treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t count,
+                                   const double* poses, size_t pose_count,
+                                   const treeform_poses_options* options,
+                                   treeform_poses_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(glue::check_poses(parts, count, poses, pose_count, glue::read(options)),
+                          result);
     });
 }

@@ -1,4 +1,7 @@
 // Made by tools/bindings of cuts.h and the headers of C++: see its README.
+#include <treeform/mesh/cut.hpp>
+
+#include <tools/c/cuts.hpp>
 #include <tools/c/made/structs.hpp>
 
 namespace tf = treeform;
@@ -99,13 +102,13 @@ void glue::fill(keeper&, const std::vector<double>& from, treeform_heights& to) 
 
 treeform_code treeform_section(const treeform_mesh* mesh, const treeform_plane* plane,
                                const double* heights, size_t count, treeform_progress progress,
-                               void* progress_data, treeform_section_result** section) {
+                               void* progress_data, treeform_section_result** result) {
     return glue::guard([&] {
-        glue::start(section);
+        glue::start(result);
         return glue::give(
-            tf::section(glue::ref(mesh, "mesh"), glue::plane(plane), glue::heights(heights, count),
-                        {glue::progress(progress, progress_data)}),
-            section);
+            glue::section(glue::ref(mesh, "mesh"), glue::plane(plane),
+                          glue::heights(heights, count), glue::progress(progress, progress_data)),
+            result);
     });
 }
 
@@ -113,8 +116,16 @@ treeform_code treeform_layer_heights(const treeform_mesh* mesh, const treeform_p
                                      double thickness, treeform_heights** heights) {
     return glue::guard([&] {
         glue::start(heights);
-        return glue::give(glue::plane(plane).layer_heights(glue::view(mesh).points, thickness),
+        return glue::give(glue::layer_heights(glue::view(mesh), glue::plane(plane), thickness),
                           heights);
+    });
+}
+
+treeform_code treeform_write_section(const char* path, const treeform_section_result* section,
+                                     const char* format, const char* unit) {
+    return glue::guard([&] {
+        glue::write_section(std::string(&glue::need(path, "path")), section, glue::text(format),
+                            glue::text(unit));
     });
 }
 
@@ -134,9 +145,9 @@ treeform_code treeform_cut_to_fit(const treeform_mesh* mesh, const double size[3
                                   treeform_cut_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(
-            tf::cut_to_fit(glue::ref(mesh, "mesh"), glue::point(size, "size"), glue::read(options)),
-            result);
+        return glue::give(tf::cut_to_fit(glue::ref(mesh, "mesh"), glue::finite(size, "size"),
+                                         glue::read(options)),
+                          result);
     });
 }
 
@@ -144,17 +155,22 @@ treeform_code treeform_components(const treeform_mesh* mesh, double min_volume, 
                                   treeform_mesh_parts** parts) {
     return glue::guard([&] {
         glue::start(parts);
-        return glue::give(
-            tf::components(glue::ref(mesh, "mesh"), {.min_volume = min_volume,
-                                                     .largest = largest != 0 ? largest : SIZE_MAX}),
-            parts);
+        return glue::give(glue::components(glue::ref(mesh, "mesh"), min_volume, largest), parts);
     });
 }
 
-treeform_code treeform_transform_mesh(const treeform_mesh* mesh, const double* matrix,
+treeform_code treeform_concatenate(const treeform_mesh* const* meshes, size_t count,
+                                   treeform_made_mesh** made) {
+    return glue::guard([&] {
+        glue::start(made);
+        return glue::give(glue::concatenate(meshes, count), made);
+    });
+}
+
+treeform_code treeform_transform_mesh(const treeform_mesh* mesh, const double* by,
                                       treeform_made_mesh** made) {
     return glue::guard([&] {
         glue::start(made);
-        return glue::give(tf::transform_mesh(glue::ref(mesh, "mesh"), glue::matrix(matrix)), made);
+        return glue::give(tf::transform_mesh(glue::ref(mesh, "mesh"), glue::matrix(by)), made);
     });
 }

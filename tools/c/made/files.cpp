@@ -1,4 +1,7 @@
 // Made by tools/bindings of files.h and the headers of C++: see its README.
+#include <treeform/mesh/read.hpp>
+
+#include <tools/c/files.hpp>
 #include <tools/c/made/structs.hpp>
 
 namespace tf = treeform;
@@ -220,33 +223,139 @@ void glue::fill(keeper& kept, const tf::urdf_robot& from, treeform_robot_view& t
 treeform_code treeform_read(const char* path, const char* format, treeform_file** file) {
     return glue::guard([&] {
         glue::start(file);
-        return glue::give(tf::read(std::string(&glue::need(path, "path")), glue::text(format)),
+        return glue::give(glue::read(std::string(&glue::need(path, "path")), glue::text(format)),
                           file);
     });
 }
 
-treeform_code treeform_file_copy(const treeform_file* file, treeform_file** copy) {
+treeform_code treeform_read_as(const char* path, const treeform_read_options* options,
+                               treeform_file** file) {
     return glue::guard([&] {
-        glue::start(copy);
-        return glue::give(tf::mesh_file(glue::need(file, "file").content), copy);
+        glue::start(file);
+        return glue::give(glue::read_as(std::string(&glue::need(path, "path")), options), file);
+    });
+}
+
+treeform_code treeform_read_memory(const void* bytes, size_t size, const char* name,
+                                   const char* format, treeform_file** file) {
+    return glue::guard([&] {
+        glue::start(file);
+        return glue::give(glue::read_memory(bytes, size, name, glue::text(format)), file);
+    });
+}
+
+treeform_code treeform_file_create(const treeform_mesh* mesh, treeform_file** file) {
+    return glue::guard([&] {
+        glue::start(file);
+        return glue::give(glue::file_create(mesh), file);
+    });
+}
+
+treeform_code treeform_file_copy(const treeform_file* file, treeform_file** made) {
+    return glue::guard([&] {
+        glue::start(made);
+        return glue::give(glue::file_copy(glue::content(file, "file")), made);
+    });
+}
+
+treeform_code treeform_file_look(const treeform_file* file, treeform_file_view** view) {
+    return glue::guard([&] {
+        glue::start(view);
+        return glue::give(glue::file_look(glue::content(file, "file")), view);
+    });
+}
+
+treeform_code treeform_file_set_points(treeform_file* file, const double* points, size_t count) {
+    return glue::guard([&] {
+        glue::file_set_points(glue::content(file, "file"), glue::points(points, count, "points"));
+    });
+}
+
+treeform_code treeform_file_set_column(treeform_file* file, const char* element, const char* name,
+                                       treeform_scalar type, const void* values, size_t rows) {
+    return glue::guard([&] {
+        glue::file_set_column(glue::content(file, "file"),
+                              std::string(&glue::need(element, "element")),
+                              std::string(&glue::need(name, "name")),
+                              glue::choice<tf::scalar_type>(type, 10, "type"), values, rows);
+    });
+}
+
+treeform_code treeform_file_set_texture(treeform_file* file, const double* texture,
+                                        size_t texture_count, const uint32_t* of_corner) {
+    return glue::guard([&] {
+        glue::file_set_texture(glue::content(file, "file"), texture, texture_count, of_corner);
+    });
+}
+
+treeform_code treeform_file_add_part(treeform_file* file, const char* object, const char* group,
+                                     const char* material, uint32_t first_face) {
+    return glue::guard([&] {
+        glue::file_add_part(glue::content(file, "file"), object, group, material, first_face);
+    });
+}
+
+treeform_code treeform_file_add_text(treeform_file* file, treeform_text what, const char* text) {
+    return glue::guard([&] {
+        glue::file_add_text(glue::content(file, "file"), what,
+                            std::string(&glue::need(text, "text")));
     });
 }
 
 treeform_code treeform_file_split_polygons(treeform_file* file) {
-    return glue::guard([&] { glue::need(file, "file").content.split_polygons(); });
+    return glue::guard([&] { glue::file_split_polygons(glue::content(file, "file")); });
 }
 
-treeform_code treeform_file_round_to_las(treeform_file* file, double* moved) {
+treeform_code treeform_file_round_to_las(treeform_file* file, double* result) {
     return glue::guard([&] {
-        (void)glue::need(moved, "moved");
-        *moved = tf::round_to_las(glue::need(file, "file").content);
+        (void)glue::need(result, "result");
+        *result = glue::file_round_to_las(glue::content(file, "file"));
     });
 }
 
-treeform_code treeform_file_round_to_float32(treeform_file* file, double* moved) {
+treeform_code treeform_file_round_to_float32(treeform_file* file, double* result) {
     return glue::guard([&] {
-        (void)glue::need(moved, "moved");
-        *moved = glue::need(file, "file").content.round_to_float32();
+        (void)glue::need(result, "result");
+        *result = glue::file_round_to_float32(glue::content(file, "file"));
+    });
+}
+
+treeform_code treeform_file_transform(treeform_file* file, const double* matrix) {
+    return glue::guard([&] { glue::file_transform(glue::content(file, "file"), matrix); });
+}
+
+treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix) {
+    return glue::guard([&] { glue::file_turn_normals(glue::content(file, "file"), matrix); });
+}
+
+treeform_code treeform_write(const char* path, const treeform_file* file,
+                             const treeform_write_options* options, treeform_written** written) {
+    return glue::guard([&] {
+        glue::give_written(
+            [&] {
+                return glue::write(std::string(&glue::need(path, "path")),
+                                   glue::content(file, "file"), glue::read(options));
+            },
+            written);
+    });
+}
+
+treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
+                                  const treeform_write_options* options,
+                                  treeform_written** written) {
+    return glue::guard([&] {
+        glue::give_written(
+            [&] { return glue::write_mesh(std::string(&glue::need(path, "path")), mesh, options); },
+            written);
+    });
+}
+
+treeform_code treeform_write_memory(const treeform_file* file,
+                                    const treeform_write_options* options, treeform_bytes** bytes) {
+    return glue::guard([&] {
+        glue::start(bytes);
+        return glue::give(glue::write_memory(glue::content(file, "file"), glue::read(options)),
+                          bytes);
     });
 }
 
@@ -254,19 +363,77 @@ treeform_code treeform_usable_part(const treeform_file* file, const treeform_par
                                    treeform_part** part) {
     return glue::guard([&] {
         glue::start(part);
-        return glue::give(
-            tf::usable_part(glue::need(file, "file").content.mesh,
-                            glue::need(file, "file").content.stored_face, glue::read(options)),
-            part);
+        return glue::give(glue::usable_part(glue::content(file, "file"), glue::read(options)),
+                          part);
+    });
+}
+
+treeform_code treeform_as_mesh(const treeform_file* file, treeform_part** part) {
+    return glue::guard([&] {
+        glue::start(part);
+        return glue::give(glue::as_mesh(glue::content(file, "file")), part);
+    });
+}
+
+treeform_code treeform_join_files(const treeform_file* const* files, const char* const* names,
+                                  size_t count, treeform_file** file) {
+    return glue::guard([&] {
+        glue::start(file);
+        return glue::give(glue::join_files(files, names, count), file);
+    });
+}
+
+treeform_code treeform_scene(const treeform_file* const* files, const char* const* names,
+                             size_t count, treeform_file** file) {
+    return glue::guard([&] {
+        glue::start(file);
+        return glue::give(glue::scene(files, names, count), file);
+    });
+}
+
+treeform_code treeform_split_parts(const treeform_file* file, treeform_scene_parts** parts) {
+    return glue::guard([&] {
+        glue::start(parts);
+        return glue::give(glue::split_parts(glue::content(file, "file")), parts);
     });
 }
 
 treeform_code treeform_files_of(const char* const* paths, size_t count,
-                                treeform_file_content content, treeform_strings** files) {
+                                treeform_file_content content, treeform_strings** strings) {
     return glue::guard([&] {
-        glue::start(files);
+        glue::start(strings);
         return glue::give(tf::files_of(glue::texts(paths, count, "paths"),
                                        glue::choice<tf::file_content>(content, 2, "content")),
-                          files);
+                          strings);
+    });
+}
+
+treeform_code treeform_read_urdf(const char* path, const treeform_robot_options* options,
+                                 treeform_robot** robot) {
+    return glue::guard([&] {
+        glue::start(robot);
+        return glue::give(
+            tf::read_urdf(std::string(&glue::need(path, "path")), glue::read(options)), robot);
+    });
+}
+
+treeform_code treeform_robot_look(const treeform_robot* robot, treeform_robot_view** view) {
+    return glue::guard([&] {
+        glue::start(view);
+        return glue::give(glue::robot_look(glue::content(robot, "robot")), view);
+    });
+}
+
+treeform_code treeform_robot_parts_of(const treeform_robot* robot, treeform_robot_parts** parts) {
+    return glue::guard([&] {
+        glue::start(parts);
+        return glue::give(glue::robot_parts_of(glue::content(robot, "robot")), parts);
+    });
+}
+
+treeform_code treeform_link_transforms(const treeform_robot* robot, const char* const* joints,
+                                       const double* values, size_t count, double* places) {
+    return glue::guard([&] {
+        glue::link_transforms(glue::content(robot, "robot"), joints, values, count, places);
     });
 }

@@ -1,6 +1,8 @@
 // Made by tools/bindings of intersections.h and the headers of C++: see its README.
 #include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
+#include <tools/c/intersections.hpp>
 #include <tools/c/made/structs.hpp>
 
 namespace tf = treeform;
@@ -165,6 +167,15 @@ void glue::fill(keeper&, const std::vector<tf::curve_segment>& from, treeform_se
     to.count = from.size();
 }
 
+treeform_code treeform_self_intersections(const treeform_mesh* mesh,
+                                          const treeform_self_intersections_options* options,
+                                          treeform_pairs** pairs) {
+    return glue::guard([&] {
+        glue::start(pairs);
+        return glue::give(glue::self_intersections(glue::ref(mesh, "mesh"), options), pairs);
+    });
+}
+
 treeform_code treeform_group_pairs(const treeform_mesh* mesh, const treeform_face_pair* pairs,
                                    size_t count, treeform_regions** regions) {
     return glue::guard([&] {
@@ -186,11 +197,25 @@ treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh
 }
 
 treeform_code treeform_intersects(const treeform_mesh* a, const treeform_mesh* b,
-                                  const double* move_a, const double* move_b, int32_t* meet) {
+                                  const double* move_a, const double* move_b, int32_t* result) {
     return glue::guard([&] {
-        (void)glue::need(meet, "meet");
-        *meet = tf::intersects(glue::ref(a, "a"), glue::ref(b, "b"),
-                               tf::mesh_positions{glue::matrix(move_a), glue::matrix(move_b)});
+        (void)glue::need(result, "result");
+        *result = glue::intersects(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(move_a),
+                                   glue::matrix(move_b));
+    });
+}
+
+treeform_code treeform_intersects_poses(const treeform_mesh* a, const treeform_mesh* b,
+                                        const double* moves_a, const double* moves_b, size_t count,
+                                        uint8_t* meet) {
+    return glue::guard([&] { glue::intersects_poses(a, b, moves_a, moves_b, count, meet); });
+}
+
+treeform_code treeform_faces_in_box(const treeform_mesh* mesh, const treeform_box* box,
+                                    treeform_indices** indices) {
+    return glue::guard([&] {
+        glue::start(indices);
+        return glue::give(glue::faces_in_box(mesh, glue::box(glue::need(box, "box"))), indices);
     });
 }
 
@@ -219,26 +244,70 @@ treeform_code treeform_write_curves(const char* path, const treeform_mesh* mesh,
                                     const treeform_face_pair* pairs, size_t count,
                                     const char* format) {
     return glue::guard([&] {
-        tf::write_curves(std::string(&glue::need(path, "path")), glue::view(mesh),
-                         glue::pairs_of(mesh, pairs, count), {}, glue::text(format));
+        glue::write_curves(std::string(&glue::need(path, "path")), glue::view(mesh),
+                           glue::pairs_of(mesh, pairs, count), glue::text(format));
     });
 }
 
-treeform_code treeform_self_intersections_of_file(const char* path,
+treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
+                                   const treeform_face_pair* pairs, size_t count) {
+    return glue::guard([&] { glue::color_pairs(glue::content(file, "file"), part, pairs, count); });
+}
+
+treeform_code treeform_self_intersections_of_file(const char* input,
                                                   const treeform_search_file_options* options,
                                                   treeform_search_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(tf::self_intersections_of_file(std::string(&glue::need(path, "path")),
+        return glue::give(tf::self_intersections_of_file(std::string(&glue::need(input, "input")),
                                                          glue::read(options)),
                           result);
     });
 }
 
-treeform_code treeform_is_searched_in_tiles(const char* path, const char* format, int32_t* is) {
+treeform_code treeform_is_searched_in_tiles(const char* path, const char* format, int32_t* result) {
     return glue::guard([&] {
-        (void)glue::need(is, "is");
-        *is =
-            tf::stream_search::accepts(std::string(&glue::need(path, "path")), glue::text(format));
+        (void)glue::need(result, "result");
+        *result =
+            glue::is_searched_in_tiles(std::string(&glue::need(path, "path")), glue::text(format));
     });
+}
+
+treeform_code treeform_search_create(const char* path, const treeform_search_file_options* options,
+                                     treeform_search** search) {
+    return glue::guard([&] {
+        glue::start(search);
+        return glue::give(
+            glue::search_create(std::string(&glue::need(path, "path")), glue::read(options)),
+            search);
+    });
+}
+
+treeform_code treeform_search_scatter(treeform_search* search, size_t* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = glue::search_scatter(glue::content(search, "search"));
+    });
+}
+
+treeform_code treeform_search_unfinished(treeform_search* search, treeform_indices** indices) {
+    return glue::guard([&] {
+        glue::start(indices);
+        return glue::give(glue::search_unfinished(glue::content(search, "search")), indices);
+    });
+}
+
+treeform_code treeform_search_tile(treeform_search* search, size_t tile) {
+    return glue::guard([&] { glue::search_tile(glue::content(search, "search"), tile); });
+}
+
+treeform_code treeform_search_finish(treeform_search* search, treeform_search_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(glue::search_finish(glue::content(search, "search")), result);
+    });
+}
+
+treeform_code treeform_search_remove_folder(treeform_search* search) {
+    return glue::guard([&] { glue::search_remove_folder(glue::content(search, "search")); });
 }

@@ -1,4 +1,8 @@
 // Made by tools/bindings of layouts.h and the headers of C++: see its README.
+#include <treeform/mesh/align.hpp>
+#include <treeform/mesh/pack.hpp>
+
+#include <tools/c/layouts.hpp>
 #include <tools/c/made/structs.hpp>
 
 namespace tf = treeform;
@@ -210,4 +214,32 @@ void glue::fill(keeper& kept, const tf::align_result& from, treeform_align_resul
     to.start = from.start;
     to.message = kept.keep(from.message()).c_str();
     to.undetermined = from.undetermined();
+}
+
+treeform_code treeform_lay_flat(const treeform_mesh* mesh, const treeform_lay_flat_options* options,
+                                treeform_laid_flat** flat) {
+    return glue::guard([&] {
+        glue::start(flat);
+        return glue::give(tf::lay_flat(glue::ref(mesh, "mesh"), glue::read(options)), flat);
+    });
+}
+
+treeform_code treeform_pack(const treeform_mesh* const* parts, size_t count,
+                            const treeform_pack_options* options, treeform_packing** packing) {
+    return glue::guard([&] {
+        glue::start(packing);
+        return glue::give(tf::pack(glue::refs(parts, count, "parts"), glue::read(options)),
+                          packing);
+    });
+}
+
+treeform_code treeform_align(const treeform_mesh* moving, const treeform_mesh* fixed,
+                             const treeform_align_options* options,
+                             treeform_align_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(
+            tf::align(glue::ref(moving, "moving"), glue::ref(fixed, "fixed"), glue::read(options)),
+            result);
+    });
 }

@@ -1,8 +1,9 @@
 // Made by tools/bindings of nearness.h and the headers of C++: see its README.
-#include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/measure.hpp>
 
 #include <tools/c/made/structs.hpp>
+#include <tools/c/nearness.hpp>
 
 namespace tf = treeform;
 
@@ -138,12 +139,79 @@ void glue::fill(keeper&, const tf::deviation_result& from, treeform_deviation_re
     if (from.band) to.above = from.band->above;
 }
 
-treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
-                                const double* move_a, const double* move_b, double* distance) {
+treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* queries, size_t count,
+                                     double radius, uint32_t* faces, double* distances,
+                                     double* points) {
+    return glue::guard(
+        [&] { glue::closest_point(mesh, queries, count, radius, faces, distances, points); });
+}
+
+treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mesh* b,
+                                      const double* move_a, const double* move_b, double radius,
+                                      treeform_closest* result) {
     return glue::guard([&] {
-        (void)glue::need(distance, "distance");
-        *distance = tf::distance(glue::ref(a, "a"), glue::ref(b, "b"),
-                                 tf::distance_options{glue::matrix(move_a), glue::matrix(move_b)});
+        (void)glue::need(result, "result");
+        *result = glue::closest_points(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(move_a),
+                                       glue::matrix(move_b), radius);
+    });
+}
+
+treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
+                                const double* move_a, const double* move_b, double* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = glue::distance(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(move_a),
+                                 glue::matrix(move_b));
+    });
+}
+
+treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mesh* b,
+                                      const double* moves_a, const double* moves_b, size_t count,
+                                      double radius, double* distances) {
+    return glue::guard(
+        [&] { glue::distance_poses(a, b, moves_a, moves_b, count, radius, distances); });
+}
+
+treeform_code treeform_locate(const treeform_mesh* mesh, const double* points, size_t count,
+                              uint8_t* where, int32_t* winding, uint32_t* on) {
+    return glue::guard([&] { glue::locate(mesh, points, count, where, winding, on); });
+}
+
+treeform_code treeform_contains(const treeform_mesh* mesh, const double* points, size_t count,
+                                uint8_t* inside) {
+    return glue::guard([&] { glue::contains(mesh, points, count, inside); });
+}
+
+treeform_code treeform_winding_number(const treeform_mesh* mesh, const double* points, size_t count,
+                                      int32_t* winding) {
+    return glue::guard([&] { glue::winding_number(mesh, points, count, winding); });
+}
+
+treeform_code treeform_locate_in_curves(const double* points, size_t point_count,
+                                        const uint32_t* edges, size_t edge_count,
+                                        const double* queries, size_t count, uint8_t* where,
+                                        int32_t* winding) {
+    return glue::guard([&] {
+        glue::locate_in_curves(points, point_count, edges, edge_count, queries, count, where,
+                               winding);
+    });
+}
+
+treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays, size_t count,
+                               treeform_hit* hits) {
+    return glue::guard([&] { glue::raycast(mesh, rays, count, hits); });
+}
+
+treeform_code treeform_raycast_any(const treeform_mesh* mesh, const treeform_ray* rays,
+                                   size_t count, uint8_t* hit) {
+    return glue::guard([&] { glue::raycast_any(mesh, rays, count, hit); });
+}
+
+treeform_code treeform_raycast_all(const treeform_mesh* mesh, const treeform_ray* rays,
+                                   size_t count, treeform_hits** hits) {
+    return glue::guard([&] {
+        glue::start(hits);
+        return glue::give(glue::raycast_all(mesh, rays, count), hits);
     });
 }
 
@@ -158,30 +226,47 @@ treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
 }
 
 treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
-                              treeform_vertices vertices, treeform_mesh_relation* how) {
+                              treeform_vertices vertices, treeform_mesh_relation* result) {
     return glue::guard([&] {
-        (void)glue::need(how, "how");
-        *how = static_cast<treeform_mesh_relation>(
-            tf::relation(glue::ref(a, "a"), glue::ref(b, "b"),
-                         {.vertices = glue::choice<tf::vertex_identity>(vertices, 2, "vertices")})
-                .relation);
+        (void)glue::need(result, "result");
+        *result = static_cast<treeform_mesh_relation>(
+            glue::relate(glue::ref(a, "a"), glue::ref(b, "b"),
+                         glue::choice<tf::vertex_identity>(vertices, 2, "vertices")));
     });
 }
 
-treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* count) {
+treeform_code treeform_penetration_depth(const treeform_mesh* a, const treeform_mesh* b,
+                                         const treeform_depth_options* options, double* depth,
+                                         double move[3], treeform_search_effort* effort) {
     return glue::guard([&] {
-        (void)glue::need(count, "count");
-        *count = tf::count_inside_out(glue::ref(mesh, "mesh"));
+        glue::penetration_depth(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options), depth,
+                                move, effort);
     });
 }
 
-treeform_code treeform_deviation(const treeform_mesh* a, const treeform_mesh* const* fixed,
-                                 size_t fixed_count, const treeform_deviation_options* options,
+treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = tf::count_inside_out(glue::ref(mesh, "mesh"));
+    });
+}
+
+treeform_code treeform_count_sides(const double* points, size_t points_count,
+                                   const treeform_mesh* const* solids, size_t solids_count,
+                                   uint64_t counts[3]) {
+    return glue::guard([&] {
+        glue::count_sides(glue::points(points, points_count, "points"),
+                          glue::refs(solids, solids_count, "solids"), counts);
+    });
+}
+
+treeform_code treeform_deviation(const treeform_mesh* a, const treeform_mesh* const* b,
+                                 size_t count, const treeform_deviation_options* options,
                                  treeform_deviation_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(tf::deviation(glue::ref(a, "a"), glue::refs(fixed, fixed_count, "fixed"),
-                                        glue::read(options)),
-                          result);
+        return glue::give(
+            tf::deviation(glue::ref(a, "a"), glue::refs(b, count, "b"), glue::read(options)),
+            result);
     });
 }

@@ -1,5 +1,10 @@
 // Made by tools/bindings of placement.h and the headers of C++: see its README.
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+
 #include <tools/c/made/structs.hpp>
+#include <tools/c/placement.hpp>
 
 namespace tf = treeform;
 
@@ -121,95 +126,100 @@ void treeform_impact_options_init(treeform_impact_options* options, size_t size)
 }
 
 treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                             size_t fixed_count, const double direction[3],
+                             size_t count, const double direction[3],
                              const treeform_place_options* options,
                              treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
-        return glue::give(
-            tf::slide(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
-                      glue::point(direction, "direction"),
-                      glue::read_as<tf::slide_options>(options)),
-            placement);
+        return glue::give(tf::slide(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
+                                    glue::finite(direction, "direction"),
+                                    glue::read_as<tf::slide_options>(options)),
+                          placement);
     });
 }
 
 treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                            size_t fixed_count, const double* direction,
+                            size_t count, const double* direction,
                             const treeform_place_options* options, treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
-        return glue::give(
-            fixed_count == 0
-                ? tf::drop(glue::ref(moving, "moving"), glue::drop_options_of(options, direction))
-                : tf::drop(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
-                           glue::drop_options_of(options, direction)),
-            placement);
+        return glue::give(glue::drop(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
+                                     direction, options),
+                          placement);
     });
 }
 
 treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                            size_t fixed_count, const treeform_place_options* options,
+                            size_t count, const treeform_place_options* options,
                             treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
-        return glue::give(
-            tf::mate(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
-                     glue::read_as<tf::mate_options>(options)),
-            placement);
+        return glue::give(tf::mate(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
+                                   glue::read_as<tf::mate_options>(options)),
+                          placement);
     });
 }
 
 treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                                size_t fixed_count, const treeform_place_options* options,
+                                size_t count, const treeform_place_options* options,
                                 treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(
-            tf::separate(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+            tf::separate(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
                          glue::read_as<tf::separate_options>(options)),
             placement);
     });
 }
 
 treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                            size_t fixed_count, const double origin[3], const double direction[3],
+                            size_t count, const double origin[3], const double direction[3],
                             const treeform_place_options* options, treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(
-            tf::turn(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
-                     {glue::point(origin, "origin"), glue::point(direction, "direction")},
-                     glue::read_as<tf::turn_options>(options)),
+            glue::turn(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
+                       glue::finite(origin, "origin"), glue::finite(direction, "direction"),
+                       glue::read_as<tf::turn_options>(options)),
             placement);
     });
 }
 
 treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                                     size_t fixed_count, const treeform_feature* of_moving,
+                                     size_t count, const treeform_feature* of_moving,
                                      const treeform_feature* of_fixed,
                                      const treeform_place_options* options,
                                      treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(
-            tf::mate_features(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
-                              glue::feature_of(of_moving, "of_moving"),
-                              glue::feature_of(of_fixed, "of_fixed"),
-                              glue::read_as<tf::feature_mate_options>(options)),
+            glue::mate_features(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
+                                of_moving, of_fixed,
+                                glue::read_as<tf::feature_mate_options>(options)),
             placement);
     });
 }
 
 treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                                     size_t fixed_count, const treeform_place_options* options,
+                                     size_t count, const treeform_place_options* options,
                                      treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(
-            tf::measure_among(glue::ref(moving, "moving"), glue::refs(fixed, fixed_count, "fixed"),
+            tf::measure_among(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
                               glue::read_as<tf::measure_among_options>(options)),
             placement);
+    });
+}
+
+treeform_code treeform_classify_contacts(const treeform_mesh* moving,
+                                         const treeform_mesh* const* fixed, size_t count,
+                                         const treeform_placement* placement,
+                                         treeform_contact_classes** classes) {
+    return glue::guard([&] {
+        glue::start(classes);
+        return glue::give(
+            glue::classify_contacts(moving, glue::refs(fixed, count, "fixed"), placement), classes);
     });
 }
 
@@ -220,7 +230,19 @@ treeform_code treeform_time_of_impact(const treeform_mesh* a, const treeform_mes
     return glue::guard([&] {
         glue::start(impact);
         return glue::give(tf::time_of_impact(glue::ref(a, "a"), glue::ref(b, "b"),
-                                             glue::point(motion, "motion"), glue::read(options)),
+                                             glue::finite(motion, "motion"), glue::read(options)),
+                          impact);
+    });
+}
+
+treeform_code treeform_time_to_distance(const treeform_mesh* a, const treeform_mesh* b,
+                                        const double motion[3], double distance,
+                                        const treeform_impact_options* options,
+                                        treeform_impact** impact) {
+    return glue::guard([&] {
+        glue::start(impact);
+        return glue::give(glue::time_to_distance(glue::ref(a, "a"), glue::ref(b, "b"),
+                                                 glue::finite(motion, "motion"), distance, options),
                           impact);
     });
 }

@@ -1,9 +1,10 @@
 // Made by tools/bindings of properties.h and the headers of C++: see its README.
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/properties.hpp>
 
 #include <tools/c/made/structs.hpp>
+#include <tools/c/properties.hpp>
 
 namespace tf = treeform;
 
@@ -91,10 +92,39 @@ void glue::fill(keeper& kept, const std::vector<tf::mesh_feature>& from, treefor
     to.count = from.size();
 }
 
-treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* is_solid) {
+treeform_code treeform_volume(const treeform_mesh* mesh, double* result) {
     return glue::guard([&] {
-        (void)glue::need(is_solid, "is_solid");
-        *is_solid = static_cast<bool>(tf::check_solid(glue::ref(mesh, "mesh")));
+        (void)glue::need(result, "result");
+        *result = glue::volume(mesh);
+    });
+}
+
+treeform_code treeform_area(const treeform_mesh* mesh, double* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = glue::area(mesh);
+    });
+}
+
+treeform_code treeform_find_mass_properties(const treeform_mesh* mesh,
+                                            treeform_mass_properties* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = glue::find_mass_properties(glue::ref(mesh, "mesh"));
+    });
+}
+
+treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = glue::bounds(glue::view(mesh));
+    });
+}
+
+treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = glue::is_solid(glue::ref(mesh, "mesh"));
     });
 }
 
@@ -111,9 +141,13 @@ treeform_code treeform_check_solid(const treeform_mesh* mesh, treeform_progress 
 treeform_code treeform_count_topology(const treeform_mesh* mesh, treeform_topology** topology) {
     return glue::guard([&] {
         glue::start(topology);
-        return glue::give(
-            tf::count_topology(glue::view(mesh).points.size(), glue::view(mesh).faces), topology);
+        return glue::give(glue::count_topology(glue::view(mesh)), topology);
     });
+}
+
+treeform_code treeform_face_components(const treeform_mesh* mesh, uint32_t* component,
+                                       size_t* count) {
+    return glue::guard([&] { glue::face_components(glue::view(mesh), component, count); });
 }
 
 treeform_code treeform_find_defects(const treeform_mesh* mesh, treeform_defects** defects) {
@@ -123,22 +157,36 @@ treeform_code treeform_find_defects(const treeform_mesh* mesh, treeform_defects*
     });
 }
 
+treeform_code treeform_find_open_edge(const treeform_mesh* mesh, uint32_t edge[2]) {
+    return glue::guard([&] { glue::find_open_edge(glue::view(mesh), edge); });
+}
+
 treeform_code treeform_closing_tolerance(const treeform_mesh* mesh, const double* tolerances,
-                                         size_t count, size_t* which) {
+                                         size_t count, size_t* result) {
     return glue::guard([&] {
-        (void)glue::need(which, "which");
-        *which =
-            tf::closing_tolerance(glue::view(mesh), glue::array(tolerances, count, "tolerances"))
-                .value_or(count);
+        (void)glue::need(result, "result");
+        *result =
+            glue::closing_tolerance(glue::view(mesh), glue::array(tolerances, count, "tolerances"));
     });
 }
 
 treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
-                                      int32_t any_order, int32_t* same) {
+                                      int32_t any_order, int32_t* result) {
     return glue::guard([&] {
-        (void)glue::need(same, "same");
-        *same = tf::same_triangles(glue::view(a), glue::view(b),
-                                   any_order != 0 ? tf::face_order::any : tf::face_order::kept);
+        (void)glue::need(result, "result");
+        *result = glue::same_triangles(glue::view(a), glue::view(b), any_order != 0);
+    });
+}
+
+treeform_code treeform_find_features(const treeform_mesh* mesh, treeform_feature_kind kind,
+                                     const treeform_feature_options* options,
+                                     treeform_features** features) {
+    return glue::guard([&] {
+        glue::start(features);
+        return glue::give(
+            glue::find_features(glue::view(mesh), glue::choice<tf::feature_kind>(kind, 2, "kind"),
+                                options),
+            features);
     });
 }
 
@@ -147,47 +195,77 @@ treeform_code treeform_feature_at_face(const treeform_mesh* mesh, treeform_featu
                                        treeform_features** features) {
     return glue::guard([&] {
         glue::start(features);
-        return glue::give(glue::as_list(tf::feature_at(
+        return glue::give(glue::as_list(glue::feature_at_face(
                               glue::view(mesh), glue::choice<tf::feature_kind>(kind, 2, "kind"),
                               face, glue::read(options))),
                           features);
     });
 }
 
+treeform_code treeform_feature_at_point(const treeform_mesh* mesh, treeform_feature_kind kind,
+                                        const double point[3],
+                                        const treeform_feature_options* options,
+                                        treeform_features** features) {
+    return glue::guard([&] {
+        glue::start(features);
+        return glue::give(glue::as_list(glue::feature_at_point(
+                              glue::view(mesh), glue::choice<tf::feature_kind>(kind, 2, "kind"),
+                              glue::finite(point, "point"), glue::read(options))),
+                          features);
+    });
+}
+
 treeform_code treeform_fit_feature(const treeform_mesh* mesh, treeform_feature_kind kind,
-                                   const uint32_t* faces, size_t face_count,
+                                   const uint32_t* faces, size_t count,
                                    treeform_features** features) {
     return glue::guard([&] {
         glue::start(features);
         return glue::give(glue::as_list(tf::fit_feature(
                               glue::view(mesh), glue::choice<tf::feature_kind>(kind, 2, "kind"),
-                              glue::array(faces, face_count, "faces"))),
+                              glue::array(faces, count, "faces"))),
                           features);
     });
 }
 
-treeform_code treeform_orient2d(const double a[2], const double b[2], const double c[2],
-                                int32_t* sign) {
+treeform_code treeform_convex_hull(const treeform_mesh* mesh, treeform_progress progress,
+                                   void* progress_data, treeform_hull** hull) {
     return glue::guard([&] {
-        (void)glue::need(sign, "sign");
-        *sign = tf::orient2d(glue::finite2(a, "a"), glue::finite2(b, "b"), glue::finite2(c, "c"));
+        glue::start(hull);
+        return glue::give(
+            glue::convex_hull(glue::view(mesh), glue::progress(progress, progress_data)), hull);
+    });
+}
+
+treeform_code treeform_orient2d(const double a[2], const double b[2], const double c[2],
+                                int32_t* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = tf::orient2d(glue::finite2(a, "a"), glue::finite2(b, "b"), glue::finite2(c, "c"));
     });
 }
 
 treeform_code treeform_orient3d(const double a[3], const double b[3], const double c[3],
-                                const double d[3], int32_t* sign) {
+                                const double d[3], int32_t* result) {
     return glue::guard([&] {
-        (void)glue::need(sign, "sign");
-        *sign = tf::orient3d(glue::finite(a, "a"), glue::finite(b, "b"), glue::finite(c, "c"),
-                             glue::finite(d, "d"));
+        (void)glue::need(result, "result");
+        *result = tf::orient3d(glue::finite(a, "a"), glue::finite(b, "b"), glue::finite(c, "c"),
+                               glue::finite(d, "d"));
     });
 }
 
 treeform_code treeform_compare_distance(const double a[3], const double b[3], const double c[3],
-                                        const double d[3], int32_t* sign) {
+                                        const double d[3], int32_t* result) {
     return glue::guard([&] {
-        (void)glue::need(sign, "sign");
-        *sign = tf::compare_distance(glue::finite(a, "a"), glue::finite(b, "b"),
-                                     glue::finite(c, "c"), glue::finite(d, "d"));
+        (void)glue::need(result, "result");
+        *result = tf::compare_distance(glue::finite(a, "a"), glue::finite(b, "b"),
+                                       glue::finite(c, "c"), glue::finite(d, "d"));
+    });
+}
+
+treeform_code treeform_intersect_triangles(const double a[9], const double b[9],
+                                           treeform_triangle_contact* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = glue::intersect_triangles(a, b);
     });
 }

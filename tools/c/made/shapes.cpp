@@ -1,5 +1,11 @@
 // Made by tools/bindings of shapes.h and the headers of C++: see its README.
+#include <treeform/mesh/convex_hull.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/offset.hpp>
+#include <treeform/mesh/simplify.hpp>
+
 #include <tools/c/made/structs.hpp>
+#include <tools/c/shapes.hpp>
 
 namespace tf = treeform;
 
@@ -197,15 +203,22 @@ treeform_code treeform_find_oriented_box(const treeform_mesh* mesh, treeform_ori
 
 treeform_code treeform_isolines(const treeform_mesh* mesh, const double* values,
                                 const double* levels, size_t count, treeform_progress progress,
-                                void* progress_data, treeform_isolines_result** lines) {
+                                void* progress_data, treeform_isolines_result** result) {
     return glue::guard([&] {
-        glue::start(lines);
+        glue::start(result);
         return glue::give(
-            tf::isolines(glue::ref(mesh, "mesh"),
-                         glue::array(values, glue::view(mesh).points.size(), "values"),
-                         glue::array(levels, count, "levels"),
-                         {glue::progress(progress, progress_data)}),
-            lines);
+            glue::isolines(glue::ref(mesh, "mesh"), values, glue::array(levels, count, "levels"),
+                           glue::progress(progress, progress_data)),
+            result);
+    });
+}
+
+treeform_code treeform_write_isolines(const char* path, const treeform_isolines_result* lines,
+                                      const double normal[3], const char* format,
+                                      const char* unit) {
+    return glue::guard([&] {
+        glue::write_isolines(std::string(&glue::need(path, "path")), lines, normal,
+                             glue::text(format), glue::text(unit));
     });
 }
 
@@ -216,9 +229,8 @@ treeform_code treeform_cut_along(const treeform_mesh* mesh, const double* values
     return glue::guard([&] {
         glue::start(result);
         return glue::give(
-            tf::cut_along(glue::ref(mesh, "mesh"),
-                          glue::array(values, glue::view(mesh).points.size(), "values"),
-                          glue::array(levels, count, "levels"), glue::read(options)),
+            glue::cut_along(glue::ref(mesh, "mesh"), values, glue::array(levels, count, "levels"),
+                            glue::read(options)),
             result);
     });
 }

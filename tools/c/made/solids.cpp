@@ -1,5 +1,10 @@
 // Made by tools/bindings of solids.h and the headers of C++: see its README.
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/offset.hpp>
+#include <treeform/mesh/repair.hpp>
+
 #include <tools/c/made/structs.hpp>
+#include <tools/c/solids.hpp>
 
 namespace tf = treeform;
 
@@ -277,10 +282,8 @@ treeform_code treeform_boolean(const treeform_mesh* const* operands, size_t coun
     return glue::guard([&] {
         glue::start(result);
         return glue::give(
-            tf::boolean(
-                glue::refs(operands, count, "operands"),
-                tf::boolean_expression(std::string(&glue::need(expression, "expression")), count),
-                glue::read(options)),
+            glue::boolean(glue::refs(operands, count, "operands"),
+                          std::string(&glue::need(expression, "expression")), glue::read(options)),
             result);
     });
 }
@@ -291,21 +294,18 @@ treeform_code treeform_boolean_named(const treeform_mesh* const* operands, const
                                      treeform_boolean_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(
-            tf::boolean(glue::refs(operands, count, "operands"),
-                        tf::boolean_expression(std::string(&glue::need(expression, "expression")),
-                                               glue::texts(names, count, "names")),
-                        glue::read(options)),
-            result);
+        return glue::give(glue::boolean_named(operands, names, count,
+                                              std::string(&glue::need(expression, "expression")),
+                                              glue::read(options)),
+                          result);
     });
 }
 
-treeform_code treeform_names_in(const char* expression, treeform_strings** names) {
+treeform_code treeform_names_in(const char* expression, treeform_strings** strings) {
     return glue::guard([&] {
-        glue::start(names);
-        return glue::give(
-            tf::boolean_expression::names_in(std::string(&glue::need(expression, "expression"))),
-            names);
+        glue::start(strings);
+        return glue::give(glue::names_in(std::string(&glue::need(expression, "expression"))),
+                          strings);
     });
 }
 
@@ -355,9 +355,8 @@ treeform_code treeform_unite_all(const treeform_mesh* const* operands, size_t co
                                  treeform_boolean_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(tf::boolean(glue::refs(operands, count, "operands"),
-                                      tf::boolean_expression::union_of(count), glue::read(options)),
-                          result);
+        return glue::give(
+            glue::unite_all(glue::refs(operands, count, "operands"), glue::read(options)), result);
     });
 }
 
@@ -366,11 +365,10 @@ treeform_code treeform_clip(const treeform_mesh* const* operands, size_t count, 
                             treeform_boolean_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(tf::clip(glue::refs(operands, count, "operands"), sheet,
-                                   tf::boolean_expression(
-                                       std::string(&glue::need(expression, "expression")), count),
-                                   glue::read(options)),
-                          result);
+        return glue::give(
+            glue::clip(glue::refs(operands, count, "operands"), sheet,
+                       std::string(&glue::need(expression, "expression")), glue::read(options)),
+            result);
     });
 }
 
@@ -405,6 +403,18 @@ treeform_code treeform_repair(const treeform_mesh* mesh, const treeform_repair_o
     });
 }
 
+treeform_code treeform_repair_file(const treeform_file* file, treeform_repair_scope scope,
+                                   const treeform_repair_options* options,
+                                   treeform_repair_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(glue::repair_file(glue::content(file, "file"),
+                                            glue::choice<tf::repair_scope>(scope, 2, "scope"),
+                                            glue::read(options)),
+                          result);
+    });
+}
+
 treeform_code treeform_find_solid_defects(const treeform_mesh* mesh, treeform_progress progress,
                                           void* progress_data, treeform_solid_defects** defects) {
     return glue::guard([&] {
@@ -412,6 +422,20 @@ treeform_code treeform_find_solid_defects(const treeform_mesh* mesh, treeform_pr
         return glue::give(tf::find_solid_defects(glue::ref(mesh, "mesh"),
                                                  glue::progress(progress, progress_data)),
                           defects);
+    });
+}
+
+treeform_code treeform_find_solid_defects_of_file(const treeform_file* file,
+                                                  treeform_repair_scope scope,
+                                                  treeform_progress progress, void* progress_data,
+                                                  treeform_solid_defects** defects) {
+    return glue::guard([&] {
+        glue::start(defects);
+        return glue::give(
+            glue::find_solid_defects_of_file(glue::content(file, "file"),
+                                             glue::choice<tf::repair_scope>(scope, 2, "scope"),
+                                             glue::progress(progress, progress_data)),
+            defects);
     });
 }
 

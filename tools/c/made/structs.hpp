@@ -32,7 +32,7 @@
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/mesh/write.hpp>
 
-#include <tools/c/glue.hpp>
+#include <tools/c/handles.hpp>
 
 namespace glue {
 
@@ -106,6 +106,8 @@ void fill(keeper& kept, const tf::weld_condition& from, treeform_weld_condition&
 [[nodiscard]] tf::weld_options read(const treeform_weld_options& o);
 void fill(keeper& kept, const tf::weld_result& from, treeform_weld_result& to);
 void fill(keeper& kept, const tf::file_weld_result& from, treeform_weld_result& to);
+[[nodiscard]] tf::weld_stream_options read(const treeform_weld_stream_options* options);
+[[nodiscard]] tf::weld_stream_options read(const treeform_weld_stream_options& o);
 void fill(keeper& kept, const tf::weld_stream_result& from, treeform_weld_stream_result& to);
 /// Those of the options that an operation has.
 template <class Options>

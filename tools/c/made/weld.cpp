@@ -1,5 +1,8 @@
 // Made by tools/bindings of weld.h and the headers of C++: see its README.
+#include <treeform/mesh/weld.hpp>
+
 #include <tools/c/made/structs.hpp>
+#include <tools/c/weld.hpp>
 
 namespace tf = treeform;
 
@@ -100,10 +103,50 @@ void glue::fill(keeper&, const tf::file_weld_result& from, treeform_weld_result&
     to.left_alone = from.statistics.left_alone;
 }
 
-treeform_code treeform_count_nearly_equal(const treeform_mesh* mesh, double distance,
-                                          uint64_t* count) {
+treeform_code treeform_weld(const treeform_mesh* mesh, const treeform_weld_options* options,
+                            treeform_weld_result** result) {
     return glue::guard([&] {
-        (void)glue::need(count, "count");
-        *count = tf::count_nearly_equal(glue::view(mesh).points, distance);
+        glue::start(result);
+        return glue::give(glue::weld(mesh, glue::read(options)), result);
     });
+}
+
+treeform_code treeform_weld_file(const treeform_file* file, const treeform_weld_options* options,
+                                 treeform_weld_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(glue::weld_file(glue::content(file, "file"), glue::read(options)),
+                          result);
+    });
+}
+
+treeform_code treeform_group_points(const treeform_mesh* mesh, const treeform_weld_options* options,
+                                    treeform_weld_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(glue::group_points(glue::view(mesh), glue::read(options)), result);
+    });
+}
+
+treeform_code treeform_count_nearly_equal(const treeform_mesh* mesh, double distance,
+                                          uint64_t* result) {
+    return glue::guard([&] {
+        (void)glue::need(result, "result");
+        *result = tf::count_nearly_equal(glue::view(mesh).points, distance);
+    });
+}
+
+treeform_code treeform_count_still_within(const treeform_file* welded,
+                                          const treeform_weld_options* options,
+                                          treeform_precision written_as, uint64_t* count,
+                                          int32_t* known) {
+    return glue::guard([&] {
+        glue::count_still_within(glue::content(welded, "welded"), glue::read(options),
+                                 glue::choice<tf::precision>(written_as, 2, "written_as"), count,
+                                 known);
+    });
+}
+
+treeform_code treeform_withhold(treeform_file* file, const treeform_weld_result* welded) {
+    return glue::guard([&] { glue::withhold(glue::content(file, "file"), welded); });
 }

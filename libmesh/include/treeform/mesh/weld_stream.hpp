@@ -32,6 +32,7 @@
 
 namespace treeform {
 
+/// How to weld from file to file.
 struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     bool relative = false;   ///< `tolerance` is a share of the diagonal of the cloud's box
@@ -53,8 +54,7 @@ struct weld_stream_options {
     std::uint64_t points_per_tile = 0;  ///< at most about this many; 0: as the memory allows
     treeform::communicator communicator{};
     bool shared = false;  ///< see `stream_weld`
-    /// Called with the step ("survey", "scatter", "weld", "borders", "write") and the share of it
-    /// that is done. Returning false cancels.
+    /// Gets the step ("survey", "scatter", "weld", "borders", "write"), its share; false cancels.
     std::function<bool(std::string_view, double)> progress{};
     std::function<void()> step_done{};  ///< called after what an interruption does not undo
 

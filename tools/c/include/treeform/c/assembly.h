@@ -1,15 +1,10 @@
-#ifndef TREEFORM_C_ASSEMBLY_H
-#define TREEFORM_C_ASSEMBLY_H
+#pragma once
 /// \file
 /// Bodies of files. Which parts of an assembly penetrate, touch, or are too close; the same in many
 /// poses.
 
 #include <treeform/c/files.h>
 #include <treeform/c/nearness.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /// What of a file is a body.
 typedef int32_t treeform_body_kind;
@@ -37,6 +32,9 @@ typedef struct treeform_bodies {
     size_t count;
 } treeform_bodies;
 
+// made of the headers of C++:
+//   bodies_of() put_back() clash_options contact_region part_clash clash_result clash()
+//   pairs_named() pose_options pose_clash
 /// The bodies of `files` [count], which are called `labels` [count]: for `treeform_clash` and all
 /// placements. Files are copied.
 TREEFORM_C_API treeform_code treeform_bodies_of(const treeform_file* const* files,
@@ -51,8 +49,6 @@ TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t b
                                                const double* matrix, treeform_precision written_as,
                                                treeform_file** file);
 
-// made of <mesh/clash.hpp>:
-//   clash_options contact_region part_clash clash_result
 /// How to look for clashes.
 typedef struct treeform_clash_options {
     size_t size;
@@ -119,21 +115,24 @@ typedef struct treeform_clashes {
     /// too.
     uint64_t clashes;
 } treeform_clashes;
-// end
 
-/// How all parts [count] lie to each other, two by two; exact.
+/// How all parts of an assembly lie to each other, two by two.
+///
+/// Exact, as `treeform_relation`: parts penetrate, touch, or are separate. Boxes decide nothing
+/// but which pairs need not be looked at: rings in each other, or an L around a corner, whose
+/// boxes overlap, are clear if they do not meet. Parts without faces are clear of all. A distance
+/// is that of `treeform_distance`, and only looked for with a clearance. A part is indexed when
+/// its box comes near another's.
 TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
                                             const treeform_clash_options* options,
                                             treeform_clashes** clashes);
 
-/// All pairs of parts of which one's name matches `first`, and the other's `second`, where * stands
-/// for any characters and ? for one: [count / 2][2], for `ignored`.
+/// All pairs of parts of which one's name matches `first`, and the other's `second`, where *
+/// stands for any characters and ? for one: [count / 2][2], for `ignored`.
 TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size_t count,
                                                   const char* first, const char* second,
-                                                  treeform_indices** pairs);
+                                                  treeform_indices** indices);
 
-// made of <mesh/clash.hpp>:
-//   pose_options pose_clash
 /// How to check poses.
 typedef struct treeform_poses_options {
     size_t size;
@@ -169,14 +168,12 @@ typedef struct treeform_poses_result {
     uint64_t boxes_apart;
 } treeform_poses_result;
 
+// made of the headers of C++:
+//   check_poses()
 /// What clashes in each of many poses: `poses` [pose_count][count][12] has a matrix for each part,
 /// pose after pose. Exact, for the corners as moved.
 TREEFORM_C_API treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t count,
                                                   const double* poses, size_t pose_count,
                                                   const treeform_poses_options* options,
                                                   treeform_poses_result** result);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

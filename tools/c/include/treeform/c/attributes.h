@@ -1,13 +1,8 @@
-#ifndef TREEFORM_C_ATTRIBUTES_H
-#define TREEFORM_C_ATTRIBUTES_H
+#pragma once
 /// \file
 /// Attributes of inputs carried over to what was made of them; colors.
 
 #include <treeform/c/files.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /// An input of an operation.
 typedef struct treeform_carry_source {
@@ -17,10 +12,13 @@ typedef struct treeform_carry_source {
     size_t face_count;  ///< of `triangle_of_face`
 } treeform_carry_source;
 
-/// Gives `file`, whose mesh was made of the `inputs` [count], their attributes: columns of vertices
-/// and faces, texture coordinates and normals, materials; of a single input, also names of parts.
-/// `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or null) are those of a
-/// `treeform_boolean_result`.
+// made of the headers of C++:
+//   carry() carry_one() face_groups() corner_groups() add_source_columns() color_distances()
+//   color_contacts()
+/// Gives `file`, whose mesh was made of the `inputs` [count], their attributes: columns of
+/// vertices and faces, texture coordinates and normals, materials; of a single input, also names
+/// of parts. `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or null) are
+/// those of a `treeform_boolean_result`.
 TREEFORM_C_API treeform_code treeform_carry(treeform_file* file,
                                             const treeform_carry_source* inputs, size_t count,
                                             const treeform_element* face_source,
@@ -41,12 +39,12 @@ TREEFORM_C_API treeform_code treeform_carry_one(treeform_file* file,
 /// `by_values` a group has one material and equal values, with `by_input` faces of one input only.
 TREEFORM_C_API treeform_code treeform_face_groups(const treeform_carry_source* inputs, size_t count,
                                                   int32_t by_values, int32_t by_input,
-                                                  treeform_indices** groups);
+                                                  treeform_indices** indices);
 
 /// A group for each corner [3 F] of an input, for `treeform_simplify_options::corner_groups`:
 /// seams, and borders of materials and values, are kept. None where there are no values.
 TREEFORM_C_API treeform_code treeform_corner_groups(const treeform_carry_source* input,
-                                                    treeform_indices** groups);
+                                                    treeform_indices** indices);
 
 /// Gives faces the columns NAME_mesh and NAME_face: the operand that each comes from, and its
 /// number there; a comment for each of `inputs` [count] says its name.
@@ -54,8 +52,8 @@ TREEFORM_C_API treeform_code treeform_add_source_columns(treeform_file* file, co
                                                          const treeform_element* face_source,
                                                          const char* const* inputs, size_t count);
 
-/// Gives the vertices of a file the property "distance" and colors from blue (`low`) over white (0)
-/// to red (`high`); `distances` [count] has one for each point.
+/// Gives the vertices of a file the property "distance" and colors from blue (`low`) over white
+/// (0) to red (`high`); `distances` [count] has one for each point.
 TREEFORM_C_API treeform_code treeform_color_distances(treeform_file* file, const double* distances,
                                                       size_t count, double low, double high);
 
@@ -64,8 +62,4 @@ TREEFORM_C_API treeform_code treeform_color_distances(treeform_file* file, const
 /// around them have a tint.
 TREEFORM_C_API treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* classes,
                                                      size_t count, double halo);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

@@ -1,5 +1,4 @@
-#ifndef TREEFORM_C_BASE_H
-#define TREEFORM_C_BASE_H
+#pragma once
 /// \file
 /// What all of the C surface shares: rules, errors, memory, progress, threads, version.
 ///
@@ -7,8 +6,9 @@
 /// parameters. 0 is success, a positive code comes with a result that is not all that was asked
 /// for, a negative one comes without. `treeform_last_error` says in a sentence what was wrong, and
 /// which face, point, option or file it was. No argument may be null unless its description says
-/// so, and a null argument, a number out of range or a coordinate that is not finite is an error,
-/// not a crash.
+/// so, or it is a `format` (by content, or by the extension), a `unit`, a `progress` or `written`;
+/// and a null argument, a number out of range or a coordinate that is not finite is an error, not a
+/// crash.
 ///
 /// Memory. What a function creates (meshes, files, trees, results) is given back by
 /// `treeform_free`, whatever it is. Results are structs; the arrays that they point to belong to
@@ -25,7 +25,8 @@
 /// Numbers. Coordinates are doubles, points are x, y, z one after the other; faces are three 32-bit
 /// numbers of points, counter-clockwise seen from outside. Truth values are 0 and 1. An option that
 /// need not be given is NaN or, of a number that counts elements, `TREEFORM_NONE`. A matrix has 12
-/// numbers, three rows of four: new = M * old, so the first twelve of a 4x4 matrix by rows.
+/// numbers, three rows of four: new = M * old, so the first twelve of a 4x4 matrix by rows. Null in
+/// place of a matrix moves nothing.
 ///
 /// Threads. Functions may be called from any threads at once. The same handle may be given to
 /// several calls at once as long as each takes it as const. Answers do not depend on how many
@@ -46,18 +47,17 @@
     TREEFORM_C_VERSION_OF(TREEFORM_C_VERSION_MAJOR, TREEFORM_C_VERSION_MINOR, \
                           TREEFORM_C_VERSION_PATCH)
 
-#if defined(_WIN32)
-#if defined(TREEFORM_C_BUILDING)
-#define TREEFORM_C_API __declspec(dllexport)
+#if !defined(_WIN32)
+#define TREEFORM_C_SHOWN __attribute__((visibility("default")))
+#elif defined(TREEFORM_C_BUILDING)
+#define TREEFORM_C_SHOWN __declspec(dllexport)
 #else
-#define TREEFORM_C_API __declspec(dllimport)
+#define TREEFORM_C_SHOWN __declspec(dllimport)
 #endif
-#else
-#define TREEFORM_C_API __attribute__((visibility("default")))
-#endif
-
 #ifdef __cplusplus
-extern "C" {
+#define TREEFORM_C_API extern "C" TREEFORM_C_SHOWN
+#else
+#define TREEFORM_C_API TREEFORM_C_SHOWN
 #endif
 
 /// How a call ended.
@@ -135,7 +135,7 @@ typedef struct treeform_thread_limit treeform_thread_limit;
 TREEFORM_C_API treeform_code treeform_limit_threads(uint32_t threads,
                                                     treeform_thread_limit** limit);
 
-// made of <mesh/mesh.hpp>:
+// made of the headers of C++:
 //   precision vertex_identity
 /// The numbers that coordinates are written as.
 typedef int32_t treeform_precision;
@@ -171,7 +171,7 @@ typedef struct treeform_box {
     double max[3];
 } treeform_box;
 
-// made of <mesh/certificate.hpp>:
+// made of the headers of C++:
 //   operand_element indices strings status open_edge certificate search_effort
 /// A vertex or face of an operand: its number within that operand.
 typedef struct treeform_element {
@@ -274,8 +274,3 @@ typedef struct treeform_search_effort {
     uint64_t cut;
 } treeform_search_effort;
 // end
-
-#ifdef __cplusplus
-}
-#endif
-#endif

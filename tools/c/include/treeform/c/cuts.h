@@ -1,14 +1,9 @@
-#ifndef TREEFORM_C_CUTS_H
-#define TREEFORM_C_CUTS_H
+#pragma once
 /// \file
 /// Sections of a mesh by planes, solids cut by them; parts of meshes, meshes one after the other,
 /// moved.
 
 #include <treeform/c/mesh.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /// The plane through a point across a normal, whose length does not matter.
 typedef struct treeform_plane {
@@ -16,8 +11,10 @@ typedef struct treeform_plane {
     double normal[3];
 } treeform_plane;
 
-// made of <mesh/section.hpp>:
-//   section_loop section_layer section_result
+// made of the headers of C++:
+//   section_loop section_layer section_result section() heights layer_heights()
+//   write_section() cut_options cut_piece cut_result cut() cut_to_fit() mesh_part mesh_parts
+//   components() concatenate() transform_mesh()
 /// A closed polygon, or, where the mesh ends, an open polyline.
 typedef struct treeform_section_loop {
     size_t first_point;  ///< its points follow one another; the first is not repeated
@@ -61,27 +58,41 @@ typedef struct treeform_section_result {
     double y[3];
     double normal[3];
 } treeform_section_result;
-// end
 
-/// Sections of a mesh by the planes at `heights` [count] above `plane` (null: through the origin,
-/// across z): along its normal at length 1. Null and 0 heights are the plane itself. All topology
-/// is decided exactly; a vertex in a plane counts as above it. Of a mesh that is closed and agrees
-/// in its orientation, all loops are closed. `progress` may be null.
+/// Sections of a mesh by the planes at `heights` above `plane` (`oriented_plane::parallel`).
+///
+/// Which side of a plane a vertex is on, which segments make a loop, and which loop lies in which
+/// are decided exactly, on the coordinates as given. Then points are rounded.
+///
+/// A vertex in a plane counts as above it. So a section is that of a plane just below: a box from
+/// height 0 to 1 has none at 0, and its full top at 1. A point or line in which it only touches
+/// the plane from below is none. Sides that lie in the plane are there where the mesh goes on
+/// below.
+///
+/// Of a mesh that is closed and agrees in its orientation, all polylines are closed. Loops may
+/// touch where faces do; at an edge of four faces or more, those that bound one wedge of the solid
+/// are joined. Where the mesh has a border, polylines are open; where neighbors disagree, they go
+/// on, not `oriented`. Loops of faces that cross each other do, too: `parent` is then that of one
+/// of their points, and areas are added up as often as the surface winds around them. Corners with
+/// equal coordinates are one.
+///
+/// Where a loop goes straight on from one face to another in the same plane, exactly, there is no
+/// point: a box has four. The side from a point on lies in the face named, and may go on in
+/// others.
+///
+/// Loops are in the order of their lowest faces.
 TREEFORM_C_API treeform_code treeform_section(const treeform_mesh* mesh,
                                               const treeform_plane* plane, const double* heights,
                                               size_t count, treeform_progress progress,
                                               void* progress_data,
-                                              treeform_section_result** section);
+                                              treeform_section_result** result);
 
-// made of lists:
-//   heights
 /// Numbers.
 typedef struct treeform_heights {
     void* owner;
     const double* heights;  ///< [count]
     size_t count;
 } treeform_heights;
-// end
 
 /// Heights above `plane` (null: as above) of the middles of layers of this thickness, from the
 /// lowest point of the mesh to the highest.
@@ -95,8 +106,6 @@ TREEFORM_C_API treeform_code treeform_write_section(const char* path,
                                                     const treeform_section_result* section,
                                                     const char* format, const char* unit);
 
-// made of <mesh/cut.hpp>:
-//   cut_options cut_piece cut_result
 /// How to cut.
 typedef struct treeform_cut_options {
     size_t size;
@@ -145,24 +154,35 @@ typedef struct treeform_cut_result {
     /// overlap are one; without caps, the faces cut along each other. Not of `treeform_cut_along`.
     int32_t resolved;
 } treeform_cut_result;
-// end
 
-/// The mesh below, between and above the planes at `heights` [count] above `plane`, as for
-/// `treeform_section`: count + 1 pieces, some perhaps without faces, each closed by caps. The mesh
-/// has to bound a solid, unless `open` is set. The code is that of the certificate.
+/// The mesh below, between and above planes at `heights` above `plane`
+/// (`oriented_plane::parallel`).
+///
+/// Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face
+/// that lies in a plane belongs to the side that its solid is on. What the solid has in the plane
+/// is then closed by a cap, the same for both sides. Only points on cuts are rounded, once; each
+/// piece is checked as results of `treeform_boolean` are. Caps between axes stay flat and alike
+/// when rounded; others may bend by a step of the precision.
+///
+/// `treeform_carry` gives pieces the attributes of a file, by their sources, and
+/// `carry_source::texture_caps` gives caps texture coordinates in their planes.
+///
+/// The mesh has to bound a solid, as an operand of `treeform_boolean` has to. Where it meets
+/// itself, or has parts that are inside out or hidden in others, it is first made the solid that
+/// it winds around, rounded: then all that is said here is of that one. Equal planes are one.
 TREEFORM_C_API treeform_code treeform_cut(const treeform_mesh* mesh, const treeform_plane* plane,
                                           const double* heights, size_t count,
                                           const treeform_cut_options* options,
                                           treeform_cut_result** result);
 
-/// Pieces that fit into a box of this size (an infinite one is not cut along), by x, then y, then
-/// z; planes are numbered in that order.
+/// Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
+/// each axis as there can be, and equally far apart, to rounding. A size that is infinite is not
+/// cut along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x
+/// first, then y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
 TREEFORM_C_API treeform_code treeform_cut_to_fit(const treeform_mesh* mesh, const double size[3],
                                                  const treeform_cut_options* options,
                                                  treeform_cut_result** result);
 
-// made of <mesh/cut.hpp>:
-//   mesh_part mesh_parts
 /// Faces of a mesh by themselves, with the points that they use.
 typedef struct treeform_mesh_part {
     treeform_arrays mesh;
@@ -178,11 +198,10 @@ typedef struct treeform_mesh_parts {
     const treeform_mesh_part* parts;  ///< [count]
     size_t count;
 } treeform_mesh_parts;
-// end
 
-/// The faces that corners link, as meshes, by their lowest faces; a cavity goes with what is around
-/// it. Parts of a volume below `min_volume` are left out (open ones have none), and all but the
-/// `largest` ones where that is not 0.
+/// The faces that corners link, as meshes, by their lowest faces; a cavity goes with what is
+/// around it. Parts of a volume below `min_volume` are left out (open ones have none), and all but
+/// the `largest` ones where that is not 0.
 TREEFORM_C_API treeform_code treeform_components(const treeform_mesh* mesh, double min_volume,
                                                  size_t largest, treeform_mesh_parts** parts);
 
@@ -191,13 +210,8 @@ TREEFORM_C_API treeform_code treeform_components(const treeform_mesh* mesh, doub
 TREEFORM_C_API treeform_code treeform_concatenate(const treeform_mesh* const* meshes, size_t count,
                                                   treeform_made_mesh** made);
 
-/// The mesh with its points moved by `matrix` [12]: 3 rows of 4. Where that mirrors, faces are
-/// turned over.
-TREEFORM_C_API treeform_code treeform_transform_mesh(const treeform_mesh* mesh,
-                                                     const double* matrix,
+/// The mesh with its points moved. Where `by` mirrors, faces are turned over, so that they look
+/// outward as before.
+TREEFORM_C_API treeform_code treeform_transform_mesh(const treeform_mesh* mesh, const double* by,
                                                      treeform_made_mesh** made);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

@@ -1,25 +1,22 @@
-#ifndef TREEFORM_C_FILES_H
-#define TREEFORM_C_FILES_H
+#pragma once
 /// \file
 /// Files: read, looked into, changed, joined, split into parts, written; robots.
 
 #include <treeform/c/mesh.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /// The content of a mesh or point file: points, faces, all attributes.
 typedef struct treeform_file treeform_file;
 
-/// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its dot
-/// ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
+// made of the headers of C++:
+//   read() named_column read_options read_as() read_memory() file_create() file_copy()
+//   scalar_type column element part io_warning mesh_file file_look() file_set_points()
+//   file_set_column() file_set_texture() file_add_part()
+/// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its
+/// dot ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
 /// stored.
 TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
 
-// made of <mesh/mesh_file.hpp>:
-//   named_column read_options
 /// A column of a table of text, by the name that it gets.
 typedef struct treeform_named_column {
     const char* name;    ///< "x", "intensity", ...
@@ -39,7 +36,6 @@ typedef struct treeform_read_options {
 } treeform_read_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_read_options_init(treeform_read_options* options, size_t size);
-// end
 
 /// Reads the file at `path` as `treeform_read` does; options may be null.
 TREEFORM_C_API treeform_code treeform_read_as(const char* path,
@@ -54,10 +50,8 @@ TREEFORM_C_API treeform_code treeform_read_memory(const void* bytes, size_t size
 TREEFORM_C_API treeform_code treeform_file_create(const treeform_mesh* mesh, treeform_file** file);
 
 /// A copy of a file.
-TREEFORM_C_API treeform_code treeform_file_copy(const treeform_file* file, treeform_file** copy);
+TREEFORM_C_API treeform_code treeform_file_copy(const treeform_file* file, treeform_file** made);
 
-// made of <mesh/attributes.hpp> <mesh/mesh_file.hpp>:
-//   scalar_type column element part io_warning mesh_file
 /// The type of the values of a column.
 typedef int32_t treeform_scalar;
 enum {
@@ -153,7 +147,6 @@ typedef struct treeform_file_view {
     double las_scale[3];
     double las_offset[3];
 } treeform_file_view;
-// end
 
 /// Looks into a file.
 TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
@@ -163,9 +156,9 @@ TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
 TREEFORM_C_API treeform_code treeform_file_set_points(treeform_file* file, const double* points,
                                                       size_t count);
 
-/// Sets a column of `element` ("vertex", "face"), one value a row, `values` [rows] of `type`. The
-/// rows of vertices and faces are those that the file has. Columns that stand for coordinates or
-/// corners are refused.
+/// Sets a column of `treeform_rows` ("vertex", "face"), one value a row, `values` [rows] of
+/// `type`. The rows of vertices and faces are those that the file has. Columns that stand for
+/// coordinates or corners are refused.
 TREEFORM_C_API treeform_code treeform_file_set_column(treeform_file* file, const char* element,
                                                       const char* name, treeform_scalar type,
                                                       const void* values, size_t rows);
@@ -181,6 +174,7 @@ TREEFORM_C_API treeform_code treeform_file_set_texture(treeform_file* file, cons
 TREEFORM_C_API treeform_code treeform_file_add_part(treeform_file* file, const char* object,
                                                     const char* group, const char* material,
                                                     uint32_t first_face);
+// end
 
 /// What a line of text in a file is.
 typedef int32_t treeform_text;
@@ -190,6 +184,9 @@ enum {
     TREEFORM_MATERIAL_FILE = 2,
     TREEFORM_TEXTURE_FILE = 3
 };
+// made of the headers of C++:
+//   file_add_text() file_split_polygons() file_round_to_las() file_round_to_float32()
+//   file_transform() file_turn_normals() write_options write_result write() write_mesh()
 /// Adds such a line.
 TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text what,
                                                     const char* text);
@@ -198,10 +195,10 @@ TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treefor
 TREEFORM_C_API treeform_code treeform_file_split_polygons(treeform_file* file);
 
 /// Moves the coordinates to those that a LAS file can hold; `moved` is the furthest that one went.
-TREEFORM_C_API treeform_code treeform_file_round_to_las(treeform_file* file, double* moved);
+TREEFORM_C_API treeform_code treeform_file_round_to_las(treeform_file* file, double* result);
 
 /// Moves the coordinates to 32-bit floats; `moved` is the furthest that one went.
-TREEFORM_C_API treeform_code treeform_file_round_to_float32(treeform_file* file, double* moved);
+TREEFORM_C_API treeform_code treeform_file_round_to_float32(treeform_file* file, double* result);
 
 /// Moves all of the file by a matrix; where it mirrors, faces are turned over, so that they look
 /// outward as before.
@@ -211,8 +208,6 @@ TREEFORM_C_API treeform_code treeform_file_transform(treeform_file* file, const 
 /// over.
 TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix);
 
-// made of <mesh/write.hpp>:
-//   write_options write_result
 /// How to write.
 typedef struct treeform_write_options {
     size_t size;
@@ -257,17 +252,18 @@ typedef struct treeform_written {
     const treeform_warning* warnings;  ///< [warning_count]
     size_t warning_count;
 } treeform_written;
-// end
 
-/// Writes a file to `path`, whole or not at all; "-" is standard output. `written` may be null.
+/// Writes a file to `path`, whole or not at all; "-" is standard output. What a format does not
+/// hold is left out: `treeform_written` says what.
 TREEFORM_C_API treeform_code treeform_write(const char* path, const treeform_file* file,
                                             const treeform_write_options* options,
                                             treeform_written** written);
 
-/// The same of a mesh without attributes. `written` may be null.
+/// The same of a mesh without attributes. `treeform_written` may be null.
 TREEFORM_C_API treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
                                                  const treeform_write_options* options,
                                                  treeform_written** written);
+// end
 
 /// Bytes.
 typedef struct treeform_bytes {
@@ -276,13 +272,13 @@ typedef struct treeform_bytes {
     size_t count;
 } treeform_bytes;
 
+// made of the headers of C++:
+//   write_memory() usable_mesh part_options usable_part() as_mesh() join_files() scene()
 /// The bytes of the file, of the format that `options` name.
 TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
                                                    const treeform_write_options* options,
                                                    treeform_bytes** bytes);
 
-// made of <mesh/as_mesh.hpp>:
-//   usable_mesh part_options
 /// A mesh without NaN or infinite coordinates, and the file's number of each face.
 typedef struct treeform_part {
     void* owner;
@@ -309,7 +305,6 @@ typedef struct treeform_part_options {
 } treeform_part_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_part_options_init(treeform_part_options* options, size_t size);
-// end
 
 /// The part of a file's mesh that can be used. Points that only faces left out use go, too.
 TREEFORM_C_API treeform_code treeform_usable_part(const treeform_file* file,
@@ -323,12 +318,13 @@ TREEFORM_C_API treeform_code treeform_as_mesh(const treeform_file* file, treefor
 /// One file with the points and faces of all. `names` [count] are for warnings; or null.
 TREEFORM_C_API treeform_code treeform_join_files(const treeform_file* const* files,
                                                  const char* const* names, size_t count,
-                                                 treeform_file** joined);
+                                                 treeform_file** file);
 
 /// All files in one scene, each under its name, with materials and textures.
 TREEFORM_C_API treeform_code treeform_scene(const treeform_file* const* files,
                                             const char* const* names, size_t count,
-                                            treeform_file** scene);
+                                            treeform_file** file);
+// end
 
 /// A part of a scene.
 typedef struct treeform_scene_part {
@@ -345,13 +341,13 @@ typedef struct treeform_scene_parts {
     size_t count;
 } treeform_scene_parts;
 
+// made of the headers of C++:
+//   split_parts() file_content files_of()
 /// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
 /// points or open edges in common are one.
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
                                                   treeform_scene_parts** parts);
 
-// made of <mesh/read.hpp>:
-//   file_content
 /// Which files of a folder are meant.
 typedef int32_t treeform_file_content;
 enum {
@@ -360,11 +356,14 @@ enum {
     /// also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
     TREEFORM_MESHES_AND_POINTS = 1
 };
-// end
-/// `paths` [count] with each folder replaced by the files in it of such a format.
+
+/// `paths` with each folder replaced by the files in it of such a format, by extension, in the
+/// order of their names. What is in folders of the folder is not looked at. A folder without such
+/// files stays, and so does "-".
 TREEFORM_C_API treeform_code treeform_files_of(const char* const* paths, size_t count,
                                                treeform_file_content content,
-                                               treeform_strings** files);
+                                               treeform_strings** strings);
+// end
 
 /// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 when treeform was built
 /// without assimp.
@@ -373,8 +372,8 @@ TREEFORM_C_API int32_t treeform_reads_scenes(void);
 /// A robot.
 typedef struct treeform_robot treeform_robot;
 
-// made of <mesh/read.hpp>:
-//   urdf_options
+// made of the headers of C++:
+//   urdf_options read_urdf() urdf_mesh urdf_joint urdf_robot robot_look()
 /// How to read a robot.
 typedef struct treeform_robot_options {
     size_t size;
@@ -387,15 +386,13 @@ typedef struct treeform_robot_options {
 } treeform_robot_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_robot_options_init(treeform_robot_options* options, size_t size);
-// end
 
-/// Reads a URDF file.
+/// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes,
+/// cylinders and spheres become meshes. Files of meshes are not read, but have to exist.
 TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
                                                 const treeform_robot_options* options,
                                                 treeform_robot** robot);
 
-// made of <mesh/read.hpp>:
-//   urdf_mesh urdf_joint urdf_robot
 /// A mesh of a link, in a file, or made here: `place` takes its points into the link's frame.
 typedef struct treeform_robot_mesh {
     uint32_t link;
@@ -433,11 +430,11 @@ typedef struct treeform_robot_view {
     const uint32_t* adjacent;
     size_t adjacent_count;
 } treeform_robot_view;
-// end
 
 /// Looks into a robot.
 TREEFORM_C_API treeform_code treeform_robot_look(const treeform_robot* robot,
                                                  treeform_robot_view** view);
+// end
 
 /// A robot as parts of an assembly, for `treeform_check_poses`: its links that have faces.
 typedef struct treeform_robot_parts {
@@ -449,6 +446,8 @@ typedef struct treeform_robot_parts {
     size_t adjacent_count;
 } treeform_robot_parts;
 
+// made of the headers of C++:
+//   robot_parts_of() link_transforms()
 /// The parts of a robot; reads the files of its meshes.
 TREEFORM_C_API treeform_code treeform_robot_parts_of(const treeform_robot* robot,
                                                      treeform_robot_parts** parts);
@@ -459,8 +458,4 @@ TREEFORM_C_API treeform_code treeform_link_transforms(const treeform_robot* robo
                                                       const char* const* joints,
                                                       const double* values, size_t count,
                                                       double* places);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

@@ -1,16 +1,11 @@
-#ifndef TREEFORM_C_INTERSECTIONS_H
-#define TREEFORM_C_INTERSECTIONS_H
+#pragma once
 /// \file
 /// Which faces meet: of a mesh, of two, of a mesh and a box; the curves along which they meet; of a
 /// file larger than memory.
 
 #include <treeform/c/files.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// made of <mesh/self_intersections.hpp>:
+// made of the headers of C++:
 //   pair_kind
 /// How two faces meet. Each pair has exactly one kind. A shared corner is one that both faces
 /// have; see `vertex_identity`.
@@ -36,8 +31,13 @@ enum {
 /// All kinds. A set of kinds is a sum of `1u << kind`.
 #define TREEFORM_ALL_KINDS 127u
 
-// made of <mesh/self_intersections.hpp>:
-//   face_pair self_intersection_result self_intersection_options
+// made of the headers of C++:
+//   face_pair self_intersection_result self_intersection_options self_intersections()
+//   intersection_region intersection_regions group_pairs() mesh_intersection_options
+//   intersections=mesh_intersections() intersects() intersects_poses() faces_in_box()
+//   curve_segment segments intersection_curves() curve_path curve_network intersection_paths()
+//   write_curves() color_pairs() stream_search_options stream_search_result
+//   self_intersections_of_file() is_searched_in_tiles()
 /// Two faces that meet.
 typedef struct treeform_face_pair {
     uint32_t a;  ///< the lower face number
@@ -74,7 +74,6 @@ typedef struct treeform_self_intersections_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_self_intersections_options_init(
     treeform_self_intersections_options* options, size_t size);
-// end
 
 /// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
 /// Exact on the coordinates as given.
@@ -82,8 +81,6 @@ TREEFORM_C_API treeform_code treeform_self_intersections(
     const treeform_mesh* mesh, const treeform_self_intersections_options* options,
     treeform_pairs** pairs);
 
-// made of <mesh/self_intersections.hpp>:
-//   intersection_region intersection_regions
 /// Faces that meet, in one place of the mesh.
 typedef struct treeform_region {
     const uint32_t* faces;  ///< [face_count] ascending
@@ -101,15 +98,13 @@ typedef struct treeform_regions {
     const uint32_t* region_of_pair;  ///< [pairs]
     size_t pair_count;
 } treeform_regions;
-// end
 
-/// Groups the faces in `pairs` [count] into regions: those that a pair or a shared corner links.
+/// Groups the faces in `pairs` into regions. Two of these faces are in one region when a pair or a
+/// shared corner links them, directly or through other such faces.
 TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
                                                   const treeform_face_pair* pairs, size_t count,
                                                   treeform_regions** regions);
 
-// made of <mesh/intersections.hpp>:
-//   mesh_intersection_options
 /// Which pairs of faces to look for, and where the meshes are.
 typedef struct treeform_intersections_options {
     size_t size;
@@ -130,10 +125,14 @@ typedef struct treeform_intersections_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_intersections_options_init(treeform_intersections_options* options,
                                                         size_t size);
-// end
 
-/// All pairs of a face of `a` and a face of `b` that have a common point; exact. Surfaces count,
-/// not solids.
+/// All pairs of a face of `a` and a face of `b` that have a common point.
+///
+/// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
+/// degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`,
+/// and equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not
+/// touch it gives no pair. `a` and `b` may be the same mesh. Of meshes that are not prepared, only
+/// faces that reach, as moved, into the intersection of both bounding boxes are indexed.
 TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
                                                     const treeform_intersections_options* options,
                                                     treeform_pairs** pairs);
@@ -142,10 +141,10 @@ TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, cons
 /// where it is); exact.
 TREEFORM_C_API treeform_code treeform_intersects(const treeform_mesh* a, const treeform_mesh* b,
                                                  const double* move_a, const double* move_b,
-                                                 int32_t* meet);
+                                                 int32_t* result);
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
-/// the mesh stays; `meet` is [count].
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null
+/// where the mesh stays; `meet` is [count].
 TREEFORM_C_API treeform_code treeform_intersects_poses(const treeform_mesh* a,
                                                        const treeform_mesh* b,
                                                        const double* moves_a, const double* moves_b,
@@ -154,10 +153,8 @@ TREEFORM_C_API treeform_code treeform_intersects_poses(const treeform_mesh* a,
 /// The faces, ascending, that have a point in the closed box; exact.
 TREEFORM_C_API treeform_code treeform_faces_in_box(const treeform_mesh* mesh,
                                                    const treeform_box* box,
-                                                   treeform_indices** faces);
+                                                   treeform_indices** indices);
 
-// made of <mesh/intersections.hpp>:
-//   curve_segment segments
 /// What two faces have in common, or one side of it.
 typedef struct treeform_segment {
     double ends[2][3];  ///< equal when the faces meet in a point
@@ -170,17 +167,17 @@ typedef struct treeform_segments {
     const treeform_segment* segments;  ///< [count]
     size_t count;
 } treeform_segments;
-// end
 
-/// What the two faces of each pair have in common: that there is something is exact, ends are
-/// rounded.
+/// What the two faces of each pair have in common, as segments, in the order of `pairs`: one
+/// segment for a crossing, the 3 to 6 sides of the common area for faces that overlap, a segment
+/// of length 0 for a single point.
+///
+/// Whether there is a segment is exact. Its ends are rounded, and finite.
 TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
                                                           const treeform_face_pair* pairs,
                                                           size_t count,
                                                           treeform_segments** segments);
 
-// made of <mesh/intersections.hpp>:
-//   curve_path curve_network
 /// A path of different points, each joined to the next by a segment.
 typedef struct treeform_path {
     /// [count] numbers in `curve_network::points`; one or more
@@ -199,10 +196,12 @@ typedef struct treeform_paths {
     const treeform_path* paths;
     size_t path_count;
 } treeform_paths;
-// end
 
-/// The segments joined into paths where their ends are equal as exact points. Faces of the pairs
-/// must have an area.
+/// The segments of `treeform_intersection_curves`, joined into paths where their ends are equal as
+/// exact points.
+///
+/// A segment that several pairs have is listed once. Paths are in the order of the numbers of
+/// their first points, and points in the order of their names.
 TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
                                                          const treeform_face_pair* pairs,
                                                          size_t count, treeform_paths** paths);
@@ -213,12 +212,10 @@ TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treef
                                                    const char* format);
 
 /// Gives `file` the colors of its faces that meet, and the properties tf_class and tf_region.
-/// `part` is what was looked at, of this file, and `pairs` are those of its mesh.
+/// `treeform_named_faces` is what was looked at, of this file, and `pairs` are those of its mesh.
 TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
                                                   const treeform_face_pair* pairs, size_t count);
 
-// made of <mesh/self_intersections.hpp>:
-//   stream_search_options stream_search_result
 /// How to search a file that is larger than memory.
 typedef struct treeform_search_file_options {
     size_t size;
@@ -254,41 +251,51 @@ typedef struct treeform_search_result {
     size_t tiles;
     size_t finished_tiles;  ///< by an earlier run
 } treeform_search_result;
-// end
 
-/// The pairs that `treeform_self_intersections` finds in the usable part of a file (binary STL, or
-/// PLY), for files larger than memory. The folder stays when the process is killed, and the same
-/// call goes on from there.
-TREEFORM_C_API treeform_code treeform_self_intersections_of_file(
-    const char* path, const treeform_search_file_options* options, treeform_search_result** result);
+/// The pairs that `treeform_self_intersections` finds in the usable part of a file, for files
+/// larger than memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut
+/// into tiles; each gets a copy, on the disk, of the faces that reach into it, which must fit into
+/// memory. A pair counts in the tile that holds the lowest corner of the common part of the boxes
+/// of its faces, so it counts once.
+///
+/// The folder stays when the process is killed, and the same call goes on from there. With several
+/// ranks, rank 0 makes the tiles, all search them, and rank 0 gets the result.
+TREEFORM_C_API treeform_code
+treeform_self_intersections_of_file(const char* input, const treeform_search_file_options* options,
+                                    treeform_search_result** result);
 
 /// Whether the file is of a format that is searched in tiles; an error when it cannot be read, or
 /// its header is damaged. `format` may be null.
 TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, const char* format,
-                                                           int32_t* is);
+                                                           int32_t* result);
+// end
 
 /// The same search step by step, for many processes that see one folder.
 typedef struct treeform_search treeform_search;
+// made of the headers of C++:
+//   search_create() search_scatter() search_unfinished() search_tile() search_finish()
+//   search_remove_folder()
 /// Begins: all processes give the same input and options. Only the progress of `options` may
 /// differ.
 TREEFORM_C_API treeform_code treeform_search_create(const char* path,
                                                     const treeform_search_file_options* options,
                                                     treeform_search** search);
+
 /// Gives each tile its faces, unless they have them; `tiles` is their number. One process does it.
-TREEFORM_C_API treeform_code treeform_search_scatter(treeform_search* search, size_t* tiles);
+TREEFORM_C_API treeform_code treeform_search_scatter(treeform_search* search, size_t* result);
+
 /// The tiles that are to be searched.
 TREEFORM_C_API treeform_code treeform_search_unfinished(treeform_search* search,
-                                                        treeform_indices** tiles);
+                                                        treeform_indices** indices);
+
 /// Searches a tile, unless that is done. Each process does its share.
 TREEFORM_C_API treeform_code treeform_search_tile(treeform_search* search, size_t tile);
+
 /// Puts together what was found, when all tiles are searched. Steps that come before their turn
 /// fail, and end the search.
 TREEFORM_C_API treeform_code treeform_search_finish(treeform_search* search,
                                                     treeform_search_result** result);
+
 /// Removes the folder.
 TREEFORM_C_API treeform_code treeform_search_remove_folder(treeform_search* search);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

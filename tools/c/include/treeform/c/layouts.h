@@ -1,16 +1,13 @@
-#ifndef TREEFORM_C_LAYOUTS_H
-#define TREEFORM_C_LAYOUTS_H
+#pragma once
 /// \file
 /// Meshes laid flat, packed on plates, aligned.
 
 #include <treeform/c/properties.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// made of <mesh/pack.hpp>:
-//   lay_choice lay_flat_options side_stability laid_flat
+// made of the headers of C++:
+//   lay_choice lay_flat_options side_stability laid_flat lay_flat() plate_turns pack_options
+//   packed_part packing pack() align_method align_weights align_options align_freedom
+//   align_end align_result align()
 /// Which side of the convex hull goes down.
 typedef int32_t treeform_lay_choice;
 enum {
@@ -88,15 +85,19 @@ typedef struct treeform_laid_flat {
     /// units in the last place; with a tolerance, about as much as that.
     double corrected;
 } treeform_laid_flat;
-// end
 
-/// Turns the mesh so that a flat side of its convex hull is on the bed; null when it has none.
+/// Turns `mesh` so that a flat side of its convex hull is on the bed. The center of its box keeps
+/// x and y. Null when there is no side: fewer than three points, or all on a line.
+///
+/// Every point in the plane of the side, exactly or within the tolerance, then has exactly the z
+/// of the bed, and no point is below. Areas and angles are rounded; those within 2^-40 of the best
+/// are treated as equal. Of equal sides, one that is exactly down already is chosen, else the
+/// largest, else the first in `sides`. Points that no face uses move along and are otherwise
+/// ignored; a mesh without faces uses all its points.
 TREEFORM_C_API treeform_code treeform_lay_flat(const treeform_mesh* mesh,
                                                const treeform_lay_flat_options* options,
-                                               treeform_laid_flat** laid);
+                                               treeform_laid_flat** flat);
 
-// made of <mesh/pack.hpp>:
-//   plate_turns pack_options packed_part packing
 /// How many turns about the vertical are tried for each part.
 typedef int32_t treeform_plate_turns;
 enum {
@@ -171,16 +172,39 @@ typedef struct treeform_packing {
     uint64_t pairs_measured;
     double bed;  ///< least z of a placed part that stands on the bed, as written
 } treeform_packing;
-// end
 
-/// Puts the parts [count] on plates. Returns `TREEFORM_NO_PLACE`, with a result, when some found
-/// none.
+/// Puts the parts on plates, each turned about z by one of `turns`. Unless they are stacked, each
+/// stands on the bed with its lowest point.
+///
+/// For the coordinates in `points`, as written:
+///
+/// - The lowest z of a placed part is exactly that of the bed (with float32, the least one not
+/// below it); of a stacked part, not below it.
+///
+/// - No coordinate is outside the plate or above its height.
+///
+/// - Any two placed parts of a plate are at least `spacing` apart, by their exact boxes or by
+/// `treeform_distance` less its error, and none is inside another's solid. With a spacing of 0,
+/// parts may touch only in a plane that separates their boxes.
+///
+/// A small part may stand in a hole of another, and `tighten` may move a part below an overhang. A
+/// void that is closed all around stays empty.
+///
+/// This is a search, and a part that is not placed may have had a place. In the first try, parts
+/// are taken in the order of the area that they cover (stacked, of their volume). Each goes to the
+/// first plate that has room, there to the free place of the least (z, then) y, then x, on a
+/// raster of about 512 cells a side (stacked, 96), and is then moved down (z,) y and x until
+/// something is in the way. While not all are placed, other orders and turns are tried: at random
+/// by the seed, and with parts that found no place brought forward. With several plates, tries
+/// also go on while more plates are used than the area asks for. The result is the try with the
+/// most parts placed, then with the least area left, then with the fewest plates, then the first.
+///
+/// Parts without faces take no room: they are placed where they are. Points that no face uses move
+/// along with their part and are otherwise ignored. Equal parts are prepared once.
 TREEFORM_C_API treeform_code treeform_pack(const treeform_mesh* const* parts, size_t count,
                                            const treeform_pack_options* options,
                                            treeform_packing** packing);
 
-// made of <mesh/align.hpp>:
-//   align_method
 /// What each step of ICP makes small.
 typedef int32_t treeform_align_method;
 enum {
@@ -199,9 +223,7 @@ enum {
     /// these are on a line to up to 192.
     TREEFORM_PLANE_TO_PLANE = 3
 };
-// end
-// made of <mesh/align.hpp>:
-//   align_weights align_options align_freedom align_end align_result
+
 /// How much a pair of points counts.
 typedef int32_t treeform_align_weights;
 enum {
@@ -319,15 +341,32 @@ typedef struct treeform_align_result {
     /// that `undetermined` counts.
     double uncertainty;
 } treeform_align_result;
-// end
 
-/// The rigid motion that brings the points of `moving` near `fixed`, a mesh or cloud. Returns
-/// `TREEFORM_NO_PLACE`, with a result, when it has not converged.
+/// The rigid motion, with a uniform scale if asked for, that brings the moving points near the
+/// fixed mesh, or near its points when it has no faces.
+///
+/// From each start it is a local optimum: the right one when the motion is small compared with the
+/// features of the shape. The result is never worse than the present position; when nothing better
+/// is found, it is `start`, grown or shrunk about its center to the bounds of the scale. To
+/// compare, the squared distances of all moving points to the nearest fixed points are cut off at
+/// `max_distance` squared, and the mean is taken over the `overlap` share that is nearest. With
+/// weights, and with an overlap below 1, it is Welsch's function of the distances, by the v of the
+/// end: a share that is somewhat too large does no harm. Directions in which the points may slide
+/// freely (a plane on a plane) are left alone. Equal points count once on a cloud.
+///
+/// Along motions that are little held (a stiffness below 0.02, as of a cogwheel about its axis),
+/// places up to 6% of the diagonal away are tried, too.
+///
+/// Whether it is the right place, distances alone do not tell. At the right place they are noise;
+/// at a wrong one, regions are off to one side. From 4000 moving points on, every fourth is not
+/// fitted, and is what is looked at. Where they are off, by more than noise, places around the
+/// start are tried: shifts by 8% of the diagonal, turns by 14 degrees. Where they still are, a
+/// cloud is in doubt when they are off by more than 0.6 times of how thick both sides are around
+/// their planes. On a mesh, `converged` needs that other starts, tried with few points, do not end
+/// better, and that what is off is below 0.2% of the diagonal.
+///
+/// Without moving or without fixed points, the result is `start`, not converged.
 TREEFORM_C_API treeform_code treeform_align(const treeform_mesh* moving, const treeform_mesh* fixed,
                                             const treeform_align_options* options,
                                             treeform_align_result** result);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

@@ -1,13 +1,8 @@
-#ifndef TREEFORM_C_MESH_H
-#define TREEFORM_C_MESH_H
+#pragma once
 /// \file
 /// Meshes and clouds of your own arrays; meshes joined, selected from and rounded.
 
 #include <treeform/c/base.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /// A triangle mesh, or a cloud of points, and the indexes that queries have asked for. The first
 /// query that needs an index builds it, later ones use it again. Queries take it as const: they may
@@ -20,11 +15,14 @@ enum {
     TREEFORM_ONE_USE = 2  ///< keep no index: for a mesh that is asked one question
 };
 
+// made of the headers of C++:
+//   mesh_create() mesh_create_float() cloud_create() cloud_create_float() mesh_arrays()
+//   mesh_is_cloud() mesh_indexes_built()
 /// A mesh of `points` [point_count][3] and `faces` [face_count][3].
 ///
-/// Without `TREEFORM_COPY` both arrays are borrowed: they must stay, unchanged, as long as the mesh
-/// exists. Nothing is copied then. Coordinates may be NaN or infinite; verbs that need finite ones
-/// say which is not. Arrays without elements may be null.
+/// Without `TREEFORM_COPY` both arrays are borrowed: they must stay, unchanged, as long as the
+/// mesh exists. Nothing is copied then. Coordinates may be NaN or infinite; verbs that need finite
+/// ones say which is not. Arrays without elements may be null.
 ///
 /// A corner that is not less than `point_count` is `TREEFORM_INVALID`, naming the face. O(F).
 TREEFORM_C_API treeform_code treeform_mesh_create(const double* points, size_t point_count,
@@ -37,25 +35,26 @@ TREEFORM_C_API treeform_code treeform_mesh_create_float(const float* points, siz
                                                         const uint32_t* faces, size_t face_count,
                                                         uint32_t flags, treeform_mesh** mesh);
 
-/// A cloud of points, to be measured, moved, welded and aligned as meshes are: each point is a face
-/// without area, and has its number. A cloud bounds no solid. Flags as for meshes.
+/// A cloud of points, to be measured, moved, welded and aligned as meshes are: each point is a
+/// face without area, and has its number. A cloud bounds no solid. Flags as for meshes.
 TREEFORM_C_API treeform_code treeform_cloud_create(const double* points, size_t point_count,
-                                                   uint32_t flags, treeform_mesh** cloud);
+                                                   uint32_t flags, treeform_mesh** mesh);
 
 /// The same of 32-bit floats, which are copied.
 TREEFORM_C_API treeform_code treeform_cloud_create_float(const float* points, size_t point_count,
-                                                         uint32_t flags, treeform_mesh** cloud);
+                                                         uint32_t flags, treeform_mesh** mesh);
 
 /// The arrays of a mesh, borrowed as long as it exists. Those of a cloud have no faces.
 TREEFORM_C_API treeform_code treeform_mesh_arrays(const treeform_mesh* mesh,
-                                                  treeform_arrays* arrays);
+                                                  treeform_arrays* result);
 
 /// Whether it is a cloud.
-TREEFORM_C_API treeform_code treeform_mesh_is_cloud(const treeform_mesh* mesh, int32_t* is_cloud);
+TREEFORM_C_API treeform_code treeform_mesh_is_cloud(const treeform_mesh* mesh, int32_t* result);
 
 /// Number of indexes built so far.
 TREEFORM_C_API treeform_code treeform_mesh_indexes_built(const treeform_mesh* mesh,
-                                                         uint64_t* indexes);
+                                                         uint64_t* result);
+// end
 
 /// Several meshes side by side.
 typedef struct treeform_mesh_set {
@@ -64,11 +63,14 @@ typedef struct treeform_mesh_set {
     size_t count;
 } treeform_mesh_set;
 
+// made of the headers of C++:
+//   mesh_set_create()
 /// Meshes for functions that take several of them, such as `treeform_clash` and `treeform_slide`:
 /// with `set->meshes` these keep their indexes from call to call, with meshes of different origin
 /// they build them for each call. The arrays are those of `meshes`, which must outlive the set.
 TREEFORM_C_API treeform_code treeform_mesh_set_create(const treeform_mesh* const* meshes,
                                                       size_t count, treeform_mesh_set** set);
+// end
 
 /// A mesh that was made of others.
 typedef struct treeform_made_mesh {
@@ -78,6 +80,9 @@ typedef struct treeform_made_mesh {
     size_t index_count;
 } treeform_made_mesh;
 
+// made of the headers of C++:
+//   join_equal_points() join_meshes() select_faces() round() coordinate_step()
+//   rounding_options rounding_effects rounding_effects()
 /// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they
 /// first appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
 TREEFORM_C_API treeform_code treeform_join_equal_points(const treeform_mesh* mesh,
@@ -97,12 +102,11 @@ TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, co
 TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
                                             treeform_made_mesh** made);
 
-/// The distance of neighboring numbers of the precision at the largest coordinate of the mesh.
+/// Distance between neighboring numbers of precision `of` at the largest finite coordinate of
+/// `mesh`. When there is none, or all are 0, the least positive number.
 TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
-                                                      treeform_precision precision, double* step);
+                                                      treeform_precision of, double* result);
 
-// made of <mesh/certificate.hpp>:
-//   rounding_options rounding_effects
 /// Which rounding to look at.
 typedef struct treeform_rounding_options {
     size_t size;
@@ -126,16 +130,11 @@ typedef struct treeform_rounding {
     uint64_t collapsed;  ///< faces that have lost their area
     uint64_t meeting;    ///< pairs of faces that meet now, and did not before
 } treeform_rounding;
-// end
 
 /// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved).
 /// Exact: faces that meet now, and did not, are found by `treeform_self_intersections`.
 TREEFORM_C_API treeform_code treeform_rounding_effects(const treeform_mesh* mesh,
                                                        const double* matrix, const double* placed,
                                                        const treeform_rounding_options* options,
-                                                       treeform_rounding** effects);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+                                                       treeform_rounding** rounding);
+// end

@@ -1,5 +1,4 @@
-#ifndef TREEFORM_C_NEARNESS_H
-#define TREEFORM_C_NEARNESS_H
+#pragma once
 /// \file
 /// Nearest points, distances, inside and outside, rays, relation and depth of two meshes,
 /// deviation.
@@ -9,17 +8,16 @@
 
 #include <treeform/c/mesh.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/// The points of the surface nearest to `queries` [count][3]: `faces` [count], `distances` [count],
-/// `points` [count][3]. Beyond `radius` (infinite for none) they are `TREEFORM_NONE`, infinite,
-/// NaN. Of several faces at the same distance, the lowest.
+// made of the headers of C++:
+//   closest_point()
+/// The points of the surface nearest to `queries` [count][3]: `faces` [count], `distances`
+/// [count], `points` [count][3]. Beyond `radius` (infinite for none) they are `TREEFORM_NONE`,
+/// infinite, NaN. Of several faces at the same distance, the lowest.
 TREEFORM_C_API treeform_code treeform_closest_point(const treeform_mesh* mesh,
                                                     const double* queries, size_t count,
                                                     double radius, uint32_t* faces,
                                                     double* distances, double* points);
+// end
 
 /// The nearest points of two meshes.
 typedef struct treeform_closest {
@@ -30,30 +28,30 @@ typedef struct treeform_closest {
     double on_b[3];
 } treeform_closest;
 
+// made of the headers of C++:
+//   closest_points() distance() distance_poses() location locate() contains() winding_number()
+//   locate_in_curves()
 /// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: where it is), not
 /// further apart than `radius`.
 TREEFORM_C_API treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mesh* b,
                                                      const double* move_a, const double* move_b,
-                                                     double radius, treeform_closest* closest);
+                                                     double radius, treeform_closest* result);
 
 /// The distance of the surfaces; infinite where one has no faces.
 TREEFORM_C_API treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
                                                const double* move_a, const double* move_b,
-                                               double* distance);
+                                               double* result);
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
-/// the mesh stays; `distances` [count] are infinite beyond `radius`.
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null
+/// where the mesh stays; `distances` [count] are infinite beyond `radius`.
 TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mesh* b,
                                                      const double* moves_a, const double* moves_b,
                                                      size_t count, double radius,
                                                      double* distances);
 
-// made of <mesh/point_location.hpp>:
-//   location
 /// Where a point is with respect to a surface or curve.
 typedef int32_t treeform_location;
 enum { TREEFORM_OUTSIDE = 0, TREEFORM_INSIDE = 1, TREEFORM_BOUNDARY = 2 };
-// end
 
 /// Where `points` [count][3] are with respect to a closed mesh, exactly: `where` [count] (a
 /// `treeform_location` each), `winding` [count] how often the surface winds around the point, `on`
@@ -73,11 +71,13 @@ TREEFORM_C_API treeform_code treeform_winding_number(const treeform_mesh* mesh,
                                                      int32_t* winding);
 
 /// The same for closed curves in the plane: `points` [point_count][2], `edges` [edge_count][2] by
-/// numbers of points, the inside on their left; `queries` [count][2]. Answers as `treeform_locate`.
+/// numbers of points, the inside on their left; `queries` [count][2]. Answers as
+/// `treeform_locate`.
 TREEFORM_C_API treeform_code treeform_locate_in_curves(const double* points, size_t point_count,
                                                        const uint32_t* edges, size_t edge_count,
                                                        const double* queries, size_t count,
                                                        uint8_t* where, int32_t* winding);
+// end
 
 /// A ray: the points origin + t direction for t_min <= t <= t_max.
 typedef struct treeform_ray {
@@ -87,8 +87,8 @@ typedef struct treeform_ray {
     double t_max;
 } treeform_ray;
 
-// made of <mesh/distance.hpp>:
-//   mesh_hit
+// made of the headers of C++:
+//   mesh_hit raycast() raycast_any()
 /// A face that a ray hits. The point hit is origin + t direction.
 typedef struct treeform_hit {
     uint32_t face;
@@ -98,7 +98,6 @@ typedef struct treeform_hit {
     double t;          ///< of the first common point; relative error below 2^-40
     double t_end;      ///< of the last common point; equal to t unless coplanar
 } treeform_hit;
-// end
 
 /// `hits` [count]: the face that each ray hits first, exactly; of several at one point the lowest.
 TREEFORM_C_API treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays,
@@ -108,6 +107,7 @@ TREEFORM_C_API treeform_code treeform_raycast(const treeform_mesh* mesh, const t
 TREEFORM_C_API treeform_code treeform_raycast_any(const treeform_mesh* mesh,
                                                   const treeform_ray* rays, size_t count,
                                                   uint8_t* hit);
+// end
 
 /// All hits of many rays: those of ray i are hits[begin[i]] ... hits[begin[i + 1] - 1].
 typedef struct treeform_hits {
@@ -117,13 +117,15 @@ typedef struct treeform_hits {
     size_t count;  ///< rays
 } treeform_hits;
 
+// made of the headers of C++:
+//   raycast_all() mesh_relation mesh_measure measure_options measure() relate() depth_options
+//   penetration_depth() count_inside_out() count_sides() deviation_options deviation_result
+//   deviation()
 /// All faces that each ray hits, in the exact order along the ray, then by number.
 TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
                                                   const treeform_ray* rays, size_t count,
                                                   treeform_hits** hits);
 
-// made of <mesh/measure.hpp>:
-//   mesh_relation mesh_measure measure_options
 /// How two meshes lie to each other; see `treeform_relation`. The last two occur only with a
 /// clearance.
 typedef int32_t treeform_mesh_relation;
@@ -171,10 +173,13 @@ typedef struct treeform_measure_options {
 } treeform_measure_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
-// end
 
-/// The relation of two meshes, their distance and nearest points; null when one has no faces, or
-/// they are separate and further apart than the radius. The relation is exact.
+/// The relation of `a` and `b`, their distance and their nearest points. Null when one has no
+/// faces, or when they are separate and further apart than `options.radius`.
+///
+/// The relation is exact (see `treeform_relation`), and so is whether a distance is 0. Other
+/// distances are rounded as `treeform_distance` says. When the two faces that `treeform_relation`
+/// names meet, the points are on them.
 TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                               const treeform_measure_options* options,
                                               treeform_relation** relation);
@@ -182,10 +187,8 @@ TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const tree
 /// Only how they lie, exactly: separate, touching or penetrating.
 TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
                                              treeform_vertices vertices,
-                                             treeform_mesh_relation* how);
+                                             treeform_mesh_relation* result);
 
-// made of <mesh/measure.hpp>:
-//   depth_options
 /// How to search for the least move apart.
 typedef struct treeform_depth_options {
     size_t size;
@@ -200,7 +203,6 @@ typedef struct treeform_depth_options {
 } treeform_depth_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_depth_options_init(treeform_depth_options* options, size_t size);
-// end
 
 /// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
 /// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
@@ -211,18 +213,19 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         double* depth, double move[3],
                                                         treeform_search_effort* effort);
 
-/// The components of a closed mesh that are inside out and in no other one; 0 for an open mesh.
-/// Relations and clashes take them for the solids that they are when turned over.
-TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* count);
+/// The components of a closed mesh that are inside out, their volumes negative, and that are in no
+/// other one, as cavities are. Components are what edges link, with corners of equal coordinates
+/// joined. 0 for an open mesh, which has no inside, and for a cloud. `treeform_relation`,
+/// `treeform_clash` and `treeform_locate` take such a component for the same solid;
+/// `treeform_repair` turns it over.
+TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result);
 
 /// Counts `points` [count][3] by where they are with respect to `solids` [solid_count], exactly:
 /// counts[0] inside any, counts[1] on the surface of any, counts[2] outside of all.
-TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t count,
+TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t points_count,
                                                   const treeform_mesh* const* solids,
-                                                  size_t solid_count, uint64_t counts[3]);
+                                                  size_t solids_count, uint64_t counts[3]);
 
-// made of <mesh/deviation.hpp>:
-//   deviation_options deviation_result
 /// What to find besides distances.
 typedef struct treeform_deviation_options {
     size_t size;
@@ -269,17 +272,19 @@ typedef struct treeform_deviation_result {
     uint64_t above;
     uint64_t sides[3];  ///< points inside, on and outside
 } treeform_deviation_result;
-// end
 
-/// Signed distances of the points of `a` from the surface of `fixed` [fixed_count] together; null
-/// when there are no points or no faces. The side is exact.
+/// How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of
+/// all meshes in it as one. Faces are numbered through, mesh after mesh.
+///
+/// The side is exact: that of the exact winding number of `b` about the point (`treeform_locate`).
+/// Corners of `b` with equal coordinates are one vertex, as in a file that repeats them. When `b`
+/// is open, or a cloud, it has no inside, and distances have no sign. A magnitude is within 16 u L
+/// of the true distance, as `treeform_closest_point` says. A point that rounding puts at distance
+/// 0 keeps that as its magnitude, and the sign of 0.
+///
+/// Null when `a` has no points or `b` no faces.
 TREEFORM_C_API treeform_code treeform_deviation(const treeform_mesh* a,
-                                                const treeform_mesh* const* fixed,
-                                                size_t fixed_count,
+                                                const treeform_mesh* const* b, size_t count,
                                                 const treeform_deviation_options* options,
                                                 treeform_deviation_result** result);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

@@ -1,5 +1,4 @@
-#ifndef TREEFORM_C_PLACEMENT_H
-#define TREEFORM_C_PLACEMENT_H
+#pragma once
 /// \file
 /// Where a mesh goes: slid, dropped, mated, turned, separated; when it meets another in motion.
 /// `layouts.h` has meshes laid flat, packed and aligned.
@@ -12,12 +11,9 @@
 #include <treeform/c/nearness.h>
 #include <treeform/c/properties.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// made of <mesh/placement.hpp> <mesh/slide.hpp>:
-//   placement_end placement_contact placement place_options
+// made of the headers of C++:
+//   placement_end placement_contact placement place_options slide() drop() mate() separate()
+//   turn() mate_features() measure_among()
 /// Why a placement ended where it did.
 typedef int32_t treeform_placement_end;
 enum {
@@ -135,12 +131,20 @@ typedef struct treeform_place_options {
 } treeform_place_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_place_options_init(treeform_place_options* options, size_t size);
-// end
 
-/// Moves `moving` along `direction` until it first meets one of `fixed`, or comes as near to one as
-/// the clearance.
+/// Moves `moving` along `direction` (of any length) until it first meets one of `fixed`, or comes
+/// as near to one as the clearance.
+///
+/// Without a clearance, the time of the contact is exact (`treeform_time_of_impact`); with one, it
+/// is as `treeform_time_to_distance` says. The coordinates returned are checked again. Where
+/// rounding made them penetrate, or come nearer than the clearance, they are moved back by units
+/// in the last place. A mesh that touches at the start stays there. One that penetrates has no
+/// place. Points that no face uses move along and are otherwise ignored.
+///
+/// Only fixed meshes on the way are looked at and indexed. For many calls, keep them as prepared
+/// meshes. Clouds are `treeform_cloud_create`.
 TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
-                                            const treeform_mesh* const* fixed, size_t fixed_count,
+                                            const treeform_mesh* const* fixed, size_t count,
                                             const double direction[3],
                                             const treeform_place_options* options,
                                             treeform_placement** placement);
@@ -148,44 +152,55 @@ TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
 /// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of
 /// which there may be none.
 TREEFORM_C_API treeform_code treeform_drop(const treeform_mesh* moving,
-                                           const treeform_mesh* const* fixed, size_t fixed_count,
+                                           const treeform_mesh* const* fixed, size_t count,
                                            const double* direction,
                                            const treeform_place_options* options,
                                            treeform_placement** placement);
 
 /// Translates `moving` so that its nearest points to `fixed` come together, or to the clearance.
+/// Coordinates are checked as in `treeform_slide`. A mesh that touches stays; one that penetrates
+/// has no place.
 TREEFORM_C_API treeform_code treeform_mate(const treeform_mesh* moving,
-                                           const treeform_mesh* const* fixed, size_t fixed_count,
+                                           const treeform_mesh* const* fixed, size_t count,
                                            const treeform_place_options* options,
                                            treeform_placement** placement);
 
-/// Translates `moving` to where it penetrates none of `fixed` and keeps the clearance.
+/// Translates `moving` to where it penetrates none of `fixed` and keeps the clearance. It stays
+/// when it already does.
+///
+/// Some fifty directions are tried: the axes, away from the nearest points, the normals of faces
+/// that meet, and others around the best. Of the places found, the nearest is returned whose
+/// coordinates pass the check of `treeform_slide`. It need not be the nearest place of all: that
+/// one is on the boundary of a set with O(n^2 m^2) faces. The search ends by its effort, and
+/// passes over places that take much of it, as that of `treeform_penetration_depth` does:
+/// `placement::effort` says so.
 TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
-                                               const treeform_mesh* const* fixed,
-                                               size_t fixed_count,
+                                               const treeform_mesh* const* fixed, size_t count,
                                                const treeform_place_options* options,
                                                treeform_placement** placement);
 
-/// Turns `moving` about the axis through `origin` along `direction` until it first comes within the
-/// tolerance of one of `fixed`, or of the clearance from one.
+/// Turns `moving` about the axis through `origin` along `direction` until it first comes within
+/// the tolerance of one of `fixed`, or of the clearance from one.
 TREEFORM_C_API treeform_code treeform_turn(const treeform_mesh* moving,
-                                           const treeform_mesh* const* fixed, size_t fixed_count,
+                                           const treeform_mesh* const* fixed, size_t count,
                                            const double origin[3], const double direction[3],
                                            const treeform_place_options* options,
                                            treeform_placement** placement);
 
 /// Brings two planes, or two axes, together, and slides `moving` until it meets one of `fixed`.
-TREEFORM_C_API treeform_code treeform_mate_features(
-    const treeform_mesh* moving, const treeform_mesh* const* fixed, size_t fixed_count,
-    const treeform_feature* of_moving, const treeform_feature* of_fixed,
-    const treeform_place_options* options, treeform_placement** placement);
+TREEFORM_C_API treeform_code treeform_mate_features(const treeform_mesh* moving,
+                                                    const treeform_mesh* const* fixed, size_t count,
+                                                    const treeform_feature* of_moving,
+                                                    const treeform_feature* of_fixed,
+                                                    const treeform_place_options* options,
+                                                    treeform_placement** placement);
 
 /// How `moving` lies to all of `fixed` where it is. Moves nothing.
 TREEFORM_C_API treeform_code treeform_measure_among(const treeform_mesh* moving,
-                                                    const treeform_mesh* const* fixed,
-                                                    size_t fixed_count,
+                                                    const treeform_mesh* const* fixed, size_t count,
                                                     const treeform_place_options* options,
                                                     treeform_placement** placement);
+// end
 
 /// The class of each face with `moving` at the place: 0 none, 1 penetrating, 2 touching, 3 near.
 typedef struct treeform_contact_classes {
@@ -196,15 +211,15 @@ typedef struct treeform_contact_classes {
     size_t fixed_count;
 } treeform_contact_classes;
 
-/// The class of each face; `placement` is one of `moving` among `fixed`.
+// made of the headers of C++:
+//   classify_contacts() face_contact impact impact_options time_of_impact() time_to_distance()
+/// The class of each face; `treeform_placement` is one of `moving` among `fixed`.
 TREEFORM_C_API treeform_code treeform_classify_contacts(const treeform_mesh* moving,
                                                         const treeform_mesh* const* fixed,
-                                                        size_t fixed_count,
+                                                        size_t count,
                                                         const treeform_placement* placement,
                                                         treeform_contact_classes** classes);
 
-// made of <mesh/time_of_impact.hpp>:
-//   face_contact impact impact_options
 /// A pair of faces that meet when the meshes first do.
 typedef struct treeform_impact_contact {
     uint32_t face_a;
@@ -244,9 +259,13 @@ typedef struct treeform_impact_options {
 } treeform_impact_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_impact_options_init(treeform_impact_options* options, size_t size);
-// end
 
-/// The least t >= 0 at which `a`, moved by t times `motion`, has a point in common with `b`; exact.
+/// The least t >= 0 at which `a`, moved by t times `motion`, has a point in common with `b`.
+///
+/// Exact on the coordinates as given, or as moved by the options. Times of pairs of faces are
+/// compared as exact quotients of determinants, so all contacts at equal times are found, even of
+/// parallel or coplanar faces. Surfaces count, not solids: inside a closed mesh, `a` moves until
+/// it meets the wall. Meshes that only graze each other have a contact.
 TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, const treeform_mesh* b,
                                                      const double motion[3],
                                                      const treeform_impact_options* options,
@@ -259,8 +278,4 @@ TREEFORM_C_API treeform_code treeform_time_to_distance(const treeform_mesh* a,
                                                        const double motion[3], double distance,
                                                        const treeform_impact_options* options,
                                                        treeform_impact** impact);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

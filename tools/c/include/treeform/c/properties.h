@@ -1,24 +1,23 @@
-#ifndef TREEFORM_C_PROPERTIES_H
-#define TREEFORM_C_PROPERTIES_H
+#pragma once
 /// \file
 /// Properties of a mesh: volume, area, bounds, whether it bounds a solid, defects, components, flat
 /// and cylindrical regions, convex hull; the signs of exact predicates.
 
 #include <treeform/c/mesh.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
+// made of the headers of C++:
+//   volume() area() mass_properties find_mass_properties() bounds() is_solid() check_solid()
+//   topology_counts count_topology() face_components() mesh_defects find_defects()
+//   find_open_edge() closing_tolerance() same_triangles() feature_kind mesh_feature features
+//   feature_options find_features() feature_at_face() feature_at_point() fit_feature()
+//   hull_side
 /// The volume inside a closed mesh, in cubic units; negative when it is inside out. For an open
 /// mesh, the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
-TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* volume);
+TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* result);
 
 /// The sum of the areas of all faces, in square units, rounded. O(F).
-TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* area);
+TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* result);
 
-// made of <mesh/properties.hpp>:
-//   mass_properties
 /// Of a solid of density 1.
 typedef struct treeform_mass_properties {
     double volume;     ///< what the mesh encloses; negative where it is inside out
@@ -26,28 +25,26 @@ typedef struct treeform_mass_properties {
     /// About the center, by axes x, y and z: the energy of turning by w is w . (inertia w) / 2.
     double inertia[9];
 } treeform_mass_properties;
-// end
 
 /// Volume, center of mass and inertia of what a closed mesh encloses. Where the volume is 0, or
 /// noise beside what cancels in it, it is 0 and the others are NaN. O(F).
 TREEFORM_C_API treeform_code treeform_find_mass_properties(const treeform_mesh* mesh,
-                                                           treeform_mass_properties* properties);
+                                                           treeform_mass_properties* result);
 
 /// The smallest box around all finite points; without any, min is +infinity and max -infinity.
 /// O(V).
-TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* bounds);
+TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* result);
 
 /// Whether the mesh bounds a solid, as an operand of `treeform_boolean` has to.
-TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* is_solid);
+TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result);
 
-/// The same with the reasons: the certificate is ok, or says where the surface ends. Returns
-/// `TREEFORM_OK` either way. `progress` may be null.
+/// Whether a mesh bounds a solid, as an operand of `treeform_boolean` has to. The certificate is
+/// ok, or says where the surface ends. When the edges as they are leave the mesh open, it is cut
+/// along itself first: its faces may still fit together piece by piece.
 TREEFORM_C_API treeform_code treeform_check_solid(const treeform_mesh* mesh,
                                                   treeform_progress progress, void* progress_data,
                                                   treeform_certificate** certificate);
 
-// made of <mesh/properties.hpp>:
-//   topology_counts
 /// Counts over the faces with three different corner numbers. Faces that repeat a corner have no
 /// edges here and are counted separately. Faces with collinear corners, and duplicates, are
 /// counted like all others. The Euler characteristic is points_used - edges + faces.
@@ -66,7 +63,6 @@ typedef struct treeform_topology {
     uint64_t duplicate_faces;        ///< beyond the first with the same three corners
     int32_t closed;                  ///< at least one face, no boundary edge, no nonmanifold edge
 } treeform_topology;
-// end
 
 /// Counts edges, components and defects. Join equal points first (`treeform_join_equal_points`).
 TREEFORM_C_API treeform_code treeform_count_topology(const treeform_mesh* mesh,
@@ -77,8 +73,6 @@ TREEFORM_C_API treeform_code treeform_count_topology(const treeform_mesh* mesh,
 TREEFORM_C_API treeform_code treeform_face_components(const treeform_mesh* mesh,
                                                       uint32_t* component, size_t* count);
 
-// made of <mesh/properties.hpp>:
-//   mesh_defects
 /// Points and faces with defects, ascending. A face is in at most one list.
 typedef struct treeform_defects {
     void* owner;
@@ -94,9 +88,12 @@ typedef struct treeform_defects {
     const uint32_t* out_of_range_faces;
     size_t out_of_range_face_count;
 } treeform_defects;
-// end
 
-/// Finds them, exactly. O(V + F).
+/// Finds the points and faces that algorithms refuse or treat in a special way.
+///
+/// Whether corners are collinear is exact: they are when a corner is repeated or two are equal;
+/// they are not in a sliver, however thin. A face is first tested for corners out of range, then
+/// for corners that are not finite.
 TREEFORM_C_API treeform_code treeform_find_defects(const treeform_mesh* mesh,
                                                    treeform_defects** defects);
 
@@ -108,15 +105,13 @@ TREEFORM_C_API treeform_code treeform_find_open_edge(const treeform_mesh* mesh, 
 /// joined; `count` when joining equal points does so already, or none does.
 TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mesh,
                                                         const double* tolerances, size_t count,
-                                                        size_t* which);
+                                                        size_t* result);
 
 /// Whether two meshes have the same faces, by coordinates, turned the same way; with `any_order`
 /// wherever they stand in their lists.
 TREEFORM_C_API treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
-                                                     int32_t any_order, int32_t* same);
+                                                     int32_t any_order, int32_t* result);
 
-// made of <mesh/properties.hpp>:
-//   feature_kind mesh_feature features feature_options
 /// What kind of region.
 typedef int32_t treeform_feature_kind;
 enum { TREEFORM_PLANE = 0, TREEFORM_AXIS = 1 };
@@ -159,7 +154,6 @@ typedef struct treeform_feature_options {
 } treeform_feature_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_feature_options_init(treeform_feature_options* options, size_t size);
-// end
 
 /// The flat or cylindrical regions of the mesh, largest first. Join equal points first.
 TREEFORM_C_API treeform_code treeform_find_features(const treeform_mesh* mesh,
@@ -180,13 +174,12 @@ TREEFORM_C_API treeform_code treeform_feature_at_point(const treeform_mesh* mesh
                                                        const treeform_feature_options* options,
                                                        treeform_features** features);
 
-/// The plane, or axis, of exactly these faces; `count` is 0 where they have none.
+/// The plane, or axis, of exactly these faces, whatever their deviation. Null where they have no
+/// area, or for an axis, where they are flat.
 TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
                                                   treeform_feature_kind kind, const uint32_t* faces,
-                                                  size_t face_count, treeform_features** features);
+                                                  size_t count, treeform_features** features);
 
-// made of <mesh/convex_hull.hpp>:
-//   hull_side
 /// A flat side of a convex hull: all of the hull that lies in one plane.
 typedef struct treeform_hull_side {
     /// The first of its faces, in `convex_hull_result::faces`; any three corners span its plane.
@@ -212,24 +205,29 @@ typedef struct treeform_hull {
     treeform_arrays mesh;  ///< the hull as a closed mesh, with the points that it uses
 } treeform_hull;
 
+// made of the headers of C++:
+//   convex_hull() orient2d() orient3d() compare_distance()
 /// The convex hull of the points of a mesh or cloud, exact on the coordinates as given. `progress`
 /// may be null.
 TREEFORM_C_API treeform_code treeform_convex_hull(const treeform_mesh* mesh,
                                                   treeform_progress progress, void* progress_data,
                                                   treeform_hull** hull);
 
-/// Sign of (b - a) x (c - a), exact: +1 when a, b, c turn left, 0 when collinear.
+/// Sign of (b - a) x (c - a): +1 when a, b, c turn left (counter-clockwise), 0 when collinear.
 TREEFORM_C_API treeform_code treeform_orient2d(const double a[2], const double b[2],
-                                               const double c[2], int32_t* sign);
+                                               const double c[2], int32_t* result);
 
-/// Sign of ((b - a) x (c - a)) . (d - a), exact: +1 when a, b, c are seen counter-clockwise from d.
+/// Sign of ((b - a) x (c - a)) . (d - a): +1 when d lies on the side of the plane a, b, c that its
+/// normal points to, that is, from where a, b, c are seen counter-clockwise; 0 when coplanar.
 TREEFORM_C_API treeform_code treeform_orient3d(const double a[3], const double b[3],
-                                               const double c[3], const double d[3], int32_t* sign);
+                                               const double c[3], const double d[3],
+                                               int32_t* result);
 
-/// Sign of |a - b| - |c - d|, exact.
+/// Sign of |a - b|^2 - |c - d|^2.
 TREEFORM_C_API treeform_code treeform_compare_distance(const double a[3], const double b[3],
                                                        const double c[3], const double d[3],
-                                                       int32_t* sign);
+                                                       int32_t* result);
+// end
 
 /// What two triangles have in common.
 typedef struct treeform_triangle_contact {
@@ -238,11 +236,9 @@ typedef struct treeform_triangle_contact {
     int32_t crossing;  ///< they pass through each other
 } treeform_triangle_contact;
 
+// made of the headers of C++:
+//   intersect_triangles()
 /// What triangles `a` and `b`, three points each, have in common; exact.
 TREEFORM_C_API treeform_code treeform_intersect_triangles(const double a[9], const double b[9],
-                                                          treeform_triangle_contact* contact);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+                                                          treeform_triangle_contact* result);
+// end

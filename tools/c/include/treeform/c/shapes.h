@@ -1,5 +1,4 @@
-#ifndef TREEFORM_C_SHAPES_H
-#define TREEFORM_C_SHAPES_H
+#pragma once
 /// \file
 /// Solids grown, shrunk and hollowed, surfaces made thick; fewer faces; how thick walls are; the
 /// smallest box around points; lines along which a value has a level.
@@ -7,12 +6,11 @@
 #include <treeform/c/cuts.h>
 #include <treeform/c/mesh.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// made of <mesh/offset.hpp>:
-//   thick_side drain offset_options offset_result
+// made of the headers of C++:
+//   thick_side drain offset_options offset_result offset() hollow() thicken() simplify_options
+//   simplify_result simplify() thickness_by thickness_options thickness_result
+//   wall_thickness() oriented_box find_oriented_box() isoline isolines_result isolines()
+//   write_isolines() cut_along()
 /// Where a thickness goes; the front is where faces are counter-clockwise.
 typedef int32_t treeform_thick_side;
 enum { TREEFORM_THICK_BOTH = 0, TREEFORM_THICK_FRONT = 1, TREEFORM_THICK_BACK = 2 };
@@ -67,29 +65,40 @@ typedef struct treeform_offset_result {
     const uint32_t* blind_drains;
     size_t blind_drain_count;
 } treeform_offset_result;
-// end
 
-/// The solid grown by `distance`, or shrunk where it is negative. The code is that of the
-/// certificate.
+/// The solid grown by `distance`, or shrunk where it is negative: all points inside or no further
+/// from the surface than that; all points inside and no less far.
+///
+/// Outward, convex edges and corners become round; inward, they stay sharp in truth, but are cut
+/// off by no more than a cell, as are all sharp edges of the result. The mesh has to bound a
+/// solid, as an operand of `treeform_boolean`; where it meets itself, it is the solid that it
+/// winds around. What is inside is decided exactly; vertices are at the distance to a thousandth
+/// of a cell or so.
 TREEFORM_C_API treeform_code treeform_offset(const treeform_mesh* mesh, double distance,
                                              const treeform_offset_options* options,
                                              treeform_offset_result** result);
 
-/// The solid without what is further inside than `wall`; `drains` [count] are holes through it. The
-/// code is that of the certificate.
+/// The solid without what is further inside than `wall`: its surface stays bit for bit, around
+/// cavities. Each drain runs through the wall along the shortest way to a cavity, and as far
+/// beyond both ends as it is wide, but not more than half of the way to what is next there.
+/// `statistics` are those of the cavities. `vanished` where there is none.
 TREEFORM_C_API treeform_code treeform_hollow(const treeform_mesh* mesh, double wall,
                                              const treeform_drain* drains, size_t count,
                                              const treeform_offset_options* options,
                                              treeform_offset_result** result);
 
-/// A solid around a surface, which may be open. The code is that of the certificate.
+/// A solid around a surface, which may be anything: all points no further from it than half of
+/// `thickness`. Its rim is round.
+///
+/// With `front` and `back` the surface is first moved to that side by half of the thickness, each
+/// vertex so that planes of faces around it move that far, on average: exact where it is flat,
+/// rounded where it bends. Sharp folds move by no more than twice that. `statistics` are of the
+/// surface as moved. Faces have to agree in their orientation.
 TREEFORM_C_API treeform_code treeform_thicken(const treeform_mesh* mesh, double thickness,
                                               treeform_thick_side side,
                                               const treeform_offset_options* options,
                                               treeform_offset_result** result);
 
-// made of <mesh/simplify.hpp>:
-//   simplify_options simplify_result
 /// How to leave faces out.
 typedef struct treeform_simplify_options {
     size_t size;
@@ -137,16 +146,26 @@ typedef struct treeform_simplify_result {
     /// of seams; none at new vertices
     const uint32_t* corner_source;
 } treeform_simplify_result;
-// end
 
-/// The mesh with fewer faces, no point of either surface further than `max_distance` from the
-/// other. The code is that of the certificate.
+/// The mesh with fewer faces: edges are collapsed, those first that change the surface least.
+///
+/// Both surfaces are within `max_distance` of each other: each face is proven so, none is sampled.
+/// No two faces are made to meet, exactly, on the coordinates returned; where faces of the input
+/// meet, they are left to do so. A closed, oriented manifold stays one. What lies inside of what
+/// is looked at in the end alone: the certificate says if that has changed.
+///
+/// Borders, and edges of features and groups, are simplified along themselves: of their vertices,
+/// some stay, and they are within the distance of what they were, too. Where they end, branch or
+/// cross, at edges of more than two faces or of faces that do not run both ways, and where faces
+/// at a vertex are no fan, vertices stay as they are.
+///
+/// A distance below what doubles can prove, some 2^-46 of the largest coordinate, collapses
+/// nothing, nor are coordinates whose squares are no doubles. Corners with equal coordinates are
+/// one vertex; faces with two equal corners go, and are no part of either surface.
 TREEFORM_C_API treeform_code treeform_simplify(const treeform_mesh* mesh, double max_distance,
                                                const treeform_simplify_options* options,
                                                treeform_simplify_result** result);
 
-// made of <mesh/measure.hpp>:
-//   thickness_by thickness_options thickness_result
 /// How the thickness of a wall is measured at a face.
 typedef int32_t treeform_thickness_by;
 enum {
@@ -175,15 +194,14 @@ typedef struct treeform_thickness_result {
     double least;       ///< of all faces
     uint32_t thinnest;  ///< the lowest face with that
 } treeform_thickness_result;
-// end
 
-/// How thick the walls of a solid are, face by face.
+/// How thick the walls of a solid are, face by face. Which face a ray leaves through is exact, for
+/// the center and normal as rounded; lengths are rounded. A ball is found to 2^-20 of its
+/// diameter. Near a sharp edge balls are small: there, they measure the edge.
 TREEFORM_C_API treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
                                                      const treeform_thickness_options* options,
                                                      treeform_thickness_result** result);
 
-// made of <mesh/convex_hull.hpp>:
-//   oriented_box
 /// A box turned in any way.
 typedef struct treeform_oriented_box {
     void* owner;
@@ -192,15 +210,16 @@ typedef struct treeform_oriented_box {
     double axes[3][3];
     double size[3];  ///< along these
 } treeform_oriented_box;
-// end
 
-/// The box of least volume around the points of a mesh, of those along sides of their convex hull.
-/// *box is null without points.
+/// The box of least volume around points, of those with a side in a side of their convex hull, and
+/// another along an edge of it, or along the axes of space. Of flat points, the least area. None
+/// without points. Of a hull of more than some thousand sides, those of the largest areas are
+/// looked at, as many as 2^26 corners of sides allow.
+///
+/// Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 TREEFORM_C_API treeform_code treeform_find_oriented_box(const treeform_mesh* mesh,
                                                         treeform_oriented_box** box);
 
-// made of <mesh/section.hpp>:
-//   isoline isolines_result
 /// A line on a mesh along which a value has a level.
 typedef struct treeform_isoline {
     double level;        ///< of the value, along it
@@ -222,13 +241,12 @@ typedef struct treeform_isolines_result {
     /// [points] the face that the side from each point on lies in
     const uint32_t* faces;
 } treeform_isolines_result;
-// end
 
 /// Lines along which a value, `values` [V], linear in each face, has one of the `levels` [count].
 TREEFORM_C_API treeform_code treeform_isolines(const treeform_mesh* mesh, const double* values,
                                                const double* levels, size_t count,
                                                treeform_progress progress, void* progress_data,
-                                               treeform_isolines_result** lines);
+                                               treeform_isolines_result** result);
 
 /// Writes isolines as `treeform_write_section` does sections; SVG as seen from where `normal`
 /// points (null: z).
@@ -242,8 +260,4 @@ TREEFORM_C_API treeform_code treeform_cut_along(const treeform_mesh* mesh, const
                                                 const double* levels, size_t count,
                                                 const treeform_cut_options* options,
                                                 treeform_cut_result** result);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

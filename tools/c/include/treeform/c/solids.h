@@ -1,5 +1,4 @@
-#ifndef TREEFORM_C_SOLIDS_H
-#define TREEFORM_C_SOLIDS_H
+#pragma once
 /// \file
 /// Solids: set operations, self-intersections resolved, dirty meshes repaired, wraps.
 ///
@@ -8,12 +7,13 @@
 
 #include <treeform/c/files.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// made of <mesh/boolean.hpp>:
-//   fill_rule boolean_options operand_volumes boolean_result
+// made of the headers of C++:
+//   fill_rule boolean_options operand_volumes boolean_result boolean() boolean_named()
+//   names_in() unite() subtract() intersection() symmetric_difference() unite_all() clip()
+//   split() resolve_mode resolve_options resolve_result resolve_self_intersections()
+//   repair_rule repair_options repair_statistics repair_result repair() repair_scope
+//   repair_file() solid_defects find_solid_defects() find_solid_defects_of_file() wrap_options
+//   wrap_result wrap()
 /// Which points are inside an operand, by how often its surface winds around them.
 typedef int32_t treeform_fill_rule;
 enum {
@@ -120,11 +120,10 @@ typedef struct treeform_boolean_result {
     double small_volume;    ///< of these, in cubic units, added up
     uint64_t filled_faces;  ///< of operands, at gaps that were filled (`gap`)
 } treeform_boolean_result;
-// end
 
-/// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with +
-/// or | union, * or & intersection, - difference, ^ exclusive or, and brackets: "(a-b)*c". Exact,
-/// then rounded and checked. No operand is copied. Each has to bound a solid.
+/// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with
+/// + or | union, * or & intersection, - difference, ^ exclusive or, and brackets: "(a-b)*c".
+/// Exact, then rounded and checked. No operand is copied. Each has to bound a solid.
 TREEFORM_C_API treeform_code treeform_boolean(const treeform_mesh* const* operands, size_t count,
                                               const char* expression,
                                               const treeform_boolean_options* options,
@@ -138,21 +137,28 @@ TREEFORM_C_API treeform_code treeform_boolean_named(const treeform_mesh* const* 
                                                     treeform_boolean_result** result);
 
 /// The names in a formula, each once, in the order in which they come first.
-TREEFORM_C_API treeform_code treeform_names_in(const char* expression, treeform_strings** names);
+TREEFORM_C_API treeform_code treeform_names_in(const char* expression, treeform_strings** strings);
 
-/// What is in `a` or `b`.
+/// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
+/// exactly one of them (symmetric_difference). For everything else, see `treeform_boolean`.
 TREEFORM_C_API treeform_code treeform_unite(const treeform_mesh* a, const treeform_mesh* b,
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
-/// What is in `a` but not in `b`.
+
+/// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
+/// exactly one of them (symmetric_difference). For everything else, see `treeform_boolean`.
 TREEFORM_C_API treeform_code treeform_subtract(const treeform_mesh* a, const treeform_mesh* b,
                                                const treeform_boolean_options* options,
                                                treeform_boolean_result** result);
-/// What is in both.
+
+/// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
+/// exactly one of them (symmetric_difference). For everything else, see `treeform_boolean`.
 TREEFORM_C_API treeform_code treeform_intersection(const treeform_mesh* a, const treeform_mesh* b,
                                                    const treeform_boolean_options* options,
                                                    treeform_boolean_result** result);
-/// What is in exactly one of them.
+
+/// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
+/// exactly one of them (symmetric_difference). For everything else, see `treeform_boolean`.
 TREEFORM_C_API treeform_code treeform_symmetric_difference(const treeform_mesh* a,
                                                            const treeform_mesh* b,
                                                            const treeform_boolean_options* options,
@@ -170,13 +176,14 @@ TREEFORM_C_API treeform_code treeform_clip(const treeform_mesh* const* operands,
                                            const treeform_boolean_options* options,
                                            treeform_boolean_result** result);
 
-/// All faces of the operands, cut along each other and along themselves, each piece once.
+/// All faces of the operands, cut along each other and along themselves, each piece once. Any two
+/// pieces have a corner, an edge or nothing in common. Operands need not bound solids, and the
+/// certificate does not check edges. Where faces of several operands lie on each other, one piece
+/// stands for all; its source is the lowest of them. Nothing is simplified.
 TREEFORM_C_API treeform_code treeform_split(const treeform_mesh* const* operands, size_t count,
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
 
-// made of <mesh/repair.hpp>:
-//   resolve_mode resolve_options resolve_result
 /// What to do with faces that meet.
 typedef int32_t treeform_resolve_mode;
 enum {
@@ -235,15 +242,27 @@ typedef struct treeform_resolve_result {
     uint64_t exact_faces;     ///< for `split` and `outer`, as in `boolean_statistics`
     uint64_t split_vertices;  ///< for `outer`, as in `boolean_statistics`
 } treeform_resolve_result;
-// end
 
-/// The mesh without self-intersections; exact, then rounded and checked.
+/// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
+///
+/// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is
+/// inside. Then they round the points on cuts. Faces that meet nothing stay as they are.
+///
+/// `remove` is for surfaces that bound no solid. It works locally. It deletes the faces that meet
+/// or are degenerate. It closes each hole by triangles of the least total area between the
+/// vertices of its rim, but not beyond where the mesh ended. Where the new triangles meet other
+/// faces, the hole is made wider. A part is a set of faces linked by edges:
+///
+/// - In a part that has a border, a hole stays open (`left_open`) where widening does not help, or
+/// where the hole would surround the border. Then of each pair only one face is deleted.
+///
+/// - A closed part stays as it is where a part with a border passes through it.
+///
+/// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
 TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
     const treeform_mesh* mesh, treeform_resolve_mode mode, const treeform_resolve_options* options,
     treeform_resolve_result** result);
 
-// made of <mesh/repair.hpp>:
-//   repair_rule repair_options repair_statistics repair_result
 /// What is inside, for `treeform_repair`.
 typedef int32_t treeform_repair_rule;
 enum {
@@ -341,15 +360,27 @@ typedef struct treeform_repair_result {
     const treeform_file* file;  ///< of a file, with its attributes; else null
     const uint8_t* is_left;     ///< [F] 1 where something is left of an input face
 } treeform_repair_result;
-// end
 
-/// A solid made of a dirty mesh: closed, oriented, manifold, free of self-intersections.
+/// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
+/// at the certificate: it says whether this was possible, and where not.
+///
+/// The steps are those of `treeform_repair_options`, in their order. Each leaves alone what needs
+/// nothing: a mesh that is a solid comes back bit for bit. What meets and what is inside is
+/// decided exactly. Which cracks close, which way faces point, and what fills a hole are guesses,
+/// and counted. Points with equal coordinates are one. Faces of four corners that are tetrahedra
+/// become their boundary. Where faces disagree, the cells that they cut space into are labeled
+/// inside or outside by a minimum cut, as they and generalized winding numbers disagree least, if
+/// less is lost then.
+///
+/// Holes are filled by triangles between their vertices; large ones of smooth surfaces by new
+/// points, so that the surface goes on as it does around them. Sheets are not filled, but said to
+/// be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close
+/// them, except those that end in a plane and lie to one side of it. Nor is a mesh where at more
+/// than a tenth as many edges as it has faces more than two faces meet and disagree.
 TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,
                                              const treeform_repair_options* options,
                                              treeform_repair_result** result);
 
-// made of <mesh/carry.hpp>:
-//   repair_scope
 /// What of a file is mended at a time.
 typedef int32_t treeform_repair_scope;
 enum {
@@ -358,7 +389,6 @@ enum {
     /// overlapping parts become one solid
     TREEFORM_WHOLE_FILE = 1
 };
-// end
 
 /// The same of a file, or each of its parts, with its attributes. The mesh of the file is taken as
 /// it is read.
@@ -367,8 +397,6 @@ TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
                                                   const treeform_repair_options* options,
                                                   treeform_repair_result** result);
 
-// made of <mesh/repair.hpp>:
-//   solid_defects
 /// What keeps a mesh from being a solid. Points with equal coordinates are one.
 typedef struct treeform_solid_defects {
     void* owner;
@@ -389,10 +417,9 @@ typedef struct treeform_solid_defects {
     /// Closed components that meet nowhere lie in each other, but not as a solid and its cavities.
     int32_t wrongly_nested;
 } treeform_solid_defects;
-// end
 
-/// What `treeform_repair` would have to mend, and what it does not take. Nothing is changed.
-/// `progress` may be null.
+/// What `treeform_repair` would have to mend, and what it does not take. Nothing without points is
+/// a solid.
 TREEFORM_C_API treeform_code treeform_find_solid_defects(const treeform_mesh* mesh,
                                                          treeform_progress progress,
                                                          void* progress_data,
@@ -405,8 +432,6 @@ TREEFORM_C_API treeform_code treeform_find_solid_defects_of_file(const treeform_
                                                                  void* progress_data,
                                                                  treeform_solid_defects** defects);
 
-// made of <mesh/offset.hpp>:
-//   wrap_options wrap_result
 /// How to wrap.
 typedef struct treeform_wrap_options {
     size_t size;
@@ -436,15 +461,16 @@ typedef struct treeform_wrap_result {
     uint64_t tetrahedra;  ///< at the end
     uint64_t filled;      ///< of them, filled so that the wrap is a manifold
 } treeform_wrap_result;
-// end
 
-/// A closed surface around all faces of a mesh, whatever they are, which enters no hole or gap
-/// narrower than `size`.
+/// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
+/// no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters
+/// no hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills
+/// cavities that nothing leads to. A smaller size follows the mesh more closely, with more faces,
+/// some area / `size`^2 of them.
+///
+/// No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
+/// coordinates of both. The distance of its vertices is met as far as rounding allows.
 TREEFORM_C_API treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
                                            const treeform_wrap_options* options,
                                            treeform_wrap_result** result);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

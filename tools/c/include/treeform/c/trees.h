@@ -1,18 +1,15 @@
-#ifndef TREEFORM_C_TREES_H
-#define TREEFORM_C_TREES_H
+#pragma once
 /// \file
 /// Trees of your own data, in the plane and in space: points (nearest, k nearest, within a radius,
 /// pairs) and boxes (overlapping pairs, queries, nearest).
 
 #include <treeform/c/base.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /// A tree over points, with a copy of them.
 typedef struct treeform_point_tree treeform_point_tree;
 
+// made of the headers of C++:
+//   point_tree_create() point_tree_size() point_tree_nearest()
 /// The tree over `points` [count][dimensions]; 2 or 3 dimensions.
 TREEFORM_C_API treeform_code treeform_point_tree_create(const double* points, size_t count,
                                                         uint32_t dimensions,
@@ -20,16 +17,17 @@ TREEFORM_C_API treeform_code treeform_point_tree_create(const double* points, si
 
 /// Number of points.
 TREEFORM_C_API treeform_code treeform_point_tree_size(const treeform_point_tree* tree,
-                                                      size_t* count);
+                                                      size_t* result);
 
 /// The `k` nearest points of each of `queries` [count][dimensions], nearest first, within `radius`
-/// (inclusive; infinite for none): `ids` [count][k] and `distances` [count][k], either of which may
-/// be null. Where there are fewer, ids are `TREEFORM_NONE` and distances infinite. Equally near
-/// points come by number.
+/// (inclusive; infinite for none): `ids` [count][k] and `distances` [count][k], either of which
+/// may be null. Where there are fewer, ids are `TREEFORM_NONE` and distances infinite. Equally
+/// near points come by number.
 TREEFORM_C_API treeform_code treeform_point_tree_nearest(const treeform_point_tree* tree,
                                                          const double* queries, size_t count,
                                                          size_t k, double radius, uint32_t* ids,
                                                          double* distances);
+// end
 
 /// A point near a query.
 typedef struct treeform_neighbor {
@@ -45,11 +43,14 @@ typedef struct treeform_neighbors {
     size_t count;  ///< queries
 } treeform_neighbors;
 
+// made of the headers of C++:
+//   point_tree_within()
 /// All points within `radius` (inclusive) of each query, nearest first.
 TREEFORM_C_API treeform_code treeform_point_tree_within(const treeform_point_tree* tree,
                                                         const double* queries, size_t count,
                                                         double radius,
                                                         treeform_neighbors** neighbors);
+// end
 
 /// Pairs of numbers.
 typedef struct treeform_id_pairs {
@@ -58,14 +59,19 @@ typedef struct treeform_id_pairs {
     size_t count;
 } treeform_id_pairs;
 
+// made of the headers of C++:
+//   point_tree_pairs()
 /// All pairs of points within `radius` (inclusive) of each other, each once, the lower number
 /// first.
 TREEFORM_C_API treeform_code treeform_point_tree_pairs(const treeform_point_tree* tree,
                                                        double radius, treeform_id_pairs** pairs);
+// end
 
 /// A tree over closed boxes, with a copy of them.
 typedef struct treeform_box_tree treeform_box_tree;
 
+// made of the headers of C++:
+//   box_tree_create() box_tree_size() box_tree_pairs() box_tree_pairs_of()
 /// The tree over the boxes from `mins` [count][dimensions] to `maxs` [count][dimensions]; 2 or 3
 /// dimensions. A box that is not finite, or whose min exceeds its max, is `TREEFORM_INVALID`.
 TREEFORM_C_API treeform_code treeform_box_tree_create(const double* mins, const double* maxs,
@@ -73,7 +79,7 @@ TREEFORM_C_API treeform_code treeform_box_tree_create(const double* mins, const 
                                                       treeform_box_tree** tree);
 
 /// Number of boxes.
-TREEFORM_C_API treeform_code treeform_box_tree_size(const treeform_box_tree* tree, size_t* count);
+TREEFORM_C_API treeform_code treeform_box_tree_size(const treeform_box_tree* tree, size_t* result);
 
 /// All pairs of boxes that have a common point, each once, the lower number first; exact.
 TREEFORM_C_API treeform_code treeform_box_tree_pairs(const treeform_box_tree* tree,
@@ -83,6 +89,7 @@ TREEFORM_C_API treeform_code treeform_box_tree_pairs(const treeform_box_tree* tr
 TREEFORM_C_API treeform_code treeform_box_tree_pairs_of(const treeform_box_tree* a,
                                                         const treeform_box_tree* b,
                                                         treeform_id_pairs** pairs);
+// end
 
 /// Lists of numbers: those of query i are ids[begin[i]] ... ids[begin[i + 1] - 1].
 typedef struct treeform_id_lists {
@@ -92,6 +99,8 @@ typedef struct treeform_id_lists {
     size_t count;  ///< queries
 } treeform_id_lists;
 
+// made of the headers of C++:
+//   box_tree_query() box_tree_rays() box_tree_nearest()
 /// The boxes that have a point in common with each of the query boxes [count], ascending; exact. A
 /// query may be infinite; one whose min exceeds its max finds nothing.
 TREEFORM_C_API treeform_code treeform_box_tree_query(const treeform_box_tree* tree,
@@ -99,8 +108,8 @@ TREEFORM_C_API treeform_code treeform_box_tree_query(const treeform_box_tree* tr
                                                      size_t count, treeform_id_lists** lists);
 
 /// The boxes that each ray, origin + t direction with t >= 0, meets, ascending: of `origins`
-/// [count][dimensions] and `directions`. Boxes are met up to the rounding of 32-bit floats: none is
-/// missed.
+/// [count][dimensions] and `directions`. Boxes are met up to the rounding of 32-bit floats: none
+/// is missed.
 TREEFORM_C_API treeform_code treeform_box_tree_rays(const treeform_box_tree* tree,
                                                     const double* origins, const double* directions,
                                                     size_t count, treeform_id_lists** lists);
@@ -111,8 +120,4 @@ TREEFORM_C_API treeform_code treeform_box_tree_nearest(const treeform_box_tree* 
                                                        const double* points, size_t count, size_t k,
                                                        double radius, uint32_t* ids,
                                                        double* distances);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

@@ -1,16 +1,12 @@
-#ifndef TREEFORM_C_WELD_H
-#define TREEFORM_C_WELD_H
+#pragma once
 /// \file
 /// Points that are within a distance of each other become one: of clouds, meshes and files.
 
 #include <treeform/c/files.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-// made of <mesh/weld.hpp> <mesh/weld_options.hpp>:
-//   weld_rule weld_keep weld_order weld_condition weld_options weld_result
+// made of the headers of C++:
+//   weld_rule weld_keep weld_order weld_condition weld_options weld_result weld() weld_file()
+//   group_points() count_nearly_equal() count_still_within() withhold()
 /// Which points become one.
 typedef int32_t treeform_weld_rule;
 enum {
@@ -124,7 +120,6 @@ typedef struct treeform_weld_result {
     uint64_t left_alone;        ///< groups that `keep_manifold` did not merge whole
     const treeform_file* file;  ///< of a file, with its attributes; else null
 } treeform_weld_result;
-// end
 
 /// The mesh or cloud with the points merged that are within the tolerance of each other: exact.
 TREEFORM_C_API treeform_code treeform_weld(const treeform_mesh* mesh,
@@ -141,9 +136,10 @@ TREEFORM_C_API treeform_code treeform_group_points(const treeform_mesh* mesh,
                                                    const treeform_weld_options* options,
                                                    treeform_weld_result** result);
 
-/// How many points would go if those within `distance` were joined, beyond those equal to another.
+/// How many points would not be there any more if points within `distance` of each other were
+/// joined, beyond those that are equal to another.
 TREEFORM_C_API treeform_code treeform_count_nearly_equal(const treeform_mesh* mesh, double distance,
-                                                         uint64_t* count);
+                                                         uint64_t* result);
 
 /// How many points of a welded file would be merged if it were written with this precision, read
 /// and welded again; `known` is 0 where points stay apart on purpose.
@@ -156,8 +152,4 @@ TREEFORM_C_API treeform_code treeform_count_still_within(const treeform_file* we
 /// keep.
 TREEFORM_C_API treeform_code treeform_withhold(treeform_file* file,
                                                const treeform_weld_result* welded);
-
-#ifdef __cplusplus
-}
-#endif
-#endif
+// end

@@ -1,0 +1,96 @@
+#pragma once
+/// \file
+/// Bodies of files, and clashes, in C.
+
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/placement.hpp>
+
+#include <tools/c/made/structs.hpp>
+
+namespace glue {
+
+/// The bodies of `files` [count], which are called `labels` [count]: for `treeform_clash` and all
+/// placements. Files are copied.
+inline answer_of<treeform_bodies> bodies_of(const treeform_file* const* files,
+                                            const char* const* labels, std::size_t count,
+                                            treeform_body_kind kind) {
+    constexpr std::array add{&tf::body_set::add, &tf::body_set::add_parts,
+                             &tf::body_set::add_named_parts};
+    const auto which = choice<std::size_t>(kind, add.size(), "kind");
+    const std::vector<std::string> names = texts(labels, count, "labels");
+    auto made = make<treeform_bodies>();
+    auto& set = made->keep(tf::body_set{});
+    for (std::size_t i = 0; i < count; ++i)
+        (set.*add[which])(content(array(files, count, "files")[i], "files"), names[i], names[i]);
+    auto& bodies = made->keep(std::vector<treeform_body>(set.bodies.size()));
+    made->value.meshes = handles(*made, set.shapes);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        auto& faces = made->keep(std::vector<std::uint32_t>(set.shapes[i].view().faces.size()));
+        for (std::uint32_t f = 0; f < faces.size(); ++f) faces[f] = set.stored_face(i, f);
+        bodies[i] = {made->value.meshes[i],
+                     static_cast<std::uint32_t>(set.bodies[i].file),
+                     set.bodies[i].name.c_str(),
+                     made->keep(set.label(i)).c_str(),
+                     faces.data(),
+                     faces.size()};
+    }
+    made->value.bodies = bodies.data();
+    made->value.count = bodies.size();
+    return made;
+}
+
+/// The file of a body with its points moved to `points` [count][3], those of a placement, and all
+/// other points of the file moved by `matrix` [12]. The bodies hold the file from there on; their
+/// meshes stay.
+inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const double* points,
+                              std::size_t count, const double* matrix, tf::precision written_as) {
+    auto& set = kept_in<tf::body_set>(need(bodies, "bodies"), "bodies");
+    if (body >= set.bodies.size())
+        throw std::invalid_argument("body " + std::to_string(body) + " is not there");
+    const std::size_t wanted = set.shapes[body].view().points.size();
+    if (count != wanted)
+        throw std::invalid_argument(std::to_string(count) + " points for a body of " +
+                                    std::to_string(wanted));
+    set.put_back(body, glue::points(points, count, "points"), finite_matrix(matrix), written_as);
+    return set.file_of(body).content;
+}
+
+/// All pairs of parts of which one's name matches `first`, and the other's `second`, where * stands
+/// for any characters and ? for one: [count / 2][2], for `ignored`.
+inline std::vector<std::uint32_t> pairs_named(std::span<const std::string> names,
+                                              const std::string& first, const std::string& second) {
+    std::vector<std::uint32_t> flat;
+    for (const tf::part_pair& one : tf::pairs_named(names, first, second))
+        flat.insert(flat.end(), one.begin(), one.end());
+    return flat;
+}
+
+/// What clashes in each of many poses: `poses` [pose_count][count][12] has a matrix for each part,
+/// pose after pose. Exact, for the corners as moved.
+inline answer_of<treeform_poses_result> check_poses(const treeform_mesh* const* parts,
+                                                    std::size_t count, const double* poses,
+                                                    std::size_t pose_count,
+                                                    const tf::pose_options& options) {
+    if (count != 0 && pose_count > (std::size_t{1} << 36) / count)
+        throw std::length_error("too many poses");
+    (void)array(poses, 12 * pose_count * count, "poses");
+    const tf::pose_result found = tf::check_poses(
+        refs(parts, count, "parts"),
+        {reinterpret_cast<const tf::transform<3>*>(poses), pose_count * count}, options);
+    check(found.status);
+    auto made = make<treeform_poses_result>();
+    auto& begin = made->keep(std::vector<std::size_t>{0});
+    auto& all = made->keep(std::vector<tf::pose_clash>());
+    for (const auto& one : found.poses) {
+        all.insert(all.end(), one.begin(), one.end());
+        begin.push_back(all.size());
+    }
+    made->value.pose_count = found.poses.size();
+    made->value.begin = begin.data();
+    made->value.clashes = same<treeform_pose_clash>(all);
+    made->value.clashing = found.clashing;
+    made->value.boxes_apart = found.boxes_apart;
+    return made;
+}
+
+}  // namespace glue

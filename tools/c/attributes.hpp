@@ -1,0 +1,126 @@
+#pragma once
+/// \file
+/// Attributes carried to results, and colors, in C.
+
+#include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/placement.hpp>
+
+#include <tools/c/inputs.hpp>
+#include <tools/c/made/structs.hpp>
+
+namespace glue {
+
+inline std::size_t faces_of(const tf::carry_source& input) { return input.file->mesh.faces.size(); }
+
+/// Elements of the operands, each of which is there; `count_of(input)` is how many there are.
+template <class CountOf>
+std::span<const tf::operand_element> elements(const treeform_element* data, std::size_t count,
+                                              const char* name,
+                                              std::span<const tf::carry_source> inputs,
+                                              const CountOf& count_of) {
+    for (const treeform_element& one : array(data, count, name))
+        if (one.operand != TREEFORM_NONE &&
+            (one.operand >= inputs.size() || one.index >= count_of(inputs[one.operand])))
+            throw std::invalid_argument(std::string(name) + " names element " +
+                                        std::to_string(one.index) + " of operand " +
+                                        std::to_string(one.operand) + ", which is not there");
+    return rows_of<tf::operand_element>(data, count, name);
+}
+
+inline std::span<const std::uint32_t> numbers(const std::uint32_t* data, std::size_t count,
+                                              const char* name, std::size_t limit) {
+    const std::span all = array(data, count, name);
+    for (const std::uint32_t one : all)
+        if (one != TREEFORM_NONE && one >= limit)
+            throw std::invalid_argument(std::string(name) + " names " + std::to_string(one) +
+                                        ", which is not there");
+    return all;
+}
+
+/// Gives `file`, whose mesh was made of the `inputs` [count], their attributes: columns of vertices
+/// and faces, texture coordinates and normals, materials; of a single input, also names of parts.
+/// `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or null) are those of a
+/// `treeform_boolean_result`.
+inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std::size_t count,
+                  const treeform_element* face_source, const treeform_element* vertex_source,
+                  const treeform_element* face_of_cut_vertex) {
+    const carry_inputs files(inputs, count);
+    const std::span from = files.sources();
+    const auto points = [](const tf::carry_source& s) { return s.file->mesh.points.size(); };
+    const std::size_t vertices = file.mesh.points.size();
+    tf::carried_elements made;
+    made.face_source = elements(face_source, file.mesh.faces.size(), "face_source", from, faces_of);
+    made.vertex_source = elements(vertex_source, vertices, "vertex_source", from, points);
+    if (face_of_cut_vertex)
+        made.face_of_cut_vertex =
+            elements(face_of_cut_vertex, vertices, "face_of_cut_vertex", from, faces_of);
+    tf::carry_sources({from.begin(), from.end()}).carry(file, made);
+}
+
+/// The same for what was made of one input: `face_source` [F] and `vertex_source` [V] are those of
+/// a `treeform_resolve_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
+/// `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
+inline void carry_one(tf::mesh_file& file, const treeform_carry_source* input,
+                      const std::uint32_t* face_source, const std::uint32_t* vertex_source,
+                      const std::uint32_t* face_of_new_vertex, const std::uint32_t* corner_source) {
+    const carry_inputs files(input, 1);
+    const tf::carry_source from = files.sources()[0];
+    const std::size_t points = file.mesh.points.size(), faces = file.mesh.faces.size();
+    std::span<const std::uint32_t> of_new, corners;
+    if (face_of_new_vertex != nullptr)
+        of_new = numbers(face_of_new_vertex, points, "face_of_new_vertex", faces_of(from));
+    if (corner_source != nullptr)
+        corners = numbers(corner_source, 3 * faces, "corner_source", 3 * faces_of(from));
+    tf::carry_sources(from).carry(
+        file, numbers(face_source, faces, "face_source", faces_of(from)),
+        numbers(vertex_source, points, "vertex_source", from.file->mesh.points.size()), of_new,
+        corners);
+}
+
+/// A group for each face of all inputs, for `treeform_boolean_options::face_groups`. With
+/// `by_values` a group has one material and equal values, with `by_input` faces of one input only.
+inline std::vector<std::uint32_t> face_groups(const treeform_carry_source* inputs,
+                                              std::size_t count, bool by_values, bool by_input) {
+    const carry_inputs files(inputs, count);
+    return tf::carry_sources({files.sources().begin(), files.sources().end()})
+        .face_groups(by_values, by_input);
+}
+
+/// A group for each corner [3 F] of an input, for `treeform_simplify_options::corner_groups`:
+/// seams, and borders of materials and values, are kept. None where there are no values.
+inline std::vector<std::uint32_t> corner_groups(const treeform_carry_source* input) {
+    const carry_inputs files(input, 1);
+    return tf::carry_sources({files.sources().begin(), files.sources().end()}).corner_groups();
+}
+
+/// Gives faces the columns NAME_mesh and NAME_face: the operand that each comes from, and its
+/// number there; a comment for each of `inputs` [count] says its name.
+inline void add_source_columns(tf::mesh_file& file, const std::string& name,
+                               const treeform_element* face_source,
+                               std::span<const std::string> inputs) {
+    tf::set_source_columns(
+        file, name,
+        rows_of<tf::operand_element>(face_source, file.mesh.faces.size(), "face_source"), inputs);
+}
+
+/// Gives the vertices of a file the property "distance" and colors from blue (`low`) over white (0)
+/// to red (`high`); `distances` [count] has one for each point.
+inline void color_distances(tf::mesh_file& file, std::span<const double> distances, double low,
+                            double high) {
+    tf::deviation_result::color(file, distances, low, high);
+}
+
+/// Gives the triangles of a file (of a cloud, its points) the property tf_class and its color:
+/// `classes` [count] are those of `treeform_contact_classes`. Triangles up to twice `halo` wide
+/// around them have a tint.
+inline void color_contacts(tf::mesh_file& file, std::span<const std::uint8_t> classes,
+                           double halo) {
+    std::vector<tf::contact_class> all;
+    for (const std::uint8_t one : classes)
+        all.push_back(choice<tf::contact_class>(one, 4, "a class"));
+    tf::contact_color_options how;
+    how.halo = halo;
+    tf::contact_classes::color(file, all, how);
+}
+
+}  // namespace glue

@@ -1,0 +1,285 @@
+#pragma once
+/// \file
+/// Files, scenes and robots in C.
+
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/read.hpp>
+#include <treeform/mesh/write.hpp>
+
+#include <tools/c/made/structs.hpp>
+
+struct treeform_robot {
+    void* owner;
+    treeform::urdf_robot content;
+};
+
+namespace glue {
+
+// ---- reading ----
+
+/// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its dot
+/// ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
+/// stored.
+inline tf::mesh_file read(const std::filesystem::path& path, std::string_view format) {
+    return tf::read(path, format);
+}
+
+/// Reads the file at `path` as `treeform_read` does; options may be null.
+inline tf::mesh_file read_as(const std::filesystem::path& path,
+                             const treeform_read_options* options) {
+    const auto o = chosen(options, treeform_read_options_init);
+    return tf::read(path, text(o.format), read(o));
+}
+
+/// The same of bytes in memory. Errors say `name`.
+inline tf::mesh_file read_memory(const void* bytes, std::size_t size, const char* name,
+                                 std::string_view format) {
+    return tf::read(array(static_cast<const std::byte*>(bytes), size, "bytes"),
+                    name ? name : "memory", format);
+}
+
+/// A file without attributes, with copies of the points and faces of a mesh or cloud.
+inline tf::mesh_file file_create(const treeform_mesh* mesh) {
+    tf::mesh_file made;
+    made.mesh = copy_of(mesh);
+    made.stored_faces = made.mesh.faces.size();
+    return made;
+}
+
+/// A copy of a file.
+inline tf::mesh_file file_copy(const tf::mesh_file& file) { return file; }
+
+/// Looks into a file.
+inline answer_of<treeform_file_view> file_look(const tf::mesh_file& file) {
+    auto made = make<treeform_file_view>();
+    fill(*made, file, made->value);
+    return made;
+}
+
+// ---- changing ----
+
+inline std::size_t rows_in(const tf::mesh_file& file, std::string_view element) {
+    if (element == "vertex") return file.mesh.points.size();
+    if (element == "face")
+        return file.stored_face.empty() ? file.mesh.faces.size() : file.stored_faces;
+    const tf::element* const found = file.attributes.find(element);
+    return found ? found->rows : static_cast<std::size_t>(-1);
+}
+
+/// Replaces the points [count][3], which must be as many as there are: what a placement returns.
+inline void file_set_points(tf::mesh_file& file, std::span<const tf::point3> points) {
+    if (points.size() != file.mesh.points.size())
+        throw std::invalid_argument(std::to_string(points.size()) + " points for a file of " +
+                                    std::to_string(file.mesh.points.size()));
+    file.mesh.points.assign(points.begin(), points.end());
+    if (!tf::fits_single(file.mesh.points)) file.stored_as = tf::precision::float64;
+}
+
+/// Sets a column of `element` ("vertex", "face"), one value a row, `values` [rows] of `type`. The
+/// rows of vertices and faces are those that the file has. Columns that stand for coordinates or
+/// corners are refused.
+inline void file_set_column(tf::mesh_file& file, const std::string& element,
+                            const std::string& name, tf::scalar_type type, const void* values,
+                            std::size_t rows) {
+    const std::size_t wanted = rows_in(file, element);
+    if (wanted != static_cast<std::size_t>(-1) && wanted != rows)
+        throw std::invalid_argument(std::to_string(rows) + " values of \"" + name + "\" for " +
+                                    std::to_string(wanted) + " rows of \"" + element + "\"");
+    if (const tf::element* const of = file.attributes.find(element))
+        if (const tf::column* const before = of->find(name);
+            before && before->role != tf::column_role::data)
+            throw std::invalid_argument("\"" + name + "\" stands for what points and faces hold");
+    tf::column column = tf::with_type(type, [&]<class T>(T) {
+        return tf::column::of<T>(name, array(static_cast<const T*>(values), rows, "values"));
+    });
+    if (element == "face" && file.stored_face.empty()) file.stored_faces = file.mesh.faces.size();
+    file.attributes.obtain(element, rows).set(std::move(column));
+}
+
+/// Sets texture coordinates `texture` [texture_count][3] and their numbers at each corner of each
+/// triangle `of_corner` [F][3], `TREEFORM_NONE` for none.
+inline void file_set_texture(tf::mesh_file& file, const double* texture, std::size_t texture_count,
+                             const std::uint32_t* of_corner) {
+    const std::span corners = faces(of_corner, file.mesh.faces.size(), "of_corner");
+    tf::corner_values made = file.attributes.corners;
+    const auto uvw = rows_of<std::array<double, 3>>(texture, texture_count, "texture");
+    made.texture.assign(uvw.begin(), uvw.end());
+    made.has_w = std::any_of(uvw.begin(), uvw.end(), [](const auto& at) { return at[2] != 0.0; });
+    made.texture_of_corner.assign(corners.begin(), corners.end());
+    if (const std::string fault = made.fault(file.mesh.faces.size()); !fault.empty())
+        throw std::invalid_argument(fault);
+    file.attributes.corners = std::move(made);
+}
+
+/// Adds a name for the faces from `first_face` on; strings may be null. Names come by ascending
+/// faces.
+inline void file_add_part(tf::mesh_file& file, const char* object, const char* group,
+                          const char* material, std::uint32_t first_face) {
+    std::vector<tf::part>& parts = file.attributes.parts;
+    if (first_face > rows_in(file, "face") ||
+        (!parts.empty() && first_face < parts.back().first_face))
+        throw std::invalid_argument("a part cannot begin at face " + std::to_string(first_face));
+    parts.push_back({text(object), text(group), text(material), first_face});
+}
+
+/// Adds such a line.
+inline void file_add_text(tf::mesh_file& file, treeform_text what, const std::string& text) {
+    tf::attributes& a = file.attributes;
+    const std::array lists{&a.comments, &a.obj_info, &a.material_files, &a.texture_files};
+    lists[choice<std::size_t>(what, lists.size(), "what")]->push_back(text);
+}
+
+/// Makes each triangle a face of its own.
+inline void file_split_polygons(tf::mesh_file& file) { file.split_polygons(); }
+
+/// Moves the coordinates to those that a LAS file can hold; `moved` is the furthest that one went.
+inline double file_round_to_las(tf::mesh_file& file) { return tf::round_to_las(file); }
+
+/// Moves the coordinates to 32-bit floats; `moved` is the furthest that one went.
+inline double file_round_to_float32(tf::mesh_file& file) { return file.round_to_float32(); }
+
+/// Moves all of the file by a matrix; where it mirrors, faces are turned over, so that they look
+/// outward as before.
+inline void file_transform(tf::mesh_file& file, const double* matrix) {
+    file.move(finite_matrix(matrix));
+}
+
+/// Turns the normals of the file as a matrix does; where it mirrors, for faces that are turned
+/// over.
+inline void file_turn_normals(tf::mesh_file& file, const double* matrix) {
+    file.turn_normals(finite_matrix(matrix));
+}
+
+// ---- writing ----
+
+/// Writes a file to `path`, whole or not at all; "-" is standard output. What a format does not
+/// hold is left out: `written` says what.
+inline tf::write_result write(const std::filesystem::path& path, const tf::mesh_file& file,
+                              const tf::write_options& options) {
+    return tf::write(path, file, options);
+}
+
+/// The same of a mesh without attributes. `written` may be null.
+inline tf::write_result write_mesh(const std::filesystem::path& path, const treeform_mesh* mesh,
+                                   const treeform_write_options* options) {
+    struct certified_mesh {  // as `write` takes one
+        tf::certificate certificate{};
+        tf::mesh mesh{};
+        [[nodiscard]] const tf::mesh& value() const { return mesh; }
+    };
+    const auto o = chosen(options, treeform_write_options_init);
+    tf::mesh copy = copy_of(mesh);
+    if (o.certified != 0) return tf::write(path, certified_mesh{{}, std::move(copy)}, read(o));
+    return tf::write(path, std::move(copy), read(o));
+}
+
+/// The bytes of the file, of the format that `options` name.
+inline answer_of<treeform_bytes> write_memory(const tf::mesh_file& file,
+                                              const tf::write_options& options) {
+    auto made = make<treeform_bytes>();
+    const std::string& kept = made->keep(tf::write_to_memory(file, options));
+    made->value.bytes = reinterpret_cast<const unsigned char*>(kept.data());
+    made->value.count = kept.size();
+    return made;
+}
+
+// ---- meshes and scenes ----
+
+/// The part of a file's mesh that can be used. Points that only faces left out use go, too.
+inline tf::usable_mesh usable_part(const tf::mesh_file& file, const tf::part_options& options) {
+    return tf::usable_part(file.mesh, file.stored_face, options);
+}
+
+/// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are
+/// not finite are left out. Points keep their numbers, so that attributes can be carried.
+inline tf::usable_mesh as_mesh(const tf::mesh_file& file) {
+    tf::mesh_file plain;
+    plain.mesh = file.mesh;
+    plain.stored_face = file.stored_face;
+    plain.stored_faces = file.stored_faces;
+    plain.indexed = file.indexed;
+    return tf::as_mesh(std::move(plain));
+}
+
+/// Or numbers of the inputs, where there are none.
+inline std::vector<std::string> names_of(const char* const* names, std::size_t count) {
+    if (names) return texts(names, count, "names");
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < count; ++i) result.push_back("input " + std::to_string(i));
+    return result;
+}
+
+/// One file with the points and faces of all. `names` [count] are for warnings; or null.
+inline tf::mesh_file join_files(const treeform_file* const* files, const char* const* names,
+                                std::size_t count) {
+    std::vector<tf::mesh_file> all;
+    for (const treeform_file* one : array(files, count, "files"))
+        all.push_back(content(one, "files"));
+    if (all.empty()) throw std::invalid_argument("no files to join");
+    return tf::join(std::move(all), names_of(names, count));
+}
+
+/// All files in one scene, each under its name, with materials and textures.
+inline tf::mesh_file scene(const treeform_file* const* files, const char* const* names,
+                           std::size_t count) {
+    const std::span all = array(files, count, "files");
+    if (all.empty()) throw std::invalid_argument("no files for the scene");
+    const std::vector<std::string> labels = names_of(names, count);
+    std::vector<tf::scene_member> members;
+    for (std::size_t i = 0; i < count; ++i)
+        members.push_back({&content(all[i], "files"), labels[i], labels[i]});
+    return tf::scene_of(members);
+}
+
+/// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
+/// points or open edges in common are one.
+inline answer_of<treeform_scene_parts> split_parts(const tf::mesh_file& file) {
+    auto made = make<treeform_scene_parts>();
+    auto& all = made->keep(std::vector<treeform_scene_part>());
+    for (tf::file_part& one : made->keep(tf::split_parts({.file = &file})))
+        all.push_back({one.name.c_str(), keep(*made, std::move(one.file)), one.stored_face.data(),
+                       one.stored_face.size()});
+    made->value.count = all.size();
+    made->value.parts = all.data();
+    return made;
+}
+
+// ---- robots ----
+
+/// Looks into a robot.
+inline answer_of<treeform_robot_view> robot_look(const tf::urdf_robot& robot) {
+    auto made = make<treeform_robot_view>();
+    fill(*made, robot, made->value);
+    return made;
+}
+
+/// The parts of a robot; reads the files of its meshes.
+inline answer_of<treeform_robot_parts> robot_parts_of(const tf::urdf_robot& robot) {
+    auto made = make<treeform_robot_parts>();
+    auto& from = made->keep(robot.parts(
+        [](const std::filesystem::path& file) { return tf::as_mesh(tf::read(file)).mesh; }));
+    auto& shapes = made->keep(std::vector<tf::prepared_mesh>());
+    for (tf::mesh& part : from.parts) shapes.emplace_back(std::move(part));
+    made->value.meshes = handles(*made, shapes);
+    made->value.links = from.links.data();
+    made->value.count = from.links.size();
+    made->value.adjacent = flat(from.adjacent);
+    made->value.adjacent_count = from.adjacent.size();
+    return made;
+}
+
+/// `places` [link_count][12]: where each link is when `joints` [count] have these `values`, in
+/// radians or lengths. Joints without a value are at 0.
+inline void link_transforms(const tf::urdf_robot& robot, const char* const* joints,
+                            const double* values, std::size_t count, double* places) {
+    const std::vector<std::string> names = texts(joints, count, "joints");
+    const std::span all = array(values, count, "values");
+    std::vector<tf::joint_value> given;
+    for (std::size_t i = 0; i < count; ++i) given.push_back({names[i], all[i]});
+    const auto found = robot.link_transforms(given);
+    (void)array(places, 12 * found.size(), "places");
+    for (std::size_t i = 0; i < found.size(); ++i) copy(found[i], places + 12 * i);
+}
+
+}  // namespace glue

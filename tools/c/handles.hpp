@@ -1,0 +1,102 @@
+#pragma once
+/// \file
+/// Meshes and files as C has them: as arguments, and in results.
+
+#include <tools/c/glue.hpp>
+
+struct treeform_mesh {
+    void* owner;
+    treeform::mesh arrays;                    ///< where they are not the caller's
+    treeform::prepared_mesh mine;             ///< unless it is one of a set
+    const treeform::prepared_mesh* prepared;  ///< `mine`, or that of a set
+    const void* set;
+    bool one_use;
+};
+
+struct treeform_file {
+    void* owner;
+    treeform::mesh_file content;
+};
+
+namespace glue {
+
+/// What a handle holds.
+template <class Handle>
+[[nodiscard]] auto& content(Handle* handle, const char* name) {
+    auto& found = need(handle, name).content;
+    if constexpr (requires { *found; })
+        return *found;
+    else
+        return found;
+}
+[[nodiscard]] inline tf::mesh_view view(const treeform_mesh* mesh) {
+    return need(mesh, "mesh").prepared->view();
+}
+/// What a caller has given: a cloud has no faces.
+[[nodiscard]] inline tf::mesh_view stored(const treeform_mesh* mesh) {
+    const tf::mesh_view all = view(mesh);
+    return mesh->prepared->is_cloud() ? tf::mesh_view{all.points, {}} : all;
+}
+[[nodiscard]] inline tf::mesh copy_of(const treeform_mesh* mesh) {
+    const tf::mesh_view all = stored(mesh);
+    return {{all.points.begin(), all.points.end()}, {all.faces.begin(), all.faces.end()}};
+}
+/// \throws std::invalid_argument naming a face with a corner that is not finite
+[[nodiscard]] tf::mesh_view finite_view(const treeform_mesh* mesh);
+
+/// A mesh as functions take it: what keeps its indexes, or a view that does not.
+[[nodiscard]] tf::mesh_ref ref(const treeform_mesh* mesh, const char* name);
+/// The same for questions in pieces: a later piece finds the indexes that the first one has built.
+[[nodiscard]] inline tf::mesh_ref ref_for_pieces(const treeform_mesh* mesh, const char* name) {
+    return thread_progress() ? tf::mesh_ref(*need(mesh, name).prepared) : ref(mesh, name);
+}
+
+/// Handles on the meshes of a row, which keep their indexes.
+[[nodiscard]] const treeform_mesh* const* handles(keeper& kept,
+                                                  const std::vector<tf::prepared_mesh>& row);
+
+[[nodiscard]] tf::mesh_refs refs(const treeform_mesh* const* meshes, std::size_t count,
+                                 const char* name);
+[[nodiscard]] std::vector<tf::mesh_view> views(const treeform_mesh* const* meshes,
+                                               std::size_t count, const char* name);
+
+[[nodiscard]] inline std::vector<tf::face_pair> pairs_of(const treeform_mesh* mesh,
+                                                         const treeform_face_pair* pairs,
+                                                         std::size_t count) {
+    return pairs_of(view(mesh).faces.size(), pairs, count);
+}
+
+/// A mesh that was made, and perhaps what its elements come from.
+struct made_mesh {
+    tf::mesh mesh;
+    std::vector<std::uint32_t> index;
+};
+void fill(keeper& kept, const made_mesh& from, treeform_made_mesh& to);
+void fill(keeper& kept, const tf::mesh& from, treeform_made_mesh& to);
+[[nodiscard]] const double* positions_of(keeper& kept, const std::vector<tf::curve_point>& from);
+/// [F] numbers in the file, counting polygons.
+[[nodiscard]] const std::vector<std::uint32_t>& faces_in_file(keeper& kept,
+                                                              const tf::usable_mesh& from);
+
+/// A file within a result.
+[[nodiscard]] const treeform_file* keep(keeper& owner, tf::mesh_file&& file);
+/// What an operation on a file made, with the file.
+template <class C, class T>
+void give_file(T&& found, C** out) {
+    auto made = make<C>();
+    auto& kept = made->keep(std::forward<T>(found));
+    fill(*made, kept, made->value);
+    made->value.file = keep(*made, std::move(kept.file));
+    made->value.mesh = arrays(made->value.file->content.mesh);
+    (void)give(std::move(made), out);
+}
+/// What was written, unless nobody wants to know.
+template <class Write>
+void give_written(const Write& write, treeform_written** out) {
+    if (out) *out = nullptr;
+    tf::write_result written = write();
+    check(written.status);
+    if (out) (void)give(std::move(written), out);
+}
+
+}  // namespace glue

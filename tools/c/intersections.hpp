@@ -1,0 +1,114 @@
+#pragma once
+/// \file
+/// Which faces meet, in C.
+
+#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/intersections.hpp>
+#include <treeform/mesh/self_intersections.hpp>
+
+#include <tools/c/made/structs.hpp>
+#include <tools/c/pairs.hpp>
+
+struct treeform_search {
+    void* owner;
+    std::optional<treeform::stream_search> content;
+};
+
+namespace glue {
+
+/// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
+/// Exact on the coordinates as given.
+inline tf::self_intersection_result self_intersections(
+    const tf::mesh_ref& mesh, const treeform_self_intersections_options* options) {
+    tf::self_intersection_options how = read(options);
+    if (options && options->component_of_face)
+        how.component_of_face = {options->component_of_face, mesh.view().faces.size()};
+    return tf::self_intersections(mesh, how);
+}
+
+/// Whether a face of `a` and a face of `b` have a common point, with each moved by a matrix (null:
+/// where it is); exact.
+inline bool intersects(const tf::mesh_ref& a, const tf::mesh_ref& b, const tf::transform<3>& move_a,
+                       const tf::transform<3>& move_b) {
+    return tf::intersects(a, b, tf::mesh_positions{move_a, move_b});
+}
+
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
+/// the mesh stays; `meet` is [count].
+inline void intersects_poses(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
+                             const double* moves_b, std::size_t count, std::uint8_t* meet) {
+    const std::span out = array(meet, count, "meet");
+    in_positions(
+        a, b, moves_a, moves_b, count,
+        [&](const auto& x, const auto& y, auto where) { return tf::intersects(x, y, where); }, out);
+}
+
+/// The faces, ascending, that have a point in the closed box; exact.
+inline std::vector<std::uint32_t> faces_in_box(const treeform_mesh* mesh, const tf::box3& box) {
+    return tf::faces_in_box(finite_view(mesh), box.min, box.max);
+}
+
+/// Writes them as lines, OBJ or PLY, by `format` or, where it is null, the extension of `path`.
+inline void write_curves(const std::filesystem::path& path, tf::mesh_view mesh,
+                         std::span<const tf::face_pair> pairs, std::string_view format) {
+    tf::write_curves(path, mesh, pairs, {}, std::string(format));
+}
+
+/// Gives `file` the colors of its faces that meet, and the properties tf_class and tf_region.
+/// `part` is what was looked at, of this file, and `pairs` are those of its mesh.
+inline void color_pairs(tf::mesh_file& file, const treeform_part* part,
+                        const treeform_face_pair* pairs, std::size_t count) {
+    const treeform_part& p = need(part, "part");
+    const std::size_t faces = p.mesh.face_count;
+    tf::usable_mesh looked_at;
+    looked_at.mesh.points = copied_as<tf::point3>(p.mesh.points, p.mesh.point_count, "points");
+    looked_at.mesh.faces = copied_as<tf::face>(p.mesh.faces, faces, "faces");
+    if (p.triangle_of_face)
+        looked_at.triangle_of_face.assign(p.triangle_of_face, p.triangle_of_face + faces);
+    looked_at.stored_face = file.stored_face;
+    for (std::uint32_t f = 0; f < faces; ++f)
+        if (looked_at.triangle(f) >= file.mesh.faces.size())
+            throw std::invalid_argument("the part is not of this file");
+    const auto found = pairs_of(faces, pairs, count);
+    tf::face_marks(faces, found, tf::group_pairs(looked_at.mesh, found)).color(file, looked_at);
+}
+
+/// Whether the file is of a format that is searched in tiles; an error when it cannot be read, or
+/// its header is damaged. `format` may be null.
+inline bool is_searched_in_tiles(const std::filesystem::path& path, std::string_view format) {
+    return tf::stream_search::accepts(path, format);
+}
+
+/// Begins: all processes give the same input and options. Only the progress of `options` may
+/// differ.
+inline tf::stream_search search_create(const std::filesystem::path& path,
+                                       const tf::stream_search_options& options) {
+    return {path, options};
+}
+
+/// Gives each tile its faces, unless they have them; `tiles` is their number. One process does it.
+inline std::size_t search_scatter(tf::stream_search& search) {
+    check(search.scatter());
+    return search.tiles();
+}
+
+/// The tiles that are to be searched.
+inline std::vector<std::uint32_t> search_unfinished(tf::stream_search& search) {
+    const auto found = search.unfinished();
+    return {found.begin(), found.end()};
+}
+
+/// Searches a tile, unless that is done. Each process does its share.
+inline void search_tile(tf::stream_search& search, std::size_t tile) {
+    check(search.search_tile(tile));
+}
+
+/// Puts together what was found, when all tiles are searched. Steps that come before their turn
+/// fail, and end the search.
+inline tf::stream_search_result search_finish(tf::stream_search& search) { return search.finish(); }
+
+/// Removes the folder.
+inline void search_remove_folder(tf::stream_search& search) { search.remove_folder(); }
+
+}  // namespace glue

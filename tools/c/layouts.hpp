@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// What packing and alignment say in C where they have not succeeded.
+
+#include <treeform/mesh/align.hpp>
+#include <treeform/mesh/pack.hpp>
+
+#include <tools/c/made/structs.hpp>
+
+namespace glue {
+
+inline treeform_code give(tf::packing&& found, treeform_packing** out) {
+    check(found.certificate.status);
+    if (found.not_placed.empty()) return hand_out(std::move(found), out), TREEFORM_OK;
+    say(found.message().c_str());
+    return hand_out(std::move(found), out), TREEFORM_NO_PLACE;
+}
+
+inline treeform_code give(tf::align_result&& found, treeform_align_result** out) {
+    check(found.status);
+    if (found.converged) return hand_out(std::move(found), out), TREEFORM_OK;
+    say((std::string(tf::name_of(found.end)) + ": " + found.message()).c_str());
+    return hand_out(std::move(found), out), TREEFORM_NO_PLACE;
+}
+
+}  // namespace glue

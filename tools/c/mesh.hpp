@@ -1,0 +1,178 @@
+#pragma once
+/// \file
+/// Meshes of a caller's arrays; meshes joined, selected from and rounded, in C.
+
+#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/cut.hpp>
+#include <treeform/mesh/weld.hpp>
+
+#include <tools/c/made/structs.hpp>
+
+namespace glue {
+
+/// The handle for points and faces, which are in `own` where it has some. Every function may rely
+/// on the numbers of corners: they are checked here.
+inline answer_of<treeform_mesh> mesh_of(tf::mesh own, tf::points_view points,
+                                        std::span<const tf::face> faces, bool cloud,
+                                        std::uint32_t flags) {
+    if ((flags & ~std::uint32_t{TREEFORM_COPY | TREEFORM_ONE_USE}) != 0)
+        throw std::invalid_argument("flags " + std::to_string(flags) + " are not known");
+    if (!own.points.empty()) points = own.points;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (const std::uint32_t corner : faces[f])
+            if (corner >= points.size())
+                throw std::invalid_argument("face " + std::to_string(f) + " has the corner " +
+                                            std::to_string(corner) + " of " +
+                                            std::to_string(points.size()) + " points");
+    auto made = make<treeform_mesh>();
+    treeform_mesh& m = made->value;
+    m.arrays = std::move(own);
+    if ((flags & TREEFORM_COPY) != 0) {
+        if (m.arrays.points.empty()) m.arrays.points.assign(points.begin(), points.end());
+        m.arrays.faces.assign(faces.begin(), faces.end());
+        faces = m.arrays.faces;
+    }
+    if (!m.arrays.points.empty()) points = m.arrays.points;
+    m.mine = cloud ? tf::prepared_mesh::borrow_cloud(points)
+                   : tf::prepared_mesh::borrow(tf::mesh_view{points, faces});
+    m.prepared = &m.mine;
+    m.one_use = (flags & TREEFORM_ONE_USE) != 0 && !cloud;
+    return made;
+}
+
+/// No more than 32 bits can number.
+inline void check_counts(std::size_t points, std::size_t faces) {
+    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+    if (points >= most || faces >= most)
+        throw std::length_error(std::to_string(points) + " points and " + std::to_string(faces) +
+                                " faces are more than 32 bits can number");
+}
+
+inline std::vector<tf::point3> widened(const float* points, std::size_t count) {
+    std::vector<tf::point3> result;
+    for (const auto& p : rows_of<std::array<float, 3>>(points, count, "points"))
+        result.push_back({double{p[0]}, double{p[1]}, double{p[2]}});
+    return result;
+}
+
+/// A mesh of `points` [point_count][3] and `faces` [face_count][3].
+///
+/// Without `TREEFORM_COPY` both arrays are borrowed: they must stay, unchanged, as long as the mesh
+/// exists. Nothing is copied then. Coordinates may be NaN or infinite; verbs that need finite ones
+/// say which is not. Arrays without elements may be null.
+///
+/// A corner that is not less than `point_count` is `TREEFORM_INVALID`, naming the face. O(F).
+inline answer_of<treeform_mesh> mesh_create(const double* points, std::size_t point_count,
+                                            const std::uint32_t* faces, std::size_t face_count,
+                                            std::uint32_t flags) {
+    check_counts(point_count, face_count);
+    return mesh_of({}, glue::points(points, point_count, "points"),
+                   glue::faces(faces, face_count, "faces"), false, flags);
+}
+
+/// The same of 32-bit floats, which become doubles without loss: points are copied, faces are
+/// borrowed unless `flags` say otherwise.
+inline answer_of<treeform_mesh> mesh_create_float(const float* points, std::size_t point_count,
+                                                  const std::uint32_t* faces,
+                                                  std::size_t face_count, std::uint32_t flags) {
+    check_counts(point_count, face_count);
+    return mesh_of({widened(points, point_count), {}}, {}, glue::faces(faces, face_count, "faces"),
+                   false, flags);
+}
+
+/// A cloud of points, to be measured, moved, welded and aligned as meshes are: each point is a face
+/// without area, and has its number. A cloud bounds no solid. Flags as for meshes.
+inline answer_of<treeform_mesh> cloud_create(const double* points, std::size_t point_count,
+                                             std::uint32_t flags) {
+    check_counts(point_count, 0);
+    return mesh_of({}, glue::points(points, point_count, "points"), {}, true, flags);
+}
+
+/// The same of 32-bit floats, which are copied.
+inline answer_of<treeform_mesh> cloud_create_float(const float* points, std::size_t point_count,
+                                                   std::uint32_t flags) {
+    check_counts(point_count, 0);
+    return mesh_of({widened(points, point_count), {}}, {}, {}, true, flags);
+}
+
+/// The arrays of a mesh, borrowed as long as it exists. Those of a cloud have no faces.
+inline treeform_arrays mesh_arrays(const treeform_mesh* mesh) { return arrays(stored(mesh)); }
+
+/// Whether it is a cloud.
+inline bool mesh_is_cloud(const treeform_mesh* mesh) {
+    return need(mesh, "mesh").prepared->is_cloud();
+}
+
+/// Number of indexes built so far.
+inline std::uint64_t mesh_indexes_built(const treeform_mesh* mesh) {
+    return need(mesh, "mesh").prepared->indexes_built();
+}
+
+/// Meshes for functions that take several of them, such as `treeform_clash` and `treeform_slide`:
+/// with `set->meshes` these keep their indexes from call to call, with meshes of different origin
+/// they build them for each call. The arrays are those of `meshes`, which must outlive the set.
+inline answer_of<treeform_mesh_set> mesh_set_create(const treeform_mesh* const* meshes,
+                                                    std::size_t count) {
+    auto made = make<treeform_mesh_set>();
+    auto& row = made->keep(std::vector<tf::prepared_mesh>());
+    for (const treeform_mesh* one : array(meshes, count, "meshes")) {
+        const tf::mesh_view view = glue::view(one);
+        row.push_back(one->prepared->is_cloud() ? tf::prepared_mesh::borrow_cloud(view.points)
+                                                : tf::prepared_mesh::borrow(view));
+    }
+    made->value.meshes = handles(*made, row);
+    made->value.count = count;
+    return made;
+}
+
+/// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they
+/// first appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
+inline made_mesh join_equal_points(tf::mesh_view mesh) {
+    tf::equal_points found = tf::find_equal_points(mesh.points);
+    const tf::point_groups groups{std::move(found.new_of_old), std::move(found.first_of_new)};
+    return {groups.joined(mesh), groups.group_of_point};
+}
+
+/// The faces of all meshes one after the other, with equal points joined. `index` [F] is the mesh
+/// that each face is of. Points that are not finite become 0 and may not be used by a face.
+inline made_mesh join_meshes(const treeform_mesh* const* meshes, std::size_t count) {
+    std::vector<tf::mesh_view> views;
+    for (const treeform_mesh* one : array(meshes, count, "meshes"))
+        views.push_back(finite_view(one));
+    tf::joined_meshes joined = tf::join_meshes(views);
+    return {std::move(joined.mesh), std::move(joined.mesh_of_face)};
+}
+
+/// A mesh of the faces with these numbers, in this order, and of the points that they use.
+inline tf::mesh select_faces(const tf::mesh_ref& mesh, std::span<const std::uint32_t> faces) {
+    return tf::submesh(mesh, faces).mesh;
+}
+
+/// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
+/// its range. `treeform_rounding_effects` says what that breaks.
+inline tf::mesh round(tf::mesh_view mesh, tf::precision precision) {
+    return {tf::rounded(mesh.points, precision), {mesh.faces.begin(), mesh.faces.end()}};
+}
+
+/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved).
+/// Exact: faces that meet now, and did not, are found by `treeform_self_intersections`.
+inline tf::rounding_effects rounding_effects(const treeform_mesh* mesh,
+                                             const tf::transform<3>& matrix, const double* placed,
+                                             const treeform_rounding_options* options) {
+    const auto o = chosen(options, treeform_rounding_options_init);
+    const tf::mesh_view view = glue::view(mesh);
+    const tf::points_view after = points(placed, view.points.size(), "placed");
+    const tf::rounding_options how = read(o);
+    tf::rounding_effects found = tf::effects_of_rounding(ref(mesh, "mesh"), matrix, after, how);
+    if (found.status == tf::status::ok && o.always_compare != 0 && !found.compared) {
+        const tf::rounding_defects defects = tf::find_rounding_defects(view, after, how.progress);
+        check(defects.status);
+        found.compared = true;
+        found.collapsed = defects.collapsed;
+        found.meeting = defects.meeting;
+    }
+    return found;
+}
+
+}  // namespace glue

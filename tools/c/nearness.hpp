@@ -1,0 +1,211 @@
+#pragma once
+/// \file
+/// Nearest points, distances, inside and outside, and rays, in C.
+
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/deviation.hpp>
+#include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/point_location.hpp>
+
+#include <tools/c/made/structs.hpp>
+#include <tools/c/pairs.hpp>
+
+#include <algorithm>
+
+namespace glue {
+
+// ---- distances ----
+
+/// The points of the surface nearest to `queries` [count][3]: `faces` [count], `distances` [count],
+/// `points` [count][3]. Beyond `radius` (infinite for none) they are `TREEFORM_NONE`, infinite,
+/// NaN. Of several faces at the same distance, the lowest.
+inline void closest_point(const treeform_mesh* mesh, const double* queries, std::size_t count,
+                          double radius, std::uint32_t* faces, double* distances, double* points) {
+    const tf::points_view from = glue::points(queries, count, "queries");
+    const tf::mesh_ref m = ref_for_pieces(mesh, "mesh");
+    in_pieces(count, [&](std::size_t begin, std::size_t end) {
+        const auto some = tf::closest_point(m, from.subspan(begin, end - begin), radius);
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto& found = some[i - begin];
+            if (faces) faces[i] = found ? found->face : TREEFORM_NONE;
+            if (distances) distances[i] = found ? found->distance : infinity;
+            if (points) copy(found ? found->point : nowhere, points + 3 * i);
+        }
+    });
+}
+
+/// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: where it is), not
+/// further apart than `radius`.
+inline treeform_closest closest_points(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                                       const tf::transform<3>& move_a,
+                                       const tf::transform<3>& move_b, double radius) {
+    return same<treeform_closest>(
+        tf::closest_points(a, b, {move_a, move_b, radius})
+            .value_or(tf::closest_points_result{TREEFORM_NONE, TREEFORM_NONE, infinity, nowhere,
+                                                nowhere}));
+}
+
+/// The distance of the surfaces; infinite where one has no faces.
+inline double distance(const tf::mesh_ref& a, const tf::mesh_ref& b, const tf::transform<3>& move_a,
+                       const tf::transform<3>& move_b) {
+    return tf::distance(a, b, tf::distance_options{move_a, move_b});
+}
+
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
+/// the mesh stays; `distances` [count] are infinite beyond `radius`.
+inline void distance_poses(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
+                           const double* moves_b, std::size_t count, double radius,
+                           double* distances) {
+    const std::span out = array(distances, count, "distances");
+    in_positions(
+        a, b, moves_a, moves_b, count,
+        [&](const auto& x, const auto& y, auto where) { return tf::distance(x, y, where, radius); },
+        out);
+}
+
+// ---- inside and outside ----
+
+template <class T>
+T* from(T* array, std::size_t begin) {
+    return array ? array + begin : nullptr;
+}
+
+inline void answer_all(std::span<const tf::point_location> found, std::uint8_t* where,
+                       std::int32_t* winding, std::uint32_t* on) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (where) where[i] = static_cast<std::uint8_t>(found[i].where);
+        if (winding) winding[i] = found[i].winding;
+        if (on) on[i] = found[i].where == tf::location::boundary ? found[i].on : TREEFORM_NONE;
+    }
+}
+
+/// Where `points` [count][3] are with respect to a closed mesh, exactly: `where` [count] (a
+/// `treeform_location` each), `winding` [count] how often the surface winds around the point, `on`
+/// [count] the lowest face that holds a point of the boundary, else `TREEFORM_NONE`. An open mesh
+/// is `TREEFORM_INVALID`, naming an edge.
+inline void locate(const treeform_mesh* mesh, const double* points, std::size_t count,
+                   std::uint8_t* where, std::int32_t* winding, std::uint32_t* on) {
+    const tf::points_view all = glue::points(points, count, "points");
+    const tf::mesh_ref m = ref_for_pieces(mesh, "mesh");
+    in_pieces(count, [&](std::size_t begin, std::size_t end) {
+        answer_all(tf::locate(m, all.subspan(begin, end - begin)), from(where, begin),
+                   from(winding, begin), from(on, begin));
+    });
+}
+
+/// `inside` [count]: 1 for points inside the closed mesh or on its surface.
+inline void contains(const treeform_mesh* mesh, const double* points, std::size_t count,
+                     std::uint8_t* inside) {
+    const std::span out = array(inside, count, "inside");
+    locate(mesh, points, count, inside, nullptr, nullptr);
+    for (std::uint8_t& one : out) one = one == TREEFORM_OUTSIDE ? 0 : 1;
+}
+
+/// `winding` [count]: how often the surface winds around each point; 0 on the surface.
+inline void winding_number(const treeform_mesh* mesh, const double* points, std::size_t count,
+                           std::int32_t* winding) {
+    (void)array(winding, count, "winding");
+    locate(mesh, points, count, nullptr, winding, nullptr);
+}
+
+/// The same for closed curves in the plane: `points` [point_count][2], `edges` [edge_count][2] by
+/// numbers of points, the inside on their left; `queries` [count][2]. Answers as `treeform_locate`.
+inline void locate_in_curves(const double* points, std::size_t point_count,
+                             const std::uint32_t* edges, std::size_t edge_count,
+                             const double* queries, std::size_t count, std::uint8_t* where,
+                             std::int32_t* winding) {
+    const tf::curve_locator locator({rows_of<tf::point2>(points, point_count, "points"),
+                                     rows_of<tf::curve_edge>(edges, edge_count, "edges")});
+    const auto all = rows_of<tf::point2>(queries, count, "queries");
+    in_pieces(count, [&](std::size_t begin, std::size_t end) {
+        answer_all(locator.locate(all.subspan(begin, end - begin)), from(where, begin),
+                   from(winding, begin), nullptr);
+    });
+}
+
+// ---- rays ----
+
+/// `ask(mesh, rays, begin)` for all rays.
+template <class Ask>
+void along_rays(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t count,
+                const Ask& ask) {
+    const auto all = same_as<tf::ray3>(array(rays, count, "rays"));
+    const tf::mesh_ref m = ref_for_pieces(mesh, "mesh");
+    in_pieces(count, [&](std::size_t begin, std::size_t end) {
+        ask(m, all.subspan(begin, end - begin), begin);
+    });
+}
+
+/// `hits` [count]: the face that each ray hits first, exactly; of several at one point the lowest.
+inline void raycast(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t count,
+                    treeform_hit* hits) {
+    const std::span out = array(hits, count, "hits");
+    along_rays(mesh, rays, count, [&](const auto& m, auto some, std::size_t begin) {
+        for (const auto& found : tf::raycast(m, some))
+            out[begin++] = found ? same<treeform_hit>(*found)
+                                 : treeform_hit{TREEFORM_NONE, 0, 0, not_known, not_known};
+    });
+}
+
+/// `hit` [count]: 1 where the ray hits any face.
+inline void raycast_any(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t count,
+                        std::uint8_t* hit) {
+    const std::span out = array(hit, count, "hit");
+    along_rays(mesh, rays, count, [&](const auto& m, auto some, std::size_t begin) {
+        const auto found = tf::raycast_any(m, some);
+        std::copy(found.begin(), found.end(), out.data() + begin);
+    });
+}
+
+/// All faces that each ray hits, in the exact order along the ray, then by number.
+inline answer_of<treeform_hits> raycast_all(const treeform_mesh* mesh, const treeform_ray* rays,
+                                            std::size_t count) {
+    auto made = make<treeform_hits>();
+    auto& found = made->keep(tf::mesh_hits{{0}, {}});
+    along_rays(mesh, rays, count, [&](const auto& m, auto some, std::size_t) {
+        auto more = tf::raycast_all(m, some);
+        append(found.begin, found.hits, std::move(more.begin), std::move(more.hits));
+    });
+    made->value.begin = found.begin.data();
+    made->value.hits = same<treeform_hit>(found.hits);
+    made->value.count = count;
+    return made;
+}
+
+// ---- two meshes ----
+
+/// Only how they lie, exactly: separate, touching or penetrating.
+inline tf::mesh_relation relate(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                                tf::vertex_identity vertices) {
+    return tf::relation(a, b, {.vertices = vertices}).relation;
+}
+
+/// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
+/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
+/// What the search took comes in `effort`, which may be null.
+inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                              const tf::depth_options& options, double* depth, double move[3],
+                              treeform_search_effort* effort) {
+    (void)need(depth, "depth");
+    (void)need(move, "move");
+    const auto found =
+        tf::penetration_depth(a, b, options).value_or(tf::penetration_depth_result{});
+    check(found.status);
+    *depth = found.depth;
+    copy(found.move, move);
+    if (effort) *effort = same<treeform_search_effort>(found.effort);
+}
+
+/// Counts `points` [count][3] by where they are with respect to `solids` [solid_count], exactly:
+/// counts[0] inside any, counts[1] on the surface of any, counts[2] outside of all.
+inline void count_sides(std::span<const tf::point3> points, const tf::mesh_refs& solids,
+                        std::uint64_t counts[3]) {
+    (void)need(counts, "counts");
+    const tf::side_counts found = tf::count_sides(points, solids);
+    counts[0] = found.inside;
+    counts[1] = found.on;
+    counts[2] = found.outside;
+}
+
+}  // namespace glue

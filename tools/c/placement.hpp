@@ -1,0 +1,119 @@
+#pragma once
+/// \file
+/// Placements in C.
+
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/time_of_impact.hpp>
+
+#include <tools/c/made/structs.hpp>
+
+namespace glue {
+
+/// A placement, and what only its operation has: `more(to)` fills it.
+template <class More>
+treeform_code give_placed(tf::placement&& at, treeform_placement** out, const More& more) {
+    check(at.certificate.status);
+    treeform_placement& to = hand_out(std::move(at), out);
+    more(to);
+    if (to.certificate->status == TREEFORM_STATUS_OK) return TREEFORM_OK;
+    say(to.message);
+    return TREEFORM_NO_PLACE;
+}
+
+inline treeform_code give(tf::placement&& at, treeform_placement** out) {
+    return give_placed(std::move(at), out, [](treeform_placement&) {});
+}
+
+inline treeform_code give(tf::turn_result&& turned, treeform_placement** out) {
+    return give_placed(std::move(turned.at), out, [&](treeform_placement& to) {
+        to.angle = turned.angle;
+        to.tolerance = turned.tolerance;
+        to.steps = turned.steps;
+    });
+}
+
+inline treeform_code give(tf::feature_mating&& mated, treeform_placement** out) {
+    return give_placed(std::move(mated.at), out, [&](treeform_placement& to) {
+        to.angle = mated.turn_angle;
+        to.offset = mated.offset;
+    });
+}
+
+/// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of
+/// which there may be none.
+inline tf::placement drop(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
+                          const double* direction, const treeform_place_options* options) {
+    auto how = read_as<tf::drop_options>(options);
+    if (direction) how.direction = point(direction, "direction");
+    return fixed.size() == 0 ? tf::drop(moving, how) : tf::drop(moving, fixed, how);
+}
+
+/// Turns `moving` about the axis through `origin` along `direction` until it first comes within the
+/// tolerance of one of `fixed`, or of the clearance from one.
+inline tf::turn_result turn(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
+                            const tf::point3& origin, const tf::point3& direction,
+                            const tf::turn_options& options) {
+    return tf::turn(moving, fixed, {origin, direction}, options);
+}
+
+inline tf::mesh_feature feature_of(const treeform_feature* from, const char* name) {
+    const treeform_feature& f = need(from, name);
+    tf::mesh_feature feature;
+    feature.kind = choice<tf::feature_kind>(f.kind, 2, "kind");
+    feature.origin = point(f.origin, "origin");
+    feature.direction = point(f.direction, "direction");
+    feature.radius = f.radius;
+    feature.hollow = f.hollow != 0;
+    feature.area = f.area;
+    feature.deviation = f.deviation;
+    feature.faces = copied_as<std::uint32_t>(f.faces, f.face_count, "the faces of a feature");
+    return feature;
+}
+
+/// Brings two planes, or two axes, together, and slides `moving` until it meets one of `fixed`.
+inline tf::feature_mating mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
+                                        const treeform_feature* of_moving,
+                                        const treeform_feature* of_fixed,
+                                        const tf::feature_mate_options& options) {
+    return tf::mate_features(moving, fixed, feature_of(of_moving, "of_moving"),
+                             feature_of(of_fixed, "of_fixed"), options);
+}
+
+/// The class of each face; `placement` is one of `moving` among `fixed`.
+inline answer_of<treeform_contact_classes> classify_contacts(const treeform_mesh* moving,
+                                                             const tf::mesh_refs& fixed,
+                                                             const treeform_placement* placement) {
+    const tf::prepared_mesh& m = *need(moving, "moving").prepared;
+    const auto& at = kept_in<tf::placement>(need(placement, "placement"), "placement");
+    if (at.points.size() != m.view().points.size())
+        throw std::invalid_argument("placement is of another mesh");
+    for (const tf::placement_contact& one : at.contacts)
+        if (one.moving >= m.view().faces.size() || (one.fixed_face && one.fixed >= fixed.size()))
+            throw std::invalid_argument("placement is of other meshes");
+    auto made = make<treeform_contact_classes>();
+    const auto& found = made->keep(tf::contact_classes::of(m, fixed, at));
+    const auto bytes = [](const std::vector<tf::contact_class>& of) {
+        return reinterpret_cast<const std::uint8_t*>(or_null(of));
+    };
+    auto& of_fixed = made->keep(std::vector<const std::uint8_t*>());
+    for (const auto& one : found.fixed) of_fixed.push_back(bytes(one));
+    made->value.moving = bytes(found.moving);
+    made->value.moving_count = found.moving.size();
+    made->value.fixed_count = of_fixed.size();
+    made->value.fixed = of_fixed.data();
+    return made;
+}
+
+/// The first time after which it is nearer to `b` than `distance`, which is greater than 0;
+/// rounded.
+inline tf::approach time_to_distance(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                                     const tf::point3& motion, double distance,
+                                     const treeform_impact_options* options) {
+    const tf::impact_options how = read(options);
+    if (options && (options->move_a || options->move_b))
+        throw std::invalid_argument("a distance is looked for where the meshes are");
+    return tf::time_to_distance(a, b, motion, distance, {how.latest, how.limit, how.progress});
+}
+
+}  // namespace glue

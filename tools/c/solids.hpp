@@ -1,0 +1,72 @@
+#pragma once
+/// \file
+/// Booleans by formulas, and repair of files, in C.
+
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/offset.hpp>
+#include <treeform/mesh/repair.hpp>
+
+#include <tools/c/inputs.hpp>
+#include <tools/c/made/structs.hpp>
+
+namespace glue {
+
+/// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with +
+/// or | union, * or & intersection, - difference, ^ exclusive or, and brackets: "(a-b)*c". Exact,
+/// then rounded and checked. No operand is copied. Each has to bound a solid.
+inline tf::boolean_result boolean(const tf::mesh_refs& operands, const std::string& expression,
+                                  const tf::boolean_options& options) {
+    return tf::boolean(operands, expression.c_str(), options);
+}
+
+/// The same with `names` [count] in place of letters: "body-(bolt_1+'left bolt')".
+inline tf::boolean_result boolean_named(const treeform_mesh* const* operands,
+                                        const char* const* names, std::size_t count,
+                                        const std::string& expression,
+                                        const tf::boolean_options& options) {
+    return tf::boolean(refs(operands, count, "operands"),
+                       tf::boolean_expression(expression, texts(names, count, "names")), options);
+}
+
+/// The names in a formula, each once, in the order in which they come first.
+inline std::vector<std::string> names_in(const std::string& expression) {
+    return tf::boolean_expression::names_in(expression);
+}
+
+/// What is in any operand [count], without a formula.
+inline tf::boolean_result unite_all(const tf::mesh_refs& operands,
+                                    const tf::boolean_options& options) {
+    return tf::boolean(operands, tf::boolean_expression::union_of(operands.size()), options);
+}
+
+/// An open surface cut by solids: the pieces of operand number `sheet` for which `expression` is
+/// true.
+inline tf::boolean_result clip(const tf::mesh_refs& operands, std::uint32_t sheet,
+                               const std::string& expression, const tf::boolean_options& options) {
+    return tf::clip(operands, sheet, tf::boolean_expression(expression, operands.size()), options);
+}
+
+inline treeform_code give(tf::repaired_file&& repaired, treeform_repair_result** out) {
+    const treeform_code code = code_of(repaired.certificate);
+    give_file(std::move(repaired), out);
+    return code;
+}
+
+/// The same of a file, or each of its parts, with its attributes. The mesh of the file is taken as
+/// it is read.
+inline tf::repaired_file repair_file(const tf::mesh_file& file, tf::repair_scope scope,
+                                     const tf::repair_options& options) {
+    return tf::repair_file(usable_input(file).source(), options, scope);
+}
+
+/// The same for `treeform_repair_file`.
+inline tf::solid_defects find_solid_defects_of_file(const tf::mesh_file& file,
+                                                    tf::repair_scope scope,
+                                                    const tf::progress_callback& progress) {
+    const usable_input input(file);
+    tf::solid_defects found = tf::find_solid_defects(input.source(), scope, progress);
+    found.unusable_faces += input.dropped();
+    return found;
+}
+
+}  // namespace glue

@@ -1,0 +1,175 @@
+#pragma once
+/// \file
+/// Clouds larger than memory in C.
+
+#include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/weld_stream.hpp>
+
+#include <tools/c/made/structs.hpp>
+
+namespace glue {
+
+/// A weld step by step.
+struct shared_weld {
+    tf::stream_weld steps;
+    tf::weld_stream_outputs outputs;
+    bool has_survey = false;
+
+    tf::stream_weld& with_survey() {
+        if (!has_survey) check(steps.take_survey());
+        has_survey = true;
+        return steps;
+    }
+};
+
+}  // namespace glue
+
+struct treeform_shared_weld {
+    void* owner;
+    std::optional<glue::shared_weld> content;
+};
+
+struct treeform_point_reader {
+    void* owner;
+    std::optional<treeform::point_reader> content;
+};
+
+struct treeform_point_writer {
+    void* owner;
+    std::optional<treeform::point_writer> content;
+};
+
+namespace glue {
+
+inline tf::cloud_inputs inputs_of(const char* const* inputs, std::size_t count,
+                                  const treeform_weld_stream_options& o) {
+    if (count == 0) throw std::invalid_argument("no inputs to weld");
+    return {.paths = paths(inputs, count, "inputs"),
+            .format = text(o.format),
+            .columns = columns_of(o.columns, o.column_count, "columns"),
+            .mixed = o.mixed != 0};
+}
+
+inline tf::weld_stream_outputs outputs_of(const treeform_weld_stream_options& o,
+                                          const char* output) {
+    tf::weld_stream_outputs to;
+    const tf::write_options how = read(o.write);
+    to.welded = {&need(output, "output"), how};
+    if (o.removed) to.removed = {o.removed, how};
+    to.label = text(o.label);
+    to.withhold = o.withhold != 0;
+    if (o.map)
+        to.map = [map = o.map, data = o.map_data](std::span<const std::uint64_t> numbers) {
+            map(numbers.data(), numbers.size(), data);
+        };
+    return to;
+}
+
+/// Welds the cloud in the files `inputs` [count] (PLY, PCD, LAS, LAZ, PTS, XYZ, CSV), or the mesh
+/// in one file (PLY, binary STL), and writes `output`, whole or not at all: the same bytes as
+/// `treeform_weld_file` would lead to. The folder stays when the process is killed, and the same
+/// call goes on from there.
+inline tf::weld_stream_result weld_stream(const char* const* inputs, std::size_t count,
+                                          const char* output,
+                                          const treeform_weld_stream_options* options) {
+    const auto o = chosen(options, treeform_weld_stream_options_init);
+    return tf::weld_stream(inputs_of(inputs, count, o), outputs_of(o, output), read(o));
+}
+
+/// Begins, and has a hold on the folder until it is freed: all processes give the same inputs and
+/// options. What options say of outputs is for `finish`; `communicator` is not for this.
+inline shared_weld shared_weld_create(const char* const* inputs, std::size_t count,
+                                      const treeform_weld_stream_options* options) {
+    const auto o = chosen(options, treeform_weld_stream_options_init);
+    tf::weld_stream_options how = read(o);
+    how.shared = true;
+    return {tf::stream_weld(inputs_of(inputs, count, o), how), outputs_of(o, "")};
+}
+
+/// Gives each tile its points, unless they have them; `tiles` is their number.
+inline std::size_t shared_weld_scatter(shared_weld& weld) {
+    check(weld.with_survey().scatter());
+    return weld.steps.survey().tiles;
+}
+
+/// Welds a tile, unless that is done.
+inline void shared_weld_tile(shared_weld& weld, std::size_t tile) {
+    check(weld.steps.weld_tile(tile));
+}
+
+/// Welds what lies along the borders of tiles, when all are welded and the others have let go of
+/// the folder, and writes `output`, whole or not at all.
+inline tf::weld_stream_result shared_weld_finish(shared_weld& weld, const std::string& output) {
+    tf::weld_stream_outputs to = weld.outputs;
+    to.welded->path = output;
+    weld.steps.check_tiles();
+    tf::stream_weld& steps = weld.with_survey();
+    check(steps.weld());
+    check(steps.write(to));
+    return {steps.survey(), steps.counts(), steps.written()};
+}
+
+/// Removes the folder.
+inline void shared_weld_remove_folder(shared_weld& weld) { weld.steps.remove_folder(); }
+
+/// About how many bytes it takes to weld `points` points with the properties of the file in memory.
+inline std::uint64_t memory_to_weld(const tf::mesh_file& file, std::uint64_t points) {
+    return tf::weld_stream_options::memory_to_weld(file, points);
+}
+
+/// The least memory with which they can be welded in tiles.
+inline std::uint64_t memory_to_stream(const tf::mesh_file& file, std::uint64_t points) {
+    return tf::weld_stream_options::memory_to_stream(file, points);
+}
+
+/// Opens a file of points and reads its header. `format` may be null.
+inline tf::point_reader point_reader_create(const std::filesystem::path& path,
+                                            std::string_view format) {
+    return tf::point_reader(path, format);
+}
+
+/// The file without its points, and their number: `TREEFORM_OK` with `known` 0 where no header says
+/// it.
+inline void point_reader_header(const tf::point_reader& reader, treeform_file** header,
+                                std::uint64_t* count, std::int32_t* known) {
+    start(header);
+    need(count, "count") = reader.count().value_or(0);
+    need(known, "known") = reader.count().has_value();
+    (void)give(tf::mesh_file(reader.header()), header);
+}
+
+/// The next points, at most `most`, with their properties, as a file without faces; null when none
+/// are left.
+inline std::optional<tf::mesh_file> point_reader_next(tf::point_reader& reader, std::size_t most) {
+    if (most == 0) throw std::invalid_argument("most is 0: no points would be read");
+    tf::point_block points;
+    if (!reader.read(points, most)) return std::nullopt;
+    tf::mesh_file block;
+    block.format = reader.header().format;
+    block.stored_as = reader.header().stored_as;
+    block.mesh.points = std::move(points.points);
+    block.attributes.elements.push_back(std::move(points.properties));
+    return block;
+}
+
+/// Begins a file of `count` points like `header`, perhaps with columns added.
+inline tf::point_writer point_writer_create(const std::filesystem::path& path,
+                                            const tf::mesh_file& header, std::uint64_t count,
+                                            const tf::write_options& options) {
+    return tf::point_writer(path, header, count, options);
+}
+
+/// Writes the points of a block.
+inline void point_writer_write(tf::point_writer& writer, const tf::mesh_file& block) {
+    tf::point_block points;
+    points.points = block.mesh.points;
+    if (const tf::element* const found = block.attributes.find("vertex"))
+        points.properties = *found;
+    points.properties.rows = points.points.size();
+    writer.write(points);
+}
+
+/// Finishes the file; without this call, none stays. `written` may be null.
+inline tf::write_result point_writer_commit(tf::point_writer& writer) { return writer.commit(); }
+
+}  // namespace glue
