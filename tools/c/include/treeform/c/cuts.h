@@ -65,9 +65,9 @@ typedef struct treeform_section_result {
 /// are decided exactly, on the coordinates as given. Then points are rounded.
 ///
 /// A vertex in a plane counts as above it. So a section is that of a plane just below: a box from
-/// height 0 to 1 has none at 0, and its full top at 1. A point or line in which it only touches
-/// the plane from below is none. Sides that lie in the plane are there where the mesh goes on
-/// below.
+/// height 0 to 1 has none at 0, and its full top at 1. A point or line in which the mesh only
+/// touches the plane from below gives no loop. A face in the plane counts where the mesh goes on
+/// below it.
 ///
 /// Of a mesh that is closed and agrees in its orientation, all polylines are closed. Loops may
 /// touch where faces do; at an edge of four faces or more, those that bound one wedge of the solid

@@ -114,8 +114,8 @@ typedef struct treeform_simplify_options {
     treeform_progress progress;
     void* progress_data;
     /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
-    /// their corners at each of its ends are of one group. `carry_sources` has those of a file; or
-    /// null
+    /// their corners at each of its ends are of one group. `treeform_carry` has those of a file;
+    /// or null
     const uint32_t* corner_groups;
     size_t corner_group_count;
 } treeform_simplify_options;
