@@ -121,8 +121,8 @@ class TREEFORM_API prepared_mesh {
     /// Owns the arrays.
     explicit prepared_mesh(mesh&& owned);
     explicit prepared_mesh(usable_mesh&& owned);
-    prepared_mesh(const mesh&) = delete;  // std::move it, for this to own it, or `borrow` it
-    prepared_mesh(const usable_mesh&) = delete;
+    explicit prepared_mesh(const mesh&) = delete;  // std::move it, or `borrow` it
+    explicit prepared_mesh(const usable_mesh&) = delete;
     /// Refers to the caller's arrays, which must stay unchanged as long as this lives.
     [[nodiscard]] static prepared_mesh borrow(mesh_view view);
     static prepared_mesh borrow(mesh&&) = delete;  // gone before it is asked: let this own it
