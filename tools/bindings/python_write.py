@@ -47,44 +47,35 @@ class Writer:
         return head + "\n\n".join(classes) + "# end\n"
 
     def sources(self) -> dict[pathlib.Path, str]:
-        structs = self.language.structs
-        used = {one.cpp for one in self.language.results.values()} | {*self.options, *self.counters}
         enums = sorted(name for name in self.language.enums)
-        of_enums = {self.language.enums[name].header for name in enums}
-        includes = sorted(structs[name].header for name in used)
         first = "#pragma once\n/// \\file\n/// Made by tools/bindings of the headers of C++.\n\n"
-        words = first + '#include "../words.hpp"\n' + "".join(
-            f"#include <treeform/{one}>\n" for one in sorted(of_enums)) + "\nnamespace binding {\n\n"
+        words = first + '#include "../words.hpp"\n\nnamespace binding {\n\n'
         for name in enums:
             values = self.language.enums[name].values
             words += (f"template <>\nstruct words_of<tf::{name}> {{\n"
                       f"static constexpr words<{len(values)}> all{{"
                       + ", ".join(f'"{value}"' for value, _ in values) + "};\n};\n")
         words += "\n}  // namespace binding\n"
-        head = first + '#include "../fields.hpp"\n' + "".join(
-            f"#include <treeform/{one}>\n" for one in sorted(set(includes)))
-        head += "\nnamespace binding {\n\n" + "".join(self.language.declaration(one)
-                                for one in self.language.results.values())
+        head = first + '#include "../fields.hpp"\n\nnamespace binding {\n\n' + "".join(
+            self.language.declaration(one) for one in self.language.results.values())
         head += "\n" + "".join(f"py::dict counters(const tf::{name}& from);\n"
                                 for name in self.counters)
         head += "\n}  // namespace binding\n"
         start = ("// Made by tools/bindings of the headers of C++: see its README.\n"
-                 '#include "{}"\n\nnamespace binding {{\n\n')
-        options = start.format("made.hpp") + "\n".join(
+                 '#include "../bindings.hpp"\n\nnamespace binding {\n\n')
+        options = start + "\n".join(
             self.language.option_code(name, leave) for name, leave in self.options.items())
         options += "\nvoid add_options(py::module_& module) {\n" + "".join(
             self.language.option_class(name) for name in self.options)
         options += "}\n\n}  // namespace binding\n"
-        of_places, results = (start.format("../parts.hpp") + "\n".join(
+        of_places, results = (start + "\n".join(
             self.language.object_code(one) for one in self.language.results.values()
             if (one.module in PLACES) == places) for places in (True, False))
         of_places += "\n}  // namespace binding\n"
         results += "\n" + "\n".join(self.language.counters_code(name, leave)
                                     for name, leave in self.counters.items())
         results += "\n}  // namespace binding\n"
-        functions = ("// Made by tools/bindings of the headers of C++: see its README.\n"
-                     '#include "../bindings.hpp"\n#include "../job.hpp"\n#include "made.hpp"\n'
-                     "#include <treeform/treeform.hpp>\n\nnamespace binding {\nnamespace {\n\n")
+        functions = start + "namespace {\n\n"
         functions += "\n".join(self.language.function_code(one) for one in self.functions)
         functions += "\n}  // namespace\n\nvoid add_functions(py::module_& module) {\n" + "".join(
             f'add_job(module, "{one.name}", &{one.name}'

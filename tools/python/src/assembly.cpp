@@ -1,17 +1,4 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
-#include <treeform/mesh/clash.hpp>
-#include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/intersections.hpp>
-
-#include <pybind11/stl.h>
-
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -102,10 +89,10 @@ py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double
 
 void add_assembly(py::module_& module) {
     module.attr("RELATIONS") = py::cast(words_of<tf::mesh_relation>::all);
-    module.def("clash", &clash);
-    module.def("check_poses", &check_poses);
-    module.def("intersects", &intersects);
-    module.def("distance", &distance);
+    add_job(module, "clash", &clash);
+    add_job(module, "check_poses", &check_poses);
+    add_job(module, "intersects", &intersects);
+    add_job(module, "distance", &distance);
 }
 
 }  // namespace binding

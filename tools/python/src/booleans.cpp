@@ -1,19 +1,4 @@
 #include "bindings.hpp"
-#include "carrying.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
-#include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/carry.hpp>
-
-#include <pybind11/stl.h>
-
-#include <limits>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -109,9 +94,9 @@ tf::certificate check_solid(const held_mesh& mesh) {
 
 void add_booleans(py::module_& module) {
     module.def("objects_of", &objects_of);
-    module.def("boolean", &boolean);
-    module.def("clip", &clip);
-    module.def("check_solid", &check_solid);
+    add_job(module, "boolean", &boolean);
+    add_job(module, "clip", &clip);
+    add_job(module, "check_solid", &check_solid);
 }
 
 }  // namespace binding

@@ -1,22 +1,4 @@
-#include "arrays.hpp"
 #include "bindings.hpp"
-#include "job.hpp"
-#include <treeform/tree/build.hpp>
-#include <treeform/tree/nearness_batch.hpp>
-#include <treeform/tree/search.hpp>
-
-#include <pybind11/stl.h>
-
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -145,6 +127,7 @@ void add_boxes_of(py::module_& module, const char* name) {
         .def("pairs_with", &boxes<D>::pairs_with)
         .def("query", &boxes<D>::query)
         .def("nearest", &boxes<D>::nearest);
+    make_jobs(module.attr(name), {"pairs", "pairs_with", "query", "nearest"});
 }
 
 }  // namespace

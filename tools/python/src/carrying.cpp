@@ -1,16 +1,4 @@
-#include "carrying.hpp"
-
 #include "bindings.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "words.hpp"
-
-#include <algorithm>
-#include <cstddef>
-#include <stdexcept>
-#include <string>
-#include <utility>
 
 namespace binding {
 namespace {

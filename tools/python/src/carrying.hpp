@@ -2,16 +2,8 @@
 /// \file
 /// Gives results what their operands have besides points and faces.
 
+#include "file_data.hpp"
 #include "held_mesh.hpp"
-#include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/carry.hpp>
-#include <treeform/tree/aabb.hpp>
-
-#include <pybind11/pybind11.h>
-
-#include <cstdint>
-#include <span>
-#include <vector>
 
 namespace binding {
 

@@ -1,12 +1,5 @@
-#include "arrays.hpp"
 #include "bindings.hpp"
-#include "made/words.hpp"
 #include "state.hpp"
-#include <treeform/mesh/certificate.hpp>
-
-#include <pybind11/stl.h>
-
-#include <string>
 
 namespace binding {
 namespace {

@@ -1,18 +1,4 @@
-#include "arrays.hpp"
 #include "bindings.hpp"
-#include "job.hpp"
-#include <treeform/tree/point_search.hpp>
-
-#include <pybind11/stl.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -118,6 +104,7 @@ void add_cloud(py::module_& module, const char* name) {
         .def("query", &cloud<D>::query)
         .def("query_ball", &cloud<D>::query_ball)
         .def("query_pairs", &cloud<D>::query_pairs);
+    make_jobs(module.attr(name), {"query", "query_ball", "query_pairs"});
 }
 
 }  // namespace

@@ -1,22 +1,4 @@
 #include "bindings.hpp"
-#include "carrying.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
-#include <treeform/mesh/cut.hpp>
-#include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/section.hpp>
-
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <array>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -137,13 +119,13 @@ py::tuple concatenate(const held_meshes& meshes) {
 
 void add_cuts(py::module_& module) {
     py::class_<tf::section_result>(module, "SectionData");
-    module.def("section", &section);
-    module.def("write_section", &write_section);
-    module.def("write_isolines", &write_isolines);
-    module.def("cut", &cut);
-    module.def("cut_to_fit", &cut_to_fit);
-    module.def("cut_along", &cut_along);
-    module.def("concatenate", &concatenate);
+    add_job(module, "section", &section);
+    add_job(module, "write_section", &write_section, job_kind::writes);
+    add_job(module, "write_isolines", &write_isolines, job_kind::writes);
+    add_job(module, "cut", &cut);
+    add_job(module, "cut_to_fit", &cut_to_fit);
+    add_job(module, "cut_along", &cut_along);
+    add_job(module, "concatenate", &concatenate);
 }
 
 }  // namespace binding

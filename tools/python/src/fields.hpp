@@ -2,26 +2,8 @@
 /// \file
 /// Fields of options and results, between C++ and Python: what `made/` is written with.
 
-#include "arrays.hpp"
 #include "carrying.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
 #include "made/words.hpp"
-#include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/weld_options.hpp>
-
-#include <pybind11/stl.h>
-
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace binding {
 

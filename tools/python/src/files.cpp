@@ -1,27 +1,5 @@
 #include "bindings.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
 #include "state.hpp"
-#include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/read.hpp>
-#include <treeform/mesh/write.hpp>
-
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <array>
-#include <cstddef>
-#include <cstring>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace treeform {
 
@@ -286,10 +264,10 @@ void add_files(py::module_& module) {
                                })
         .def("columns", &columns)
         .def("set_column", &set_column);
-    module.def("read", &read);
-    module.def("read_bytes", &read_bytes);
-    module.def("scene", &scene);
-    module.def("write", &write);
+    add_job(module, "read", &read, job_kind::long_work);
+    add_job(module, "read_bytes", &read_bytes, job_kind::long_work);
+    add_job(module, "scene", &scene);
+    add_job(module, "write", &write, job_kind::writes);
 }
 
 }  // namespace binding

@@ -1,22 +1,5 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
 #include "steps.hpp"
-#include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/self_intersections.hpp>
-
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -95,7 +78,8 @@ void add_search_in_steps(py::module_& module) {
                  });
              })
         .def("close", &search_in_steps::close);
-    module.def("search_of", &search_of);
+    make_jobs(module.attr("SearchInSteps"), {"scatter", "search_tile", "finish"}, job_kind::writes);
+    add_job(module, "search_of", &search_of, job_kind::long_work);
 }
 
 py::tuple group_pairs(const held_mesh& mesh, const ids_array& pairs,
@@ -127,9 +111,9 @@ py::tuple intersection_paths(const held_mesh& mesh, const ids_array& pairs,
 
 void add_intersections(py::module_& module) {
     module.attr("KINDS") = py::cast(kind_words);
-    module.def("self_intersections_of_file", &self_intersections_of_file);
-    module.def("group_pairs", &group_pairs);
-    module.def("intersection_paths", &intersection_paths);
+    add_job(module, "self_intersections_of_file", &self_intersections_of_file, job_kind::long_work);
+    add_job(module, "group_pairs", &group_pairs);
+    add_job(module, "intersection_paths", &intersection_paths);
     add_search_in_steps(module);
 }
 

@@ -1,20 +1,4 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "words.hpp"
-#include <treeform/mesh/deviation.hpp>
-#include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/point_location.hpp>
-
-#include <pybind11/stl.h>
-
-#include <algorithm>
-#include <limits>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -131,11 +115,11 @@ py::array raycast_any(const held_mesh& mesh, const points_array& origins,
 }  // namespace
 
 void add_nearness(py::module_& module) {
-    module.def("closest_point", &closest_point);
-    module.def("locate", &locate);
-    module.def("raycast", &raycast);
-    module.def("raycast_all", &raycast_all);
-    module.def("raycast_any", &raycast_any);
+    add_job(module, "closest_point", &closest_point);
+    add_job(module, "locate", &locate);
+    add_job(module, "raycast", &raycast);
+    add_job(module, "raycast_all", &raycast_all);
+    add_job(module, "raycast_any", &raycast_any);
 }
 
 }  // namespace binding

@@ -1,8 +1,4 @@
-#include "parts.hpp"
-
-#include <treeform/tree/aabb.hpp>
-
-#include <string>
+#include "bindings.hpp"
 
 namespace binding {
 

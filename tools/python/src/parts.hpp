@@ -3,11 +3,6 @@
 /// Parts of results that look other than in C++.
 
 #include "made/made.hpp"
-#include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/clash.hpp>
-#include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/weld_stream.hpp>
 
 namespace binding {
 

@@ -1,14 +1,4 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
-#include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/slide.hpp>
-#include <treeform/mesh/time_of_impact.hpp>
-
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -71,9 +61,9 @@ py::object pack(const held_meshes& parts, tf::pack_options options) {
 }  // namespace
 
 void add_placement(py::module_& module) {
-    module.def("turn", &turn);
-    module.def("mate_features", &mate_features);
-    module.def("pack", &pack);
+    add_job(module, "turn", &turn);
+    add_job(module, "mate_features", &mate_features);
+    add_job(module, "pack", &pack, job_kind::long_work);
 }
 
 }  // namespace binding

@@ -1,21 +1,4 @@
 #include "bindings.hpp"
-#include "carrying.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "words.hpp"
-#include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/convex_hull.hpp>
-#include <treeform/mesh/offset.hpp>
-#include <treeform/mesh/repair.hpp>
-
-#include <pybind11/stl.h>
-
-#include <numeric>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -44,8 +27,8 @@ py::tuple join_equal_points(const held_mesh& mesh) {
 }  // namespace
 
 void add_repair(py::module_& module) {
-    module.def("find_rounding_defects", &find_rounding_defects);
-    module.def("join_equal_points", &join_equal_points);
+    add_job(module, "find_rounding_defects", &find_rounding_defects);
+    add_job(module, "join_equal_points", &join_equal_points);
 }
 
 }  // namespace binding

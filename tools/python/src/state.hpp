@@ -2,19 +2,9 @@
 /// \file
 /// Values as bytes and back, for Python's pickle and copy.
 
-#include <pybind11/pybind11.h>
-
-#include <cstring>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
+#include "base.hpp"
 
 namespace binding {
-
-namespace py = pybind11;
 
 /// Takes the fields of values one after the other: `all_fields(state, value)` names those of a struct.
 class state_writer {

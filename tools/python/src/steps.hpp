@@ -3,19 +3,6 @@
 /// Work in a folder that is done step by step, as a job each.
 
 #include "job.hpp"
-#include <treeform/mesh/mesh_file.hpp>
-
-#include <pybind11/stl.h>
-
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace binding {
 

@@ -1,23 +1,5 @@
-#include "arrays.hpp"
 #include "bindings.hpp"
-#include "file_data.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
 #include "steps.hpp"
-#include <treeform/mesh/weld_stream.hpp>
-
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -147,14 +129,15 @@ void add_weld_in_steps(py::module_& module) {
                  });
              })
         .def("close", &weld_in_steps::close);
-    module.def("weld_of", &weld_of);
+    make_jobs(module.attr("WeldInSteps"), {"scatter", "weld_tile", "finish"}, job_kind::writes);
+    add_job(module, "weld_of", &weld_of, job_kind::long_work);
 }
 
 }  // namespace
 
 void add_streams(py::module_& module) {
     py::class_<stream_settings>(module, "StreamSettings").def(py::init(&settings_of));
-    module.def("weld_stream", &weld_stream);
+    add_job(module, "weld_stream", &weld_stream, job_kind::writes);
     add_weld_in_steps(module);
 }
 

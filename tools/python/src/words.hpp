@@ -3,13 +3,6 @@
 /// Words for enumerators, and other small arguments.
 
 #include "arrays.hpp"
-#include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/aabb.hpp>
-
-#include <cstddef>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 
 namespace binding {
 

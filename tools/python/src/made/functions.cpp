@@ -1,10 +1,8 @@
 // Made by tools/bindings of the headers of C++: see its README.
 #include "../bindings.hpp"
-#include "../job.hpp"
-#include "made.hpp"
-#include <treeform/treeform.hpp>
 
 namespace binding {
+
 namespace {
 
 py::object split(const held_meshes& meshes, tf::boolean_options options) {

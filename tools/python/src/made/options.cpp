@@ -1,5 +1,5 @@
 // Made by tools/bindings of the headers of C++: see its README.
-#include "made.hpp"
+#include "../bindings.hpp"
 
 namespace binding {
 
