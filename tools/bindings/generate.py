@@ -15,6 +15,7 @@ import sys
 import c_surface
 import python_language
 import python_surface
+import python_verbs
 import python_write
 from c_language import Language
 from c_write import _BLOCK, INCLUDE, MADE, Writer, formatted, names_of
@@ -40,7 +41,7 @@ def python_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pat
     language = python_language.Language(structs, enums, python_surface.RESULTS,
                                         python_surface.WORDS)
     writer = python_write.Writer(language, python_surface.OPTIONS, python_surface.COUNTERS,
-                                 python_surface.FUNCTIONS)
+                                 python_verbs.FUNCTIONS)
     made = writer.sources()
     for path in sorted([*python_write.PACKAGE.glob("*.py"), *python_write.PACKAGE.glob("*.pyi")]):
         made[path] = writer.package_file(path)

@@ -1,12 +1,20 @@
-"""Which structs of C++ are classes, options and functions in Python, and where they differ. All else
-follows from the headers: `python_language.py` says how."""
+"""Which structs of C++ are classes and options in Python, and where they differ. All else follows
+from the headers: `python_language.py` says how."""
 
 from __future__ import annotations
 
-from python_language import Attribute, Function, Result
+from python_language import Attribute, Result
 
 #: Words of C++ in sentences, and those of Python.
-WORDS = {"`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
+WORDS = {"Precision of the coordinates returned. float32 values are stored as doubles.":
+             "Of the coordinates returned; 'float32' for STL and GLB.",
+         "above `plane`": "above a plane", "`relation`": "`measure`", "`subtract`": "`difference`",
+         "`point_count`": "the number of vertices", "a prepared mesh": "a `Mesh`",
+         "meshes that are not prepared": "what is no `Mesh`",
+         "Prepared meshes keep": "A `Mesh` keeps", "Of prepared meshes": "Of a `Mesh`",
+         "`unite`": "`union`", "`transform_mesh`": "`transformed`",
+         "`find_oriented_box`": "`oriented_box`", "`find_mass_properties`": "`mass_properties`",
+         "`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
          "`boolean_statistics`": "`BooleanResult.statistics`",
          "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
 
@@ -336,101 +344,3 @@ OPTIONS = {
     "lay_flat_options": "overhang_sides", "align_options": "accelerate", "pack_options": "tighten",
     "deviation_options": "", "clash_options": "ignored effort", "pose_options": "ignored",
 }
-
-#: Functions of the extension that are one call.
-FUNCTIONS = [
-    # _booleans
-    Function("split(meshes: Meshes, options: boolean_options) -> BooleanResult",
-             "tf::split($meshes, options)", "attributes of meshes"),
-    # _cuts
-    Function("layer_heights(mesh: Mesh, at: Vector, normal: Vector, thickness: float) -> Floats",
-             "tf::oriented_plane{$at, $normal}.layer_heights(mesh.view().points, thickness)"),
-    Function("components(mesh: Mesh, options: components_options) -> list[MeshPart]",
-             "tf::components($mesh, options)", "attributes of mesh"),
-    Function("submesh(mesh: Mesh, faces: Ids) -> MeshPart", "tf::submesh($mesh, $faces)",
-             "attributes of mesh"),
-    Function("moved_points(mesh: Mesh, matrix: Matrix) -> Floats",
-             "tf::transform_mesh({mesh.view().points, {}}, $matrix).points"),
-    Function("mass_properties(mesh: Mesh) -> Optional[MassProperties]",
-             "tf::find_mass_properties(mesh.view())"),
-    # _shapes
-    Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
-             "tf::offset($mesh, distance, options)", kind="long_work"),
-    Function("hollow(mesh: Mesh, wall: float, drains: Numbers, options: offset_options) "
-             "-> OffsetResult",
-             "tf::hollow($mesh, wall, rows_of<tf::drain>(drains), options)", kind="long_work"),
-    Function("thicken(mesh: Mesh, thickness: float, side: thick_side, options: offset_options) "
-             "-> OffsetResult",
-             "tf::thicken($mesh, thickness, $side, options)", kind="long_work"),
-    Function("simplify(mesh: Mesh, max_distance: float, options: simplify_options) "
-             "-> SimplifyResult",
-             "tf::simplify($mesh, max_distance, options)", "attributes of mesh",
-             kind="long_work"),
-    Function("wall_thickness(mesh: Mesh, options: thickness_options) -> Thickness",
-             "tf::wall_thickness($mesh, options)"),
-    Function("oriented_box(points: Points) -> Optional[OrientedBox]",
-             "tf::find_oriented_box($points)"),
-    Function("isolines(mesh: Mesh, values: Numbers, levels: Numbers) -> Isolines",
-             "tf::isolines($mesh, $values, $levels, {report})"),
-    # _repair
-    Function("resolve(mesh: Mesh, mode: resolve_mode, options: resolve_options) -> ResolveResult",
-             "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh"),
-    Function("repair(mesh: Mesh, options: repair_options) -> RepairResult",
-             "tf::repair($mesh, options)", "attributes of mesh"),
-    Function("wrap(mesh: Mesh, size: float, options: wrap_options) -> WrapResult",
-             "tf::wrap($mesh, size, options)", kind="long_work"),
-    Function("convex_hull(points: Points) -> ConvexHull", "tf::convex_hull($points, report)"),
-    Function("rounded(points: Points, precision: precision) -> Floats",
-             "tf::rounded($points, $precision)"),
-    # _properties
-    Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
-    Function("signed_volume(mesh: Mesh) -> float", "tf::signed_volume(mesh.view())"),
-    Function("surface_area(mesh: Mesh) -> float", "tf::surface_area(mesh.view())"),
-    Function("find_defects(mesh: Mesh) -> MeshDefects", "tf::find_defects(mesh.view())"),
-    Function("count_topology(mesh: Mesh) -> Topology",
-             "tf::count_topology(mesh.view().points.size(), mesh.view().faces)"),
-    Function("face_components(mesh: Mesh) -> Ids",
-             "tf::face_components(mesh.view().points.size(), mesh.view().faces)"),
-    Function("count_inside_out(mesh: Mesh) -> int", "tf::count_inside_out(mesh.view())"),
-    Function("find_features(mesh: Mesh, kind: feature_kind, options: feature_options)"
-             " -> list[Feature]", "tf::find_features(mesh.view(), $kind, options)"),
-    Function("find_solid_defects(mesh: Mesh) -> SolidDefects",
-             "tf::find_solid_defects($mesh, report)"),
-    # _intersections
-    Function("self_intersections(mesh: Mesh, options: self_intersection_options) -> FacePairs",
-             "tf::self_intersections($mesh, options)"),
-    Function("mesh_intersections(a: Mesh, b: Mesh, options: mesh_intersection_options) -> FacePairs",
-             "tf::mesh_intersections($a, $b, options)"),
-    Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
-             "tf::faces_in_box(mesh.view(), $min, $max)"),
-    # _weld
-    Function("count_nearly_equal(points: Points, distance: float) -> int",
-             "tf::count_nearly_equal($points, distance)"),
-    # _nearness
-    Function("deviation(a: Mesh, b: Mesh, options: deviation_options) -> Optional[Deviation]",
-             "tf::deviation(a.prepared(), b.prepared(), options)"),
-    # _placement
-    Function("slide(moving: Mesh, fixed: Meshes, direction: Vector, options: slide_options)"
-             " -> Placement", "tf::slide($moving, $fixed, $direction, options)", "moving"),
-    Function("drop(moving: Mesh, fixed: Meshes, options: drop_options) -> Placement",
-             "fixed.empty() ? tf::drop($moving, options) : tf::drop($moving, $fixed, options)",
-             "moving"),
-    Function("mate(moving: Mesh, fixed: Meshes, options: mate_options) -> Placement",
-             "tf::mate($moving, $fixed, options)", "moving"),
-    Function("separate(moving: Mesh, fixed: Meshes, options: separate_options) -> Placement",
-             "tf::separate($moving, $fixed, options)", "moving"),
-    Function("measure(a: Mesh, b: Mesh, options: measure_options) -> Optional[Measure]",
-             "tf::measure(a.prepared(), b.prepared(), options)"),
-    Function("penetration_depth(a: Mesh, b: Mesh, options: depth_options) -> Optional[Depth]",
-             "tf::penetration_depth(a.prepared(), b.prepared(), options)"),
-    Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",
-             "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)"),
-    Function("lay_flat(moving: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
-             "tf::lay_flat(moving.prepared(), options)", "moving"),
-    Function("align(moving: Mesh, fixed: Mesh, options: align_options) -> Alignment",
-             "tf::align(moving.prepared(), fixed.prepared(), options)", "moving"),
-    # _assembly
-    Function("closest_points(a: Mesh, b: Mesh, move_a: Matrix, move_b: Matrix, radius: float)"
-             " -> Optional[NearestPoints]",
-             "tf::closest_points(a.prepared(), b.prepared(), {$move_a, $move_b, radius})"),
-]

@@ -8,6 +8,7 @@ import re
 
 from c_write import formatted
 from headers import ROOT
+from python_functions import FunctionWriter
 from python_language import Function, Language
 
 PACKAGE = ROOT / "tools/python/treeform"
@@ -22,7 +23,9 @@ class Writer:
     def __init__(self, language: Language, options: dict[str, str], counters: dict[str, str],
                  functions: list[Function]) -> None:
         self.language, self.options, self.counters = language, options, counters
-        self.functions = functions
+        self.functions = [one for one in functions if not one.body]
+        self.package = FunctionWriter(language, options)
+        self.by_name = {one.name: one for one in functions}
 
     def package_file(self, path: pathlib.Path) -> str:
         """A file of the package with its blocks made anew."""
@@ -34,6 +37,8 @@ class Writer:
         if kind == "options":
             return head + "".join(self.language.option_stub(name, leave)
                                   for name, leave in self.options.items()).rstrip("\n") + "\n# end\n"
+        if kind == "functions" and names:
+            return head + self.package.block(names, self.by_name, found.group(0)) + "# end\n"
         if kind == "functions":
             return head + "".join(self.language.function_stub(one)
                                   for one in self.functions) + "# end\n"
@@ -76,11 +81,11 @@ class Writer:
                                     for name, leave in self.counters.items())
         results += "\n}  // namespace binding\n"
         functions = start + "namespace {\n\n"
-        functions += "\n".join(self.language.function_code(one) for one in self.functions)
+        functions += "\n".join(self.language.function_code(one) for one in self.functions if one.call)
         functions += "\n}  // namespace\n\nvoid add_functions(py::module_& module) {\n" + "".join(
             f'add_job(module, "{one.name}", &{one.name}'
             f"{'' if one.kind == 'by_elements' else ', job_kind::' + one.kind});\n"
-            for one in self.functions)
+            for one in self.functions if one.call)
         functions += "}\n\n}  // namespace binding\n"
         made = {"words.hpp": words, "made.hpp": head, "options.cpp": options,
                 "results.cpp": results, "places.cpp": of_places,

@@ -14,13 +14,6 @@ tf::boolean_expression expression_of(const std::string& operation, const std::st
                          : tf::boolean_expression(formula, names);
 }
 
-/// A cloud is no solid, not even the empty one.
-void require_faces(const held_mesh& mesh, const std::string& name) {
-    const auto [points, faces] = mesh.view();
-    if (!points.empty() && faces.empty())
-        throw std::invalid_argument(name + ": " + std::to_string(points.size()) +
-                                    " points without a face are no solid");
-}
 void require_faces(const held_meshes& meshes, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < meshes.size(); ++i)
         require_faces(*meshes[i], names.empty() ? "operand " + std::to_string(i) : names[i]);
@@ -84,19 +77,12 @@ py::object clip(const held_meshes& meshes, const std::string& operation,
                      with.attributes);
 }
 
-tf::certificate check_solid(const held_mesh& mesh) {
-    require_faces(mesh, "mesh");
-    return run(
-        [&](const tf::progress_callback& report) { return tf::check_solid(mesh.view(), report); });
-}
-
 }  // namespace
 
 void add_booleans(py::module_& module) {
     module.def("objects_of", &objects_of);
     add_job(module, "boolean", &boolean);
     add_job(module, "clip", &clip);
-    add_job(module, "check_solid", &check_solid);
 }
 
 }  // namespace binding

@@ -57,6 +57,55 @@ py::list warnings_of(const tf::weld_stream_result& from) {
     return warnings;
 }
 
+py::object object(of_result, tf::section_result&& s) {
+    using layer = tf::section_layer;
+    using loop = tf::section_loop;
+    py::dict made, loops;
+    made["heights"] = column(s.layers, [](const layer& l) { return l.height; });
+    made["origins"] = column(s.layers, [](const layer& l) { return numbers(l.at); });
+    made["areas"] = column(s.layers, [](const layer& l) { return l.area; });
+    made["lengths"] = column(s.layers, [](const layer& l) { return l.length; });
+    made["open_counts"] = column(s.layers, [](const layer& l) { return l.open_count; });
+    loops["first_loop"] = column(s.layers, [](const layer& l) { return l.first_loop; });
+    loops["first_point"] =
+        column(s.loops, [](const loop& l) { return static_cast<std::uint64_t>(l.first_point); });
+    loops["closed"] = column(s.loops, [](const loop& l) { return std::uint8_t{l.closed}; });
+    loops["oriented"] = column(s.loops, [](const loop& l) { return std::uint8_t{l.oriented}; });
+    loops["parent"] = column(s.loops, [](const loop& l) { return l.parent; });
+    loops["depth"] = column(s.loops, [](const loop& l) { return l.depth; });
+    loops["loop_areas"] = column(s.loops, [](const loop& l) { return l.area; });
+    loops["loop_lengths"] = column(s.loops, [](const loop& l) { return l.length; });
+    made["points"] = as_array<double>(std::vector(s.points));
+    made["faces"] = as_array(std::vector(s.faces));
+    made["frame"] = column(std::array{s.frame.x, s.frame.y, s.frame.normal},
+                           [](const tf::point3& axis) { return numbers(axis); });
+    made["_loops"] = loops;
+    made["_data"] = std::move(s);
+    return object_of("treeform._cuts", "Section", made);
+}
+
+py::object object(of_result, tf::cut_result&& from, const carrying& attributes) {
+    const py::object pieces = as_python(std::move(from.pieces), attributes);
+    return py::make_tuple(pieces, std::move(from.certificate));
+}
+
+py::object object(of_result, tf::rounding_defects&& from) {
+    return py::make_tuple(from.collapsed, from.meeting);
+}
+
+py::object with_fields(tf::placement&& at, const held_mesh& moving,
+                       std::initializer_list<std::pair<const char*, double>> more) {
+    const py::object made = as_python(std::move(at), moving);
+    const py::dict fields = made.attr("__dict__");
+    for (const auto& [name, value] : more) fields[name] = value;
+    return made;
+}
+
+py::object object(of_result, tf::turn_result&& from, const held_mesh& moving) {
+    return with_fields(std::move(from.at), moving,
+                       {{"angle", from.angle}, {"tolerance", from.tolerance}});
+}
+
 py::object mesh_object(tf::mesh&& mesh, const py::object& certificate, const py::object& data) {
     return py::module_::import("treeform._mesh")
         .attr("Mesh")

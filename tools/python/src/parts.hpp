@@ -15,6 +15,26 @@ py::array faces_in_file(const tf::usable_mesh& part);
 /// What a welded mesh has, of what it had; None without.
 py::object with_attributes(const file_data* data, tf::attributes&& attributes);
 
+/// A cloud is no solid, not even the empty one.
+inline void require_faces(const held_mesh& mesh, const std::string& name) {
+    const auto [points, faces] = mesh.view();
+    if (!points.empty() && faces.empty())
+        throw std::invalid_argument(name + ": " + std::to_string(points.size()) +
+                                    " points without a face are no solid");
+}
+
+/// The pieces, and the certificate of all.
+py::object object(of_result, tf::cut_result&& from, const carrying& attributes);
+/// As columns: of layers, of loops, of points.
+py::object object(of_result, tf::section_result&& from);
+/// As placements with more of their own.
+py::object object(of_result, tf::turn_result&& from, const held_mesh& moving);
+/// The counts, as a pair.
+py::object object(of_result, tf::rounding_defects&& from);
+/// A placement with fields that only its operation has.
+py::object with_fields(tf::placement&& at, const held_mesh& moving,
+                       std::initializer_list<std::pair<const char*, double>> more);
+
 /// `of(pose, clash)` of all clashes, pose after pose.
 template <class Of>
 auto column_of_poses(const tf::pose_result& from, const Of& of) {

@@ -3,14 +3,6 @@
 namespace binding {
 namespace {
 
-py::tuple find_rounding_defects(const held_mesh& mesh, const points_array& placed) {
-    const tf::points_view to = points_of(placed);
-    const tf::rounding_defects found = run([&](const tf::progress_callback& report) {
-        return tf::find_rounding_defects(mesh.view(), to, report);
-    });
-    return py::make_tuple(found.collapsed, found.meeting);
-}
-
 py::tuple join_equal_points(const held_mesh& mesh) {
     const carrying attributes({&mesh});
     std::vector<std::uint32_t> first, faces(mesh.view().faces.size());
@@ -26,9 +18,6 @@ py::tuple join_equal_points(const held_mesh& mesh) {
 
 }  // namespace
 
-void add_repair(py::module_& module) {
-    add_job(module, "find_rounding_defects", &find_rounding_defects);
-    add_job(module, "join_equal_points", &join_equal_points);
-}
+void add_repair(py::module_& module) { add_job(module, "join_equal_points", &join_equal_points); }
 
 }  // namespace binding

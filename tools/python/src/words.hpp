@@ -55,6 +55,13 @@ inline tf::transform<3> transform_of(const array_of<double>& matrix) {
     return transform_of(matrix.data());
 }
 
+/// The maps of matrices [n][4][4].
+inline std::vector<tf::transform<3>> transforms_of(const array_of<double>& matrices) {
+    std::vector<tf::transform<3>> all(static_cast<std::size_t>(matrices.size()) / 16);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = transform_of(matrices.data() + i * 16);
+    return all;
+}
+
 /// The matrix [4][4] of a map.
 inline py::array_t<double> as_array(const tf::transform<3>& map) {
     py::array_t<double> made({4, 4});

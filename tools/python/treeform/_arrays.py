@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+import os
+from typing import Any, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Floats", "Ids", "NONE", "faces", "floats", "ids", "is_pair", "matrix", "number",
-           "points", "rows", "several", "triangles_of", "vector", "word"]
+__all__ = ["Floats", "Ids", "NONE", "conditions", "faces", "floats", "ids", "is_pair", "matrix", "number",
+           "path_of", "points", "rows", "several", "triangles_of", "vector", "word", "words"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint32]
@@ -177,6 +178,27 @@ def several(values: Any, name: str) -> list[Any]:
         return list(values)
     except TypeError:
         raise ValueError(f"{name}: several are needed, not {values!r}") from None
+
+
+def words(values: Any, name: str) -> list[str]:
+    """`values`, which have to be words."""
+    return [word(one, name) for one in several(values, name)]
+
+
+def conditions(same: Mapping[str, float] | None, name: str) -> list[tuple[str, float]]:
+    """Names, and numbers for them."""
+    if same is not None and not isinstance(same, Mapping):
+        raise ValueError(f"{name}: Mapping is needed, not {same!r}")
+    return [(word(key, name), number(within, f"{name}[{key!r}]"))
+            for key, within in (same or {}).items()]
+
+
+def path_of(path: str | os.PathLike[str], name: str = "path") -> str:
+    """`path` as the library takes it."""
+    text = os.fspath(path)
+    if "\0" in text:
+        raise ValueError(f"{name}: {text!r} has a zero in it")
+    return text
 
 
 def word(value: Any, name: str) -> str:

@@ -8,7 +8,7 @@ import re
 import sys
 from numbers import Real
 from types import FrameType
-from typing import Any, Callable, Mapping, TypeVar, cast
+from typing import Any, Callable, Mapping, Protocol, TypeVar, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ._core import Certificate
 
 __all__ = ["Cancelled", "CertificateError", "Error", "FileError", "file_error", "NotCertifiedError",
-           "NotSolidError", "name_argument", "need", "options", "require", "settings"]
+           "NotSolidError", "checked", "name_argument", "need", "options", "require", "settings"]
 
 _Made = TypeVar("_Made")
 
@@ -112,6 +112,26 @@ def require(certificate: Certificate, *also: str, of_one: bool = False) -> None:
     if certificate.status == "open_input":
         raise NotSolidError(certificate, of_one)
     raise NotCertifiedError(certificate, of_one)
+
+
+class _Certified(Protocol):
+    @property
+    def certificate(self) -> Certificate: ...
+
+
+_Result = TypeVar("_Result", bound=_Certified)
+
+
+@overload
+def checked(made: _Result, check: bool, of_one: bool = False) -> _Result: ...
+@overload
+def checked(made: tuple[_Made, Certificate], check: bool, of_one: bool = False) -> _Made: ...
+def checked(made: Any, check: bool, of_one: bool = False) -> Any:
+    """A result, or pieces and the certificate of all; with `check`, raises what that says."""
+    result, certificate = made if isinstance(made, tuple) else (made, made.certificate)
+    if check:
+        require(certificate, "sheet", of_one=of_one)
+    return result
 
 
 #: What annotations ask for, and how that is said.

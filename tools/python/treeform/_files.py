@@ -10,24 +10,17 @@ from functools import partial
 from typing import IO, Any, Iterable, Mapping, Sequence, Union
 
 from . import _arrays, _core
+from ._arrays import path_of
 from ._attributes import Attributes
 from ._errors import FileError, file_error
 from ._mesh import Mesh, MeshLike, as_mesh, listed
 from ._progress import Progress
 from ._results import Result
 
-__all__ = ["Columns", "PartsLike", "Path", "Written", "named_columns", "path_of", "read", "write"]
+__all__ = ["Columns", "PartsLike", "Path", "Written", "named_columns", "read", "write"]
 
 Path = Union[str, "os.PathLike[str]"]
 Columns = Mapping[str, Union[str, int]]
-
-
-def path_of(path: Path) -> str:
-    """`path` as the library takes it."""
-    text = os.fspath(path)
-    if "\0" in text:
-        raise ValueError(f"path: {text!r} has a zero in it")
-    return text
 
 
 def named_columns(columns: Columns | None) -> list[tuple[str, str]]:

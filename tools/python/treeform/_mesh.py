@@ -18,8 +18,8 @@ from ._results import Result
 if TYPE_CHECKING:
     from ._show import View
 
-__all__ = ["HasCells", "HasFaces", "HasMesh", "HasPolys", "HasTensors", "HasTriangles", "Mesh",
-           "MeshLike", "MeshResult", "as_mesh", "cloud_of", "held", "held_body", "listed"]
+__all__ = ["Body", "HasCells", "HasFaces", "HasMesh", "HasPolys", "HasTensors", "HasTriangles", "Mesh",
+           "MeshLike", "MeshResult", "as_mesh", "bodies", "cloud_of", "held", "held_body", "listed", "points_of"]
 
 
 class HasFaces(Protocol):
@@ -269,6 +269,8 @@ class Mesh:
 
 MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, HasCells, HasTensors, HasPolys,
                  Tuple[ArrayLike, ArrayLike]]
+#: A mesh, or a cloud (n, 3).
+Body = Union[MeshLike, ArrayLike]
 
 
 _Array = TypeVar("_Array", Floats, Ids)
@@ -329,6 +331,21 @@ def held_body(body: Any) -> _core.HeldMesh:
     """The same for a mesh or a cloud."""
     points = cloud_of(body)
     return held(body) if points is None else _core.HeldMesh(points)
+
+
+def bodies(fixed: Any) -> list[_core.HeldMesh]:
+    """One body, or a list of them."""
+    if fixed is None:
+        return []
+    if isinstance(fixed, (list, tuple)) and not _arrays.is_pair(fixed):
+        return [held_body(one) for one in fixed]
+    return [held_body(fixed)]
+
+
+def points_of(body: Body) -> Floats:
+    """Those of a cloud, or the vertices of a mesh."""
+    points = cloud_of(body)
+    return as_mesh(body).vertices if points is None else points
 
 
 class _Formula:

@@ -15,12 +15,59 @@ py::object split(const held_meshes& meshes, tf::boolean_options options) {
                      attributes);
 }
 
-py::object layer_heights(const held_mesh& mesh, const array_of<double>& at,
-                         const array_of<double>& normal, double thickness) {
+py::object check_solid(const held_mesh& mesh) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        return require_faces(mesh, "mesh"), tf::check_solid(mesh.view(), report);
+    }));
+}
+
+py::object section(const held_mesh& mesh, const array_of<double>& normal,
+                   const array_of<double>& at, const array_of<double>& heights) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        return tf::section(mesh.ref(), {point_of(at), point_of(normal)}, rows_of<double>(heights),
+                           {report});
+    }));
+}
+
+py::object layer_heights(const held_mesh& mesh, double thickness, const array_of<double>& normal,
+                         const array_of<double>& at) {
     return as_python(run([&](const tf::progress_callback&) {
         return tf::oriented_plane{point_of(at), point_of(normal)}.layer_heights(mesh.view().points,
                                                                                 thickness);
     }));
+}
+
+py::object cut(const held_mesh& mesh, const array_of<double>& normal, const array_of<double>& at,
+               const array_of<double>& heights, tf::cut_options options) {
+    const carrying attributes({&mesh});
+    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::cut(mesh.ref(), {point_of(at), point_of(normal)},
+                                        rows_of<double>(heights), options);
+                     }),
+                     attributes);
+}
+
+py::object cut_to_fit(const held_mesh& mesh, const array_of<double>& size,
+                      tf::cut_options options) {
+    const carrying attributes({&mesh});
+    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::cut_to_fit(mesh.ref(), point_of(size), options);
+                     }),
+                     attributes);
+}
+
+py::object cut_along(const held_mesh& mesh, const array_of<double>& values,
+                     const array_of<double>& levels) {
+    const carrying attributes({&mesh});
+    return as_python(run([&](const tf::progress_callback& report) {
+                         return tf::cut_along(mesh.ref(), rows_of<double>(values),
+                                              rows_of<double>(levels), {.progress = report});
+                     }),
+                     attributes);
 }
 
 py::object components(const held_mesh& mesh, tf::components_options options) {
@@ -102,7 +149,8 @@ py::object isolines(const held_mesh& mesh, const array_of<double>& values,
     }));
 }
 
-py::object resolve(const held_mesh& mesh, const std::string& mode, tf::resolve_options options) {
+py::object resolve_self_intersections(const held_mesh& mesh, const std::string& mode,
+                                      tf::resolve_options options) {
     const carrying attributes({&mesh});
     options.keep_cuts = options.keep_cuts || attributes.mixes();
     return as_python(
@@ -143,6 +191,12 @@ py::object rounded(const points_array& points, const std::string& precision) {
         return tf::rounded(
             points_of(points),
             choice<tf::precision>("precision", words_of<tf::precision>::all, precision));
+    }));
+}
+
+py::object find_rounding_defects(const held_mesh& mesh, const points_array& placed) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        return tf::find_rounding_defects(mesh.view(), points_of(placed), report);
     }));
 }
 
@@ -234,29 +288,29 @@ py::object deviation(const held_mesh& a, const held_mesh& b, tf::deviation_optio
     }));
 }
 
-py::object slide(const held_mesh& moving, const held_meshes& fixed,
+py::object slide(const held_mesh& moving, const held_meshes& onto,
                  const array_of<double>& direction, tf::slide_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::slide(moving.ref(), refs_of(fixed), point_of(direction),
+                         return tf::slide(moving.ref(), refs_of(onto), point_of(direction),
                                           options);
                      }),
                      moving);
 }
 
-py::object drop(const held_mesh& moving, const held_meshes& fixed, tf::drop_options options) {
+py::object drop(const held_mesh& moving, const held_meshes& onto, tf::drop_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return fixed.empty() ? tf::drop(moving.ref(), options)
-                                              : tf::drop(moving.ref(), refs_of(fixed), options);
+                         return onto.empty() ? tf::drop(moving.ref(), options)
+                                             : tf::drop(moving.ref(), refs_of(onto), options);
                      }),
                      moving);
 }
 
-py::object mate(const held_mesh& moving, const held_meshes& fixed, tf::mate_options options) {
+py::object mate(const held_mesh& moving, const held_meshes& onto, tf::mate_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::mate(moving.ref(), refs_of(fixed), options);
+                         return tf::mate(moving.ref(), refs_of(onto), options);
                      }),
                      moving);
 }
@@ -266,6 +320,16 @@ py::object separate(const held_mesh& moving, const held_meshes& fixed,
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::separate(moving.ref(), refs_of(fixed), options);
+                     }),
+                     moving);
+}
+
+py::object turn(const held_mesh& moving, const held_meshes& fixed, const array_of<double>& axis,
+                const array_of<double>& origin, tf::turn_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::turn(moving.ref(), refs_of(fixed),
+                                         {point_of(origin), point_of(axis)}, options);
                      }),
                      moving);
 }
@@ -292,18 +356,18 @@ py::object time_of_impact(const held_mesh& a, const held_mesh& b, const array_of
     }));
 }
 
-py::object lay_flat(const held_mesh& moving, tf::lay_flat_options options) {
+py::object lay_flat(const held_mesh& mesh, tf::lay_flat_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::lay_flat(moving.prepared(), options);
+                         return tf::lay_flat(mesh.prepared(), options);
                      }),
-                     moving);
+                     mesh);
 }
 
-py::object align(const held_mesh& moving, const held_mesh& fixed, tf::align_options options) {
+py::object align(const held_mesh& moving, const held_mesh& onto, tf::align_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::align(moving.prepared(), fixed.prepared(), options);
+                         return tf::align(moving.prepared(), onto.prepared(), options);
                      }),
                      moving);
 }
@@ -316,11 +380,34 @@ py::object closest_points(const held_mesh& a, const held_mesh& b, const array_of
     }));
 }
 
+py::object clash_parts(const held_meshes& parts, tf::clash_options options,
+                       const ids_array& ignored) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return (options.ignored = rows_of<tf::part_pair>(ignored),
+                tf::clash(borrowed(parts), options));
+    }));
+}
+
+py::object clash_in_poses(const held_meshes& parts, const array_of<double>& poses,
+                          tf::pose_options options, const ids_array& ignored) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return (options.ignored = rows_of<tf::part_pair>(ignored),
+                tf::check_poses(borrowed(parts), transforms_of(poses), options));
+    }));
+}
+
 }  // namespace
 
 void add_functions(py::module_& module) {
     add_job(module, "split", &split);
+    add_job(module, "check_solid", &check_solid);
+    add_job(module, "section", &section);
     add_job(module, "layer_heights", &layer_heights);
+    add_job(module, "cut", &cut);
+    add_job(module, "cut_to_fit", &cut_to_fit);
+    add_job(module, "cut_along", &cut_along);
     add_job(module, "components", &components);
     add_job(module, "submesh", &submesh);
     add_job(module, "moved_points", &moved_points);
@@ -332,11 +419,12 @@ void add_functions(py::module_& module) {
     add_job(module, "wall_thickness", &wall_thickness);
     add_job(module, "oriented_box", &oriented_box);
     add_job(module, "isolines", &isolines);
-    add_job(module, "resolve", &resolve);
+    add_job(module, "resolve_self_intersections", &resolve_self_intersections);
     add_job(module, "repair", &repair);
     add_job(module, "wrap", &wrap, job_kind::long_work);
     add_job(module, "convex_hull", &convex_hull);
     add_job(module, "rounded", &rounded);
+    add_job(module, "find_rounding_defects", &find_rounding_defects);
     add_job(module, "bounds", &bounds);
     add_job(module, "signed_volume", &signed_volume);
     add_job(module, "surface_area", &surface_area);
@@ -355,12 +443,15 @@ void add_functions(py::module_& module) {
     add_job(module, "drop", &drop);
     add_job(module, "mate", &mate);
     add_job(module, "separate", &separate);
+    add_job(module, "turn", &turn);
     add_job(module, "measure", &measure);
     add_job(module, "penetration_depth", &penetration_depth);
     add_job(module, "time_of_impact", &time_of_impact);
     add_job(module, "lay_flat", &lay_flat);
     add_job(module, "align", &align);
     add_job(module, "closest_points", &closest_points);
+    add_job(module, "clash_parts", &clash_parts);
+    add_job(module, "clash_in_poses", &clash_in_poses);
 }
 
 }  // namespace binding
