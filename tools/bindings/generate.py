@@ -41,7 +41,7 @@ def python_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pat
     language = python_language.Language(structs, enums, python_surface.RESULTS,
                                         python_surface.WORDS)
     writer = python_write.Writer(language, python_surface.OPTIONS, python_surface.COUNTERS,
-                                 python_verbs.FUNCTIONS)
+                                 python_surface.STATES, python_verbs.FUNCTIONS)
     made = writer.sources()
     for path in sorted([*python_write.PACKAGE.glob("*.py"), *python_write.PACKAGE.glob("*.pyi")]):
         made[path] = writer.package_file(path)

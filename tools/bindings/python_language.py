@@ -262,7 +262,7 @@ class Language:
         codes = [one.code for one in attributes]
         if "certificate" in " ".join(codes) and any(
                 one.name == "certificate" for one in self.structs[of.cpp].fields):
-            text += "const py::object certificate = py::cast(from.certificate);\n"
+            text += "const py::object certificate = as_python(tf::certificate(from.certificate));\n"
         elif any("certificate" in code for code in codes):
             text += "const py::object certificate = py::none();\n"
         if any("data)" in code for code in codes):

@@ -33,6 +33,26 @@ def column(name: str, annotation: str, doc: str, rows: str, value: str) -> Attri
 
 
 RESULTS = [
+    # _results
+    Result("certificate", "Certificate", "_results", leave="meeting_at",
+           doc="What was checked about the coordinates of a result, with exact predicates. True where "
+               "everything that the operation promises holds.",
+           custom={
+               "status": [Attribute("status", "str", "'ok', or how the operation ended.",
+                                    "py::cast(word_of(from.status))")],
+               "meeting": [column("meeting", "Ids", "(n, 2) the first 100 of these pairs.",
+                                  "meeting", "one")],
+               "open": [
+                   Attribute("open_edges", "Floats", "(n, 2, 3) the ends of the first 100 of these "
+                             "edges.", "ends_of(from.open)"),
+                   column("open_faces", "Ids", "(n, 2) the operand and the face at each of them.",
+                          "open", "std::array{one.face.operand, one.face.index}")],
+               "+": [MESSAGE]},
+           docs={"boundary_edges": "Of the open edges, those of an odd number of faces.",
+                 "misoriented_edges": "Of the open edges, those of faces that run the same way.",
+                 "meeting_count": "Pairs of faces that meet where they should not.",
+                 "open_count": "Edges whose signed face count is not zero.",
+                 "size_after": "The same after.", "size_is_volume": "Whether these are volumes."}),
     # _booleans
     Result("boolean_result", "BooleanResult", "_booleans", "MeshResult", context="attributes",
            doc="The surface of a solid, and what was checked about it. Every function that takes a "
@@ -328,6 +348,11 @@ RESULTS = [
 COUNTERS = {"boolean_statistics": "", "resolve_statistics": "", "repair_statistics": "",
             "wrap_statistics": "", "offset_statistics": "", "weld_statistics": "",
             "weld_stream_counts": "kept groups max_displacement faces"}
+
+#: Structs as bytes, for pickle, and the fields that are left out.
+STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_values": "",
+          "attributes": "", "las_record": "", "las_header": "", "value_range": "",
+          "mesh_file": "mesh"}
 
 #: Options by name: structs, and the fields that Python gives in another way, or not at all.
 OPTIONS = {

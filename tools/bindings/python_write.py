@@ -21,7 +21,8 @@ BLOCK = re.compile(r"^# made of (results|options|functions)[^\n]*:\n((?:#   [^\n
 
 class Writer:
     def __init__(self, language: Language, options: dict[str, str], counters: dict[str, str],
-                 functions: list[Function]) -> None:
+                 states: dict[str, str], functions: list[Function]) -> None:
+        self.states = states
         self.language, self.options, self.counters = language, options, counters
         self.functions = [one for one in functions if not one.body]
         self.package = FunctionWriter(language, options)
@@ -66,6 +67,9 @@ class Writer:
         head += "\n" + "".join(f"py::dict counters(const tf::{name}& from);\n"
                                 for name in self.counters)
         head += "\n}  // namespace binding\n"
+        states = first + '#include "../base.hpp"\n\nnamespace binding {\n\n' + "\n".join(
+            self.language.option_code(name, leave) for name, leave in self.states.items())
+        states += "\n}  // namespace binding\n"
         start = ("// Made by tools/bindings of the headers of C++: see its README.\n"
                  '#include "../bindings.hpp"\n\nnamespace binding {\n\n')
         options = start + "\n".join(
@@ -89,6 +93,6 @@ class Writer:
         functions += "}\n\n}  // namespace binding\n"
         made = {"words.hpp": words, "made.hpp": head, "options.cpp": options,
                 "results.cpp": results, "places.cpp": of_places,
-                "functions.cpp": functions}
+                "functions.cpp": functions, "states.hpp": states}
         return {MADE / name: formatted(text, f"tools/python/src/made/{name}")
                 for name, text in made.items()}

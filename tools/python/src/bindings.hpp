@@ -11,7 +11,6 @@ void add_assembly(py::module_& module);
 void add_booleans(py::module_& module);
 void add_boxes(py::module_& module);
 void add_carrying(py::module_& module);
-void add_certificates(py::module_& module);
 void add_clouds(py::module_& module);
 void add_cuts(py::module_& module);
 void add_functions(py::module_& module);

@@ -125,9 +125,6 @@ inline py::object value_of(const tf::transform<3>& map) { return as_array(map); 
 inline py::object value_of(const std::array<std::array<double, 3>, 3>& rows) {
     return column(rows, [](const auto& row) { return row; });
 }
-inline py::object value_of(tf::certificate&& certificate) {
-    return py::cast(std::move(certificate));
-}
 template <has_words Enum>
 py::object value_of(Enum value) {
     return py::cast(word_of(value));

@@ -90,7 +90,6 @@ PYBIND11_MODULE(_core, module) {
     py::register_exception_translator(translate);
     add_meshes(module);
     add_carrying(module);
-    add_certificates(module);
     add_options(module);
     add_cuts(module);
     add_files(module);

@@ -80,8 +80,7 @@ py::tuple raycast(const held_mesh& mesh, const points_array& origins,
     std::vector<std::uint32_t> faces(all.size(), none);
     std::vector<std::uint8_t> at(all.size(), static_cast<std::uint8_t>(tf::feature::interior));
     run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-        const auto hits =
-            tf::raycast(mesh.prepared(), all.piece(begin, end));
+        const auto hits = tf::raycast(mesh.prepared(), all.piece(begin, end));
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (!hits[i]) continue;
             t[begin + i] = finite(hits[i]->t, i);
@@ -99,8 +98,7 @@ py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
     std::vector<std::uint32_t> ray_of_hit, faces;
     std::vector<double> t;
     run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-        const tf::mesh_hits found =
-            tf::raycast_all(mesh.prepared(), all.piece(begin, end));
+        const tf::mesh_hits found = tf::raycast_all(mesh.prepared(), all.piece(begin, end));
         for (std::size_t i = 0; i + 1 < found.begin.size(); ++i)
             for (std::size_t h = found.begin[i]; h < found.begin[i + 1]; ++h) {
                 ray_of_hit.push_back(static_cast<std::uint32_t>(begin + i));
@@ -117,8 +115,7 @@ py::array raycast_any(const held_mesh& mesh, const points_array& origins,
     const rays all(origins, directions, t_min, t_max);
     std::vector<std::uint8_t> any(all.size());
     run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-        const auto hit =
-            tf::raycast_any(mesh.prepared(), all.piece(begin, end));
+        const auto hit = tf::raycast_any(mesh.prepared(), all.piece(begin, end));
         std::copy(hit.begin(), hit.end(), any.begin() + static_cast<std::ptrdiff_t>(begin));
     });
     return as_array<std::uint8_t>(std::move(any));

@@ -21,6 +21,14 @@ py::object contacts_of(const tf::placement& at) {
     return object_of("treeform._placement", "Contacts", made);
 }
 
+py::array ends_of(const std::vector<tf::open_edge>& open) {
+    auto ends = column(open, [](const tf::open_edge& edge) {
+        return std::array{edge.ends[0].x, edge.ends[0].y, edge.ends[0].z,
+                          edge.ends[1].x, edge.ends[1].y, edge.ends[1].z};
+    });
+    return ends.reshape({-1, 2, 3});
+}
+
 py::list regions_of(tf::part_clash& from) {
     py::list regions;
     for (tf::contact_region& region : from.regions)
@@ -86,7 +94,7 @@ py::object object(of_result, tf::section_result&& s) {
 
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes) {
     const py::object pieces = as_python(std::move(from.pieces), attributes);
-    return py::make_tuple(pieces, std::move(from.certificate));
+    return py::make_tuple(pieces, as_python(std::move(from.certificate)));
 }
 
 py::object object(of_result, tf::rounding_defects&& from) {

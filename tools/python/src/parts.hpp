@@ -8,6 +8,7 @@ namespace binding {
 
 py::object volumes_of(const tf::boolean_result& from);
 py::object contacts_of(const tf::placement& at);
+py::array ends_of(const std::vector<tf::open_edge>& open);
 py::list regions_of(tf::part_clash& from);
 /// What is said in warnings.
 py::list texts_of(const std::vector<tf::io_warning>& warnings);

@@ -14,10 +14,9 @@ from . import _core, _exit
 from ._arrays import NONE
 from ._assembly import (RELATIONS, ClashResult, NearestPoints, PartClash, PoseClashes, check_poses,
                         clash, closest_points, distance, intersects)
-from ._attributes import Attributes
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
                         symmetric_difference, union)
-from ._core import Certificate
+from ._core import Attributes
 from ._cuts import (CutPiece, MassProperties, MeshPart, Section, SectionLoop, components,
                     concatenate, cut, cut_along, cut_to_fit, layer_heights, mass_properties,
                     section, submesh, transformed)
@@ -42,6 +41,7 @@ from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_in
 from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, WrapResult, convex_hull,
                       find_rounding_defects, join_equal_points, repair,
                       resolve_self_intersections, rounded, wrap)
+from ._results import Certificate
 from ._robots import Joint, Robot, read_urdf
 from ._shapes import (Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness,
                       hollow, isolines, offset, oriented_box, simplify, thicken, wall_thickness)

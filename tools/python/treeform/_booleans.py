@@ -9,10 +9,10 @@ import numpy as np
 
 from . import _core
 from ._arrays import Ids
-from ._core import Certificate
 from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, held, listed
 from ._progress import Progress
+from ._results import Certificate
 
 __all__ = ["BooleanResult", "MeshesLike", "boolean", "check_solid", "clip", "difference",
            "intersection", "split", "symmetric_difference", "union"]

@@ -13,7 +13,7 @@ from typing import Any, Callable, Mapping, Protocol, TypeVar, cast, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import Certificate
+from ._results import Certificate
 
 __all__ = ["Cancelled", "CertificateError", "Error", "FileError", "file_error", "NotCertifiedError",
            "NotSolidError", "checked", "name_argument", "need", "options", "require", "settings"]

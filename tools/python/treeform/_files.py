@@ -11,7 +11,6 @@ from typing import IO, Any, Iterable, Mapping, Sequence, Union
 
 from . import _arrays, _core
 from ._arrays import path_of
-from ._attributes import Attributes
 from ._errors import FileError, file_error
 from ._mesh import Mesh, MeshLike, as_mesh, listed
 from ._progress import Progress
@@ -61,7 +60,7 @@ def read(path: Union[Path, IO[bytes]], format: str = "", *, join: bool = True,
     else:
         points, faces, data = _core.read_bytes(_content(path), _name_of(path), format, join, named,
                                                drop_nan, progress=progress)
-    return Mesh._of(points, faces, None, Attributes(data))
+    return Mesh._of(points, faces, None, data)
 
 
 def _content(file: Any) -> bytes:
@@ -161,9 +160,8 @@ def _write(mesh: PartsLike, format: str, options: tuple[Any, ...], progress: Pro
     else:
         made, certified = _scene_of(parts if isinstance(parts, Mapping) else {
             str(number): part for number, part in enumerate(parts, 1)})
-    data = None if made._attributes is None else made._attributes._data
     put: Any = _core.write
-    written: Written = put(path, made._held, data, certified, format, *options, progress=progress)
+    written: Written = put(path, made._held, made._attributes, certified, format, *options, progress=progress)
     if parts is not None and not written.format.startswith(("3mf", "obj")):
         written.warnings.append(f"parts are one mesh now: {written.format} does not hold them")
     return written
@@ -174,7 +172,7 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
     if not parts:
         raise ValueError("mesh: there is none in the list")
     meshes = [as_mesh(part) for part in parts.values()]
-    data = [None if one._attributes is None else one._attributes._data for one in meshes]
+    data = [one._attributes for one in meshes]
     points, faces, all = _core.scene([one._held for one in meshes], data,
                                      [_arrays.word(name, "mesh") for name in parts])
     return Mesh._of(points, faces, None, all), any(one._certificate for one in meshes)

@@ -9,11 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _others
 from ._arrays import Floats, Ids
-from ._attributes import Attributes
-from ._core import Certificate
+from ._core import Attributes
 from ._errors import require
 from ._others import arrays_of
-from ._results import Result
+from ._results import Certificate, Result
 
 if TYPE_CHECKING:
     from ._show import View
@@ -112,15 +111,13 @@ class Mesh:
         self._attributes = attributes
         self._certificate = certificate
         self._held = _core.HeldMesh(vertices, faces, True)
-        self._held.data = None if attributes is None else attributes._data
+        self._held.data = attributes
         self._solid: Certificate | None = None
 
     @classmethod
     def _of(cls, vertices: Floats, faces: Ids, certificate: Certificate | None = None,
-            attributes: Attributes | _core.FileData | None = None) -> Mesh:
+            attributes: Attributes | None = None) -> Mesh:
         """Of arrays that the library has made."""
-        if isinstance(attributes, _core.FileData):
-            attributes = Attributes(attributes)
         made = cls.__new__(cls)
         made._formula = None
         made._set(vertices, faces, attributes, certificate)

@@ -10,12 +10,11 @@ from numpy.typing import ArrayLike
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._core import Certificate
 from ._errors import need, options
 from ._mesh import Body, Mesh, MeshLike, MeshResult, bodies, held, held_body
 from ._progress import Progress
 from ._properties import Feature
-from ._results import Result, tuple_repr
+from ._results import Certificate, Result, tuple_repr
 
 __all__ = ["Alignment", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "PackedPart",
            "Packing", "Placement", "SearchEffort", "align", "drop", "lay_flat", "mate",

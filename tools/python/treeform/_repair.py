@@ -10,11 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._core import Certificate
 from ._errors import checked, options
 from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
-from ._results import Result
+from ._results import Certificate, Result
 
 __all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "WrapResult", "convex_hull",
            "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",

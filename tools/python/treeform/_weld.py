@@ -57,10 +57,9 @@ def welded(body: Any, how: _core.WeldOptions, label: ArrayLike | None,
     if points is not None:
         return _core.weld_cloud(points, None, how, labels, progress=progress)
     mesh = as_mesh(body)
-    data = None if mesh._attributes is None else mesh._attributes._data
     if len(mesh._faces):
-        return _core.weld_mesh(mesh._held, data, how, labels, progress=progress)
-    return _core.weld_cloud(mesh._vertices, data, how, labels, progress=progress)
+        return _core.weld_mesh(mesh._held, mesh._attributes, how, labels, progress=progress)
+    return _core.weld_cloud(mesh._vertices, mesh._attributes, how, labels, progress=progress)
 
 
 # made of functions:

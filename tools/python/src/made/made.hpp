@@ -6,6 +6,7 @@
 
 namespace binding {
 
+py::object object(of_result, tf::certificate&& from);
 py::object object(of_result, tf::boolean_result&& from, const carrying& attributes);
 py::object object(of_result, tf::cut_piece&& from, const carrying& attributes);
 py::object object(of_result, tf::mesh_part&& from, const carrying& attributes);
