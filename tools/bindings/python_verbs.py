@@ -107,6 +107,12 @@ FUNCTIONS = [
              "tf::transform_mesh({mesh.view().points, {}}, $matrix).points"),
     Function("mass_properties(mesh: Mesh) -> Optional[MassProperties]",
              "tf::find_mass_properties(mesh.view())"),
+    Function("concatenate(meshes: Iterable[MeshLike]) -> Mesh", body="joined(meshes, progress)",
+             also="Their attributes are put together likewise."),
+    Function("transformed(mesh: MeshLike, matrix: ArrayLike) -> Mesh",
+             body="moved(mesh, matrix, progress)", cpp="transform_mesh", words={"by": "matrix"},
+             also="It keeps its attributes, with normals turned.",
+             docs={"matrix": "(4, 4)"}),
     # _shapes
     Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
              "tf::offset($mesh, distance, options)", kind="long_work", check="solid"),
@@ -167,6 +173,8 @@ FUNCTIONS = [
              docs={"placed": "(V, 3)"},
              also="Returns the number of faces that have lost their area, and of pairs of faces that "
                   "meet now and did not before."),
+    Function("join_equal_points(mesh: MeshLike) -> Mesh",
+             body="Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))"),
     # _properties
     Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
     Function("signed_volume(mesh: Mesh) -> float", "tf::signed_volume(mesh.view())"),
@@ -195,6 +203,28 @@ FUNCTIONS = [
              "tf::mesh_intersections($a, $b, options)", docs=_MOVES | {"kinds": "those to look for, of `KINDS`; None is all."}),
     Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
              "tf::faces_in_box(mesh.view(), $min, $max)", docs={"min": "(3,)", "max": "(3,)"}),
+    Function("intersection_regions(mesh: MeshLike, found: FacePairs) -> tuple[list[Region], Ids]",
+             body="_core.group_pairs(held(mesh), *pairs_of(found), progress=progress)",
+             cpp="group_pairs", words={"pairs": "found"},
+             also="Returns regions in the order of their lowest face, and (n,) the region of each "
+                  "pair."),
+    Function("intersection_curves(mesh: MeshLike, found: FacePairs) -> list[Floats]",
+             body="curves(*_core.intersection_paths(held(mesh), *pairs_of(found), progress=progress))",
+             cpp="intersection_paths",
+             doc="The curves along which pairs of faces meet, each (n, 3); the last point of a closed "
+                 "curve is the first again. Which segments there are is exact; points are rounded to "
+                 "nearest. A segment that several pairs have is there once.",
+             docs={"found": "pairs of faces of `mesh` that are not degenerate."}),
+    Function("self_intersections_of_file(path: Path, options: stream_search_options, "
+             "communicator: Communicator = None) -> FilePairs",
+             body="in_communicator(communicator, lambda all: _core.self_intersections_of_file(\n"
+                  "        path_of(path), how, all, progress=progress))",
+             docs={"kinds": "as for `self_intersections`.",
+                   "vertices": "None: 'by_coordinates' for STL, else 'by_index'.",
+                   "folder": "for the tiles; empty: beside the input. Where a run was killed, the "
+                             "same call goes on.",
+                   "communicator": "ranks that do it together, as for `weld_stream`; the first one "
+                                   "gets the result, all others an empty one."}),
     # _weld
     Function("count_nearly_equal(points: Points, distance: float) -> int",
              "tf::count_nearly_equal($points, distance)"),
@@ -235,6 +265,28 @@ FUNCTIONS = [
              missing="a has no points, or b no faces",
              also="`a` and `b` are a mesh or a cloud (n, 3) each.",
              docs={"band": "signed distances that are within tolerance."}),
+    Function("contains(mesh: MeshLike, points: ArrayLike) -> NDArray[np.bool_]",
+             body="np.asarray(located(mesh, points, progress)[0] != OUTSIDE)",
+             doc="(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface: "
+                 "inside is where the winding number is not 0. Exact, for every point. Raises "
+                 "NotSolidError where the mesh is open. For other errors and cost, see `locate`."),
+    Function("locate(mesh: MeshLike, points: ArrayLike) -> NDArray[np.int8]",
+             body="np.array([-1, 1, 0], np.int8)[located(mesh, points, progress)[0]]",
+             also="Returns (n,) int8: 1 where a point is strictly inside, 0 on the surface, -1 outside. "
+                  "Raises NotSolidError where the mesh is open.", docs={"points": "(n, 3)"}),
+    Function("winding_number(mesh: MeshLike, points: ArrayLike) -> NDArray[np.int32]",
+             body="np.asarray(located(mesh, points, progress)[1])",
+             doc="(n,) int32: how often a closed mesh winds around each of `points` (n, 3); 0 on the "
+                 "surface. Exact. Raises NotSolidError where the mesh is open."),
+    Function("signed_distance(mesh: MeshLike, points: ArrayLike) -> Floats",
+             body="distances(mesh, points, progress)", cpp="deviation",
+             doc="(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; "
+                 "positive inside, as in trimesh, and exactly 0 on the surface. The sign is exact. "
+                 "`deviation` has the other sign, that of metrology: negative inside. Raises "
+                 "NotSolidError where the mesh is open."),
+    Function("raycast_all(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
+             "t_max: float = np.inf) -> AllRayHits",
+             body="all_hits(mesh, origins, directions, t_min, t_max, progress)", docs=_RAYS),
     # _placement
     Function("slide(moving: Body, onto: Bodies, direction: Vector, options: slide_options(clearance))"
              " -> Placement", "tf::slide($moving, $onto, $direction, options)", "moving", words={"fixed": "onto"},

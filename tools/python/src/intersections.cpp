@@ -53,30 +53,11 @@ void add_search_in_steps(py::module_& module) {
                      return search.scatter() == tf::status::ok ? search.tiles() : 0;
                  });
              })
-        .def("tiles",
-             [](search_in_steps& all) {
-                 return all.step([](tf::stream_search& search) { return search.tiles(); });
-             })
-        .def("unfinished",
-             [](search_in_steps& all) {
-                 return all.step([](tf::stream_search& search) { return search.unfinished(); });
-             })
-        .def("search_tile",
-             [](search_in_steps& all, std::size_t tile) {
-                 all.step([=](tf::stream_search& search) { return search.search_tile(tile); });
-             })
-        .def("finish",
-             [](search_in_steps& all) {
-                 return as_python(
-                     all.step([](tf::stream_search& search) { return search.finish(); }));
-             })
-        .def("remove_folder",
-             [](search_in_steps& all) {
-                 all.step([](tf::stream_search& search) {
-                     search.remove_folder();
-                     return true;
-                 });
-             })
+        .def("tiles", step_of(&tf::stream_search::tiles))
+        .def("unfinished", step_of(&tf::stream_search::unfinished))
+        .def("search_tile", step_of(&tf::stream_search::search_tile))
+        .def("finish", step_of(&tf::stream_search::finish))
+        .def("remove_folder", step_of(&tf::stream_search::remove_folder))
         .def("close", &search_in_steps::close);
     make_jobs(module.attr("SearchInSteps"), {"scatter", "search_tile", "finish"}, job_kind::writes);
     add_job(module, "search_of", &search_of, job_kind::long_work);

@@ -117,8 +117,8 @@ py::object object(of_result, tf::turn_result&& from, const held_mesh& moving) {
 py::object mesh_object(tf::mesh&& mesh, const py::object& certificate, const py::object& data) {
     return py::module_::import("treeform._mesh")
         .attr("Mesh")
-        .attr("_of")(as_array(std::move(mesh.points)), as_array(std::move(mesh.faces)), certificate,
-                     data);
+        .attr("_of")(as_array(std::move(mesh.points)), as_array(std::move(mesh.faces)), data,
+                     certificate);
 }
 
 py::object moved_mesh(std::vector<tf::point3>&& points, const held_mesh& body,
@@ -128,7 +128,7 @@ py::object moved_mesh(std::vector<tf::point3>&& points, const held_mesh& body,
         points.empty() ? py::object(body.points()) : as_array(std::move(points));
     return py::module_::import("treeform._mesh")
         .attr("Mesh")
-        .attr("_of")(there, turned[0], certificate, turned[1]);
+        .attr("_of")(there, turned[0], turned[1], certificate);
 }
 
 }  // namespace binding

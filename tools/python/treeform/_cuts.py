@@ -384,24 +384,48 @@ def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> M
 # end
 
 
+def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
+    """The meshes of a list, one after the other."""
+    several = listed(meshes)
+    if several is None:
+        raise ValueError("meshes: several meshes are needed")
+    return Mesh._of(*_core.concatenate([held(one) for one in several], progress=progress))
+
+
+# made of functions:
+#   concatenate
 def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mesh:
-    """Vertices, faces and attributes of all meshes, one after the other; nothing is joined.
+    """Points and faces of all meshes, one after the other; nothing is joined.
+
+    Their attributes are put together likewise.
+
+    Raises ValueError for more points or faces than 32 bits can number.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> treeform.concatenate([cube, cube])
     Mesh(16 vertices, 24 faces)
     """
-    several = listed(meshes)
-    if several is None:
-        raise ValueError("meshes: several meshes are needed")
-    points, faces, data = _core.concatenate([held(one) for one in several], progress=progress)
-    return Mesh._of(points, faces, None, data)
+    return joined(meshes, progress)
+# end
 
 
+def moved(mesh: MeshLike, matrix: ArrayLike, progress: Progress) -> Mesh:
+    """With its attributes, normals turned."""
+    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
+    faces, data = _core.turned(own, move)
+    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, data)
+
+
+# made of functions:
+#   transformed
 def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None) -> Mesh:
-    """The mesh moved by a matrix (4, 4), with its attributes, normals turned. Where the matrix
-    mirrors, faces are turned over, so that they look outward as before.
+    """The mesh with its points moved. Where `matrix` mirrors, faces are turned over, so that they
+    look outward as before.
+
+    It keeps its attributes, with normals turned.
+
+    matrix: (4, 4)
 
     >>> import numpy as np
     >>> import treeform
@@ -410,9 +434,8 @@ def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None)
     >>> mirrored.volume, mirrored.bounds.tolist()
     (2.0, [[-2.0, 0.0, 0.0], [0.0, 1.0, 1.0]])
     """
-    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
-    faces, data = _core.turned(own, move)
-    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, None, data)
+    return moved(mesh, matrix, progress)
+# end
 
 
 # made of results:

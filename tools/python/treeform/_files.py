@@ -55,12 +55,10 @@ def read(path: Union[Path, IO[bytes]], format: str = "", *, join: bool = True,
     """
     named = named_columns(columns)
     if isinstance(path, (str, os.PathLike)):
-        points, faces, data = _core.read(path_of(path), format, join, named, drop_nan,
-                                         progress=progress)
-    else:
-        points, faces, data = _core.read_bytes(_content(path), _name_of(path), format, join, named,
-                                               drop_nan, progress=progress)
-    return Mesh._of(points, faces, None, data)
+        return Mesh._of(*_core.read(path_of(path), format, join, named, drop_nan,
+                                    progress=progress))
+    return Mesh._of(*_core.read_bytes(_content(path), _name_of(path), format, join, named, drop_nan,
+                                      progress=progress))
 
 
 def _content(file: Any) -> bytes:
@@ -173,6 +171,6 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
         raise ValueError("mesh: there is none in the list")
     meshes = [as_mesh(part) for part in parts.values()]
     data = [one._attributes for one in meshes]
-    points, faces, all = _core.scene([one._held for one in meshes], data,
-                                     [_arrays.word(name, "mesh") for name in parts])
-    return Mesh._of(points, faces, None, all), any(one._certificate for one in meshes)
+    made = Mesh._of(*_core.scene([one._held for one in meshes], data,
+                                 [_arrays.word(name, "mesh") for name in parts]))
+    return made, any(one._certificate for one in meshes)

@@ -149,22 +149,33 @@ class FilePairs(FacePairs):
         return self.face_in_file[self.pairs]
 
 
-def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None,
-                               vertices: str | None = None, format: str = "", memory: int = 0,
-                               folder: Path = "", faces_per_tile: int = 0,
+# made of functions:
+#   self_intersections_of_file
+def self_intersections_of_file(path: Path, *, vertices: str | None = None,
+                               kinds: Iterable[str] | None = None, format: str = "",
+                               memory: int = 0, folder: Path = "", faces_per_tile: int = 0,
                                communicator: Communicator | None = None,
                                progress: Progress = None) -> FilePairs:
-    """The same for a file that may be larger than memory: binary STL, and PLY whose vertices come
-    ahead of its faces. Space is cut into tiles on the disk.
+    """The pairs that `self_intersections` finds in the usable part of a file, for files larger than
+    memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut into tiles;
+    each gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A
+    pair counts in the tile that holds the lowest corner of the common part of the boxes of its
+    faces, so it counts once.
+
+    The folder stays when the process is killed, and the same call goes on from there. With several
+    ranks, rank 0 makes the tiles, all search them, and rank 0 gets the result.
 
     vertices: None: 'by_coordinates' for STL, else 'by_index'.
-    memory: bytes that the process may take; 0: three quarters of the machine's.
+    kinds: as for `self_intersections`.
+    format: Of the input, as for `read`.
+    memory: Bytes to take; 0: three quarters of the machine's.
     folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
-    faces_per_tile: at most about so many; 0: as the memory allows.
-    communicator: ranks that do it together, as for `weld_stream`; the first one gets the result, all
-    others an empty one.
+    faces_per_tile: At most about this many; 0: as the memory allows.
+    communicator: ranks that do it together, as for `weld_stream`; the first one gets the result,
+        all others an empty one.
 
-    Raises FileError, ValueError.
+    Cost: time as `self_intersections`; memory as the options say, plus what is found; 60 to 100
+    bytes on the disk for each tile that a face reaches into, and 24 a vertex of a PLY.
 
     >>> import treeform
     >>> found = treeform.self_intersections_of_file("data/two_spheres.stl")
@@ -174,6 +185,7 @@ def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None
     how = options(_core.StreamSearchOptions, locals())
     return in_communicator(communicator, lambda all: _core.self_intersections_of_file(
         path_of(path), how, all, progress=progress))
+# end
 
 
 class StreamSearch(InSteps[_core.SearchInSteps]):
@@ -209,19 +221,11 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
                  faces_per_tile: int = 0, progress: Progress = None) -> None:
         kinds = None if kinds is None else _arrays.words(kinds, "kinds")
         how = options(_core.StreamSearchOptions, locals())
-        super().__init__(
-            _core.search_of(path_of(path), how, progress=progress),
-            path, kinds=kinds, vertices=vertices, format=format, memory=memory, folder=folder,
-            faces_per_tile=faces_per_tile)
+        super().__init__(_core.search_of(path_of(path), how, progress=progress), locals())
 
     def scatter(self, *, progress: Progress = None) -> int:
         """Gives each tile its faces, unless they have them. Returns the number of tiles."""
         return self._work.scatter(progress=progress)
-
-    @property
-    def tiles(self) -> int:
-        """The number of tiles, once they are there."""
-        return self._work.tiles()
 
     @property
     def unfinished(self) -> list[int]:
@@ -235,10 +239,6 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
     def finish(self, *, progress: Progress = None) -> FilePairs:
         """Puts together what was found, when all tiles are searched."""
         return self._work.finish(progress=progress)
-
-    def remove_folder(self) -> None:
-        """Removes the folder of the tiles."""
-        self._work.remove_folder()
 
 
 # made of results:
@@ -258,10 +258,31 @@ class Region(Result):
 # end
 
 
+def pairs_of(found: FacePairs) -> tuple[Ids, NDArray[np.uint8]]:
+    """The pairs, and their kinds."""
+    need(found, "found", FacePairs)
+    return found.pairs, found.kinds
+
+
+def curves(points: Floats, paths: list[tuple[Ids, bool]]) -> list[Floats]:
+    """Of paths by numbers of points; closed ones end where they begin."""
+    return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
+
+
+# made of functions:
+#   intersection_regions intersection_curves faces_in_box
 def intersection_regions(mesh: MeshLike, found: FacePairs, *,
                          progress: Progress = None) -> tuple[list[Region], Ids]:
-    """Where pairs of faces meet: regions of faces that hang together by pairs or shared corners, in
-    the order of their lowest face, and (n,) the region of each pair.
+    """Groups the faces in `found` into regions. Two of these faces are in one region when a pair or
+    a shared corner links them, directly or through other such faces.
+
+    Returns regions in the order of their lowest face, and (n,) the region of each pair.
+
+    Raises ValueError naming a pair with a face out of range, or the lowest face with a corner out
+    of range.
+
+    Cost: O(V + F + pairs) time except for an inverse Ackermann factor, about 8 bytes a face and 4 a
+    point.
 
     >>> import treeform
     >>> m = treeform.read("data/two_spheres.stl")
@@ -269,18 +290,20 @@ def intersection_regions(mesh: MeshLike, found: FacePairs, *,
     >>> len(regions), regions[0].pairs
     (1, 78)
     """
-    need(found, "found", FacePairs)
-    regions, of_pair = _core.group_pairs(held(mesh), found.pairs, found.kinds,
-                                         progress=progress)
-    return regions, of_pair
+    return _core.group_pairs(held(mesh), *pairs_of(found), progress=progress)
 
 
 def intersection_curves(mesh: MeshLike, found: FacePairs, *,
                         progress: Progress = None) -> list[Floats]:
     """The curves along which pairs of faces meet, each (n, 3); the last point of a closed curve is
-    the first again. Which segments there are is exact; points are rounded to nearest.
+    the first again. Which segments there are is exact; points are rounded to nearest. A segment
+    that several pairs have is there once.
 
     found: pairs of faces of `mesh` that are not degenerate.
+
+    Raises ValueError as `intersection_curves`, and for a face without area.
+
+    Cost: O(P log P) for P pairs.
 
     >>> import treeform
     >>> m = treeform.read("data/two_spheres.stl")
@@ -288,14 +311,9 @@ def intersection_curves(mesh: MeshLike, found: FacePairs, *,
     >>> [len(curve) for curve in curves]
     [79]
     """
-    need(found, "found", FacePairs)
-    points, paths = _core.intersection_paths(held(mesh), found.pairs, found.kinds,
-                                             progress=progress)
-    return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
+    return curves(*_core.intersection_paths(held(mesh), *pairs_of(found), progress=progress))
 
 
-# made of functions:
-#   faces_in_box
 def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike, *,
                  progress: Progress = None) -> Ids:
     """The faces, ascending, that have a point in the closed box from `min` to `max`.

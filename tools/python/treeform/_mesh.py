@@ -115,8 +115,8 @@ class Mesh:
         self._solid: Certificate | None = None
 
     @classmethod
-    def _of(cls, vertices: Floats, faces: Ids, certificate: Certificate | None = None,
-            attributes: Attributes | None = None) -> Mesh:
+    def _of(cls, vertices: Floats, faces: Ids, attributes: Attributes | None = None,
+            certificate: Certificate | None = None) -> Mesh:
         """Of arrays that the library has made."""
         made = cls.__new__(cls)
         made._formula = None
@@ -253,7 +253,7 @@ class Mesh:
 
     def __reduce__(self) -> Any:
         mesh = self._ready()
-        return Mesh._of, (mesh._vertices, mesh._faces, mesh._certificate, mesh._attributes)
+        return Mesh._of, (mesh._vertices, mesh._faces, mesh._attributes, mesh._certificate)
 
     def __copy__(self) -> Mesh:
         return self

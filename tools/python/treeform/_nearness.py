@@ -66,11 +66,11 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
 # end
 
 
-_OUTSIDE, _INSIDE, _BOUNDARY = 0, 1, 2
+OUTSIDE = 0
 
 
-def _located(mesh: MeshLike, points: ArrayLike,
-             progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
+def located(mesh: MeshLike, points: ArrayLike,
+            progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
     """Raises NotSolidError where the mesh is open."""
     try:
         return _core.locate(held(mesh), _arrays.points(points, "points"), progress=progress)
@@ -80,57 +80,60 @@ def _located(mesh: MeshLike, points: ArrayLike,
         raise
 
 
+# made of functions:
+#   contains locate winding_number
 def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
-    """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface. Exact,
-    for every point.
-
-    Raises NotSolidError where the mesh is open, ValueError naming what is not finite.
+    """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface: inside
+    is where the winding number is not 0. Exact, for every point. Raises NotSolidError where the
+    mesh is open. For other errors and cost, see `locate`.
 
     >>> import treeform
     >>> treeform.contains(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
     array([ True,  True, False])
     """
-    where, _ = _located(mesh, points, progress)
-    return np.asarray(where != _OUTSIDE)
+    return np.asarray(located(mesh, points, progress)[0] != OUTSIDE)
 
 
 def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.int8]:
-    """(n,) int8: 1 where a point is strictly inside a closed mesh, 0 on its surface, -1 outside.
-    Exact.
+    """Where a point is with respect to a closed mesh.
+
+    Exact on the coordinates as given, for every point. The crossings of one ray along x are
+    counted. An edge that the ray grazes is treated as lying to one side, by a rule that all faces
+    share, so no second ray is needed. Points with equal coordinates are one vertex.
+
+    Returns (n,) int8: 1 where a point is strictly inside, 0 on the surface, -1 outside. Raises
+    NotSolidError where the mesh is open.
+
+    points: (n, 3)
+
+    Raises ValueError when the mesh is open, naming an open edge, or naming a face with a corner out
+    of range or not finite, or the point that is not finite.
+
+    Cost: O(F log F) for the indexes, which a `Mesh` keeps; O(log F + B) a point, for the B faces
+    whose boxes meet the ray from the point along +x.
 
     >>> import treeform
     >>> treeform.locate(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
     array([ 1,  0, -1], dtype=int8)
     """
-    where, _ = _located(mesh, points, progress)
-    return np.array([-1, 1, 0], np.int8)[where]
+    return np.array([-1, 1, 0], np.int8)[located(mesh, points, progress)[0]]
 
 
 def winding_number(mesh: MeshLike, points: ArrayLike, *,
                    progress: Progress = None) -> NDArray[np.int32]:
     """(n,) int32: how often a closed mesh winds around each of `points` (n, 3); 0 on the surface.
-    Exact.
+    Exact. Raises NotSolidError where the mesh is open.
 
     >>> import treeform
     >>> treeform.winding_number(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [2, 0, 0]])
     array([1, 0], dtype=int32)
     """
-    _, winding = _located(mesh, points, progress)
-    return np.asarray(winding)
+    return np.asarray(located(mesh, points, progress)[1])
+# end
 
 
-def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
-    """(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; positive
-    inside, as in trimesh, and exactly 0 on the surface. The sign is exact.
-
-    `deviation` has the other sign, that of metrology: negative inside.
-
-    Raises NotSolidError where the mesh is open.
-
-    >>> import treeform
-    >>> treeform.signed_distance(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.75], [0, 0, 3]])
-    array([ 0.25, -2.  ])
-    """
+def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
+    """Positive inside."""
     cloud = _arrays.points(points, "points")
     if len(cloud) == 0:
         return np.empty(0)
@@ -141,6 +144,28 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     if not made.is_signed:
         raise NotSolidError(as_mesh(mesh).solid_certificate, True)
     return np.asarray(-made.distances + 0.0)
+
+
+# made of functions:
+#   signed_distance
+def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
+    """(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; positive
+    inside, as in trimesh, and exactly 0 on the surface. The sign is exact. `deviation` has the
+    other sign, that of metrology: negative inside. Raises NotSolidError where the mesh is open.
+
+    Raises ValueError for a point of `a` that is not finite, a face of `b` as `closest_point`, a
+    band that is NaN or the wrong way round, or more bins than 2^20.
+
+    Cost: `closest_point` for each point, in an order of space; and for signs a winding number for
+    one point in 1024, and the faces between neighbors for the others. A copy of `b` where there are
+    several.
+
+    >>> import treeform
+    >>> treeform.signed_distance(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.75], [0, 0, 3]])
+    array([ 0.25, -2.  ])
+    """
+    return distances(mesh, points, progress)
+# end
 
 
 class RayHits(NamedTuple):
@@ -210,16 +235,9 @@ class AllRayHits(NamedTuple):
         return tuple_repr(self)
 
 
-def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
-                t_max: float = np.inf, progress: Progress = None) -> AllRayHits:
-    """All faces that each ray hits, in the exact order along the ray, then by number.
-
-    >>> import treeform
-    >>> cube = treeform.read("data/cube.stl")
-    >>> locations, ray, face = treeform.raycast_all(cube, [[0.5, 0.25, 3]], [[0, 0, -1]])
-    >>> locations.tolist()
-    [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
-    """
+def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float,
+             progress: Progress) -> AllRayHits:
+    """With the points hit."""
     start, along = _arrays.points(origins, "origins"), _arrays.points(directions, "directions")
     t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max,
                                     progress=progress)
@@ -227,7 +245,25 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
 
 
 # made of functions:
-#   raycast_any
+#   raycast_all raycast_any
+def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
+                t_max: float = np.inf, progress: Progress = None) -> AllRayHits:
+    """All faces that each ray hits, in the exact order along the ray, then by number.
+
+    origins: (n, 3)
+    directions: (n, 3) of any length.
+    t_min: what is hit before origin + t_min direction does not count.
+    t_max: nor what is hit beyond this.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> locations, ray, face = treeform.raycast_all(cube, [[0.5, 0.25, 3]], [[0, 0, -1]])
+    >>> locations.tolist()
+    [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
+    """
+    return all_hits(mesh, origins, directions, t_min, t_max, progress)
+
+
 def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
                 t_max: float = np.inf, progress: Progress = None) -> NDArray[np.bool_]:
     """(n,) bool: whether each ray hits any face. Exact.

@@ -268,7 +268,7 @@ class ConvexHull(Result):
 
 
 # made of functions:
-#   convex_hull rounded find_rounding_defects
+#   convex_hull rounded find_rounding_defects join_equal_points
 def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
     """The convex hull of `points`, exact on the coordinates as given: no point is outside the plane
     of a face, and faces belong to one side if and only if they are exactly coplanar. Of equal
@@ -326,16 +326,20 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
     """
     return _core.find_rounding_defects(held(mesh), _arrays.points(placed, "placed"),
                                        progress=progress)
-# end
 
 
 def join_equal_points(mesh: MeshLike, *, progress: Progress = None) -> Mesh:
-    """The mesh with vertices of equal coordinates joined. Faces keep their order and number.
+    """`mesh` with equal points joined. Points are in the order in which they first appear, with the
+    coordinates of the first, bit for bit. Nothing is dropped: faces keep their order, even those
+    that now repeat a corner, and points that no face uses stay.
+
+    Raises ValueError for more than 2^32 - 1 points, or naming the lowest face with a corner out of
+    range.
 
     >>> import treeform
     >>> soup = treeform.read("data/cube.stl", join=False)
     >>> soup, treeform.join_equal_points(soup)
     (Mesh(36 vertices, 12 faces), Mesh(8 vertices, 12 faces))
     """
-    points, faces, data = _core.join_equal_points(held(mesh), progress=progress)
-    return Mesh._of(points, faces, None, data)
+    return Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))
+# end

@@ -199,7 +199,8 @@ def _settings(arguments: dict[str, Any]) -> _core.StreamSettings:
 def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float = 0.0, *,
                 relative: bool = False, rule: str = "first", keep: str = "first",
                 keep_by: str = "", order: str = "given", order_by: str = "",
-                same: Mapping[str, float] | None = None, keep_seams: bool = False, across: Iterable[str] = (),
+                same: Mapping[str, float] | None = None, keep_seams: bool = False,
+                 across: Iterable[str] = (),
                 keep_degenerate: bool = False, as_las: bool = False, removed: Path = "",
                 label: str = "", withhold: bool = False, memory: int = 0, folder: Path = "",
                 points_per_tile: int = 0, columns: Columns | None = None, mixed: bool = False,
@@ -274,28 +275,19 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
     def __init__(self, files: Union[Path, Iterable[Path]], tolerance: float = 0.0, *,
                  relative: bool = False, rule: str = "first", keep: str = "first",
                  keep_by: str = "", order: str = "given", order_by: str = "",
-                 same: Mapping[str, float] | None = None, keep_seams: bool = False, across: Iterable[str] = (),
+                 same: Mapping[str, float] | None = None, keep_seams: bool = False,
+                 across: Iterable[str] = (),
                  keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
                  folder: Path = "", points_per_tile: int = 0, columns: Columns | None = None,
                  mixed: bool = False, progress: Progress = None) -> None:
         files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
         across = _arrays.several(across, "across")
         how = _settings(locals())
-        super().__init__(
-            _core.weld_of(how, progress=progress), files, tolerance, relative=relative,
-            rule=rule, keep=keep, keep_by=keep_by, order=order, order_by=order_by, same=same,
-            keep_seams=keep_seams, across=across, keep_degenerate=keep_degenerate, as_las=as_las,
-            memory=memory, folder=folder, points_per_tile=points_per_tile, columns=columns,
-            mixed=mixed)
+        super().__init__(_core.weld_of(how, progress=progress), locals())
 
     def scatter(self, *, progress: Progress = None) -> int:
         """Gives each tile its points, unless they have them. Returns the number of tiles."""
         return self._work.scatter(progress=progress)
-
-    @property
-    def tiles(self) -> int:
-        """The number of tiles, once they are there."""
-        return self._work.tiles()
 
     def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
         """Welds a tile, from 0, unless that is done."""
@@ -307,7 +299,3 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
         each whole or not at all. Once."""
         return self._work.finish(path_of(out), path_of(removed), _arrays.word(label, "label"),
                                  withhold, progress=progress)
-
-    def remove_folder(self) -> None:
-        """Removes the folder of the tiles."""
-        self._work.remove_folder()
