@@ -9,8 +9,9 @@ import re
 from headers import FOLDERS, ROOT, Field
 from python_language import ARGUMENTS, Function, Language, call_text, camel, wrapped
 
-#: What raises ValueError.
-_VALUE_ERRORS = ("std::invalid_argument", "std::length_error")
+#: What exceptions of C++ are in Python.
+_ERRORS = {r"std::(invalid_argument|length_error)": "ValueError", r"\b(io|stream)_error": "FileError",
+           "std::overflow_error": "OverflowError"}
 #: Types of options in Python, where the default of C++ is none of Python's.
 _OPTIONAL = {"transform<3>": "ArrayLike | None", "pair_kinds": "Iterable[str] | None",
              "optional<array<double,2>>": "tuple[float, float] | None",
@@ -48,14 +49,26 @@ class FunctionWriter:
     def __init__(self, language: Language, options: dict[str, str]) -> None:
         self.language, self.options = language, options
         self.docs = read_docs()
-        init = ast.parse((ROOT / "tools/python/treeform/__init__.py").read_text())
-        public = next(one.value for one in init.body if isinstance(one, ast.Assign))
-        self.known = set(ast.literal_eval(public)) | {
+        self.public = {}
+        for path in sorted((ROOT / "tools/python/treeform").glob("_[a-z]*.py")):
+            if found := re.search(r"^__all__ = (\[[^\]]*\])", path.read_text(), re.M):
+                self.public[path.stem] = sorted(ast.literal_eval(found[1]))
+        self.known = set(sum(self.public.values(), [])) | {
             one.name for of in language.results.values() for one in language.attributes(of)} | {
             name for enum in language.enums.values() for name, _ in enum.values} | {
             one.name for one in language.structs["certificate"].fields}
         self.option_names = {"options"} | {
             one.name for name in options for one in language.structs[name].fields} - self.known
+
+    def exports(self) -> str:
+        """What the package exports: the public names of its modules."""
+        text = ""
+        for module, names in self.public.items():
+            line = f"from .{module} import {', '.join(names)}"
+            text += (line if len(line) <= 100 else call_text(
+                f"from .{module} import (", names, ")")) + "\n"
+        all = sorted(f'"{name}"' for name in [*sum(self.public.values(), []), "__version__"])
+        return text + "\n" + call_text("__all__ = [", all, "]") + "\n"
 
     # ---- words ----
 
@@ -97,7 +110,7 @@ class FunctionWriter:
         made = " ".join(kept).strip()
         return made[:-1] + "." if made.endswith(";") else made
 
-    def _paragraphs(self, one: Function, names: set[str]) -> tuple[list[str], str, str]:
+    def _paragraphs(self, one: Function, names: set[str]) -> tuple[list[str], list[str], str]:
         """Of C++: what it does, what it raises, what it costs."""
         name = one.cpp or (re.findall(r"tf::(\w+)\(", one.call) or [one.name])[0]
         text = self.docs[name] if not one.doc or name in self.docs else ""
@@ -106,12 +119,15 @@ class FunctionWriter:
             body = body.replace(f"`{before}`", f"`{after}`")
         said = [one.doc] if one.doc else [
             self.said(" ".join(part.split()), names, one.name) for part in re.split(r"\n\n|\n(?=- )", body)]
-        raises, cost = "", ""
+        raises: list[str] = []
+        cost = ""
         for tag in tags:
             kind, _, rest = " ".join(tag.split()).partition(" ")
-            if kind == "throws" and rest.startswith(_VALUE_ERRORS):
-                what = self.said(rest.partition(" ")[2], names)
-                raises = f"{raises[:-1]}; {what}" if raises and what else raises or what
+            if kind == "throws":
+                for there, here in _ERRORS.items():
+                    rest = re.sub(there, here, rest)
+                what = self.said(rest, names)
+                raises += [what.rstrip(".")] if " " in what and what[0].isupper() else []
             elif kind == "cost":
                 cost = self.said(rest, names)
         return [part for part in [*said, one.also] if part], raises, cost
@@ -199,7 +215,7 @@ class FunctionWriter:
         for i, name in enumerate(sorted(notes, key=order.index)):
             lines += ([""] if i == 0 else []) + wrapped(f"{name}: {notes[name]}", 8, "", 4)
         raised = [_OPEN.get(one.check, "") + _NOT_CERTIFIED] if one.check else []
-        raised += [f"ValueError {raises}"] if raises else []
+        raised += raises
         for part in filter(None, [raised and f"Raises {'; '.join(raised)}", cost and f"Cost: {cost}"]):
             lines += ["", *wrapped(part if part.endswith(".") else part + ".", 4, "")]
         if not example:

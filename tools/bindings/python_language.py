@@ -130,6 +130,7 @@ ARGUMENTS = {
                 '_arrays.floats({0}, "{0}")'),
     "Levels": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike",
                'np.atleast_1d(_arrays.floats({0}, "{0}"))'),
+    "Words": ("const std::vector<std::string>&", "list[str]", "{}", "", ""),
     "Heights": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike | None",
                 "heights_of({})"),
     "Drains": ("const array_of<double>&", "Floats", "rows_of<tf::drain>({})", "ArrayLike",
@@ -252,6 +253,8 @@ class Language:
         text += "\n".join(lines) + '\n    """\n\n'
         for one in own:
             text += f"    {one.name}: {one.annotation}{one.default and ' = ' + one.default}\n"
+        if of.is_tuple:
+            text += "\n    def __repr__(self) -> str:\n        return tuple_repr(self)\n"
         return text
 
     def object_code(self, of: Result) -> str:
@@ -328,11 +331,9 @@ class Language:
         if one.context.startswith("attributes of "):
             operand = one.context[len("attributes of "):]
             many = dict(one.parameters)[operand] in ("Meshes", "Operands")
-            text += f"const carrying attributes({operand if many else '{&' + operand + '}'});\n"
+            text += f"carrying attributes({operand if many else '{&' + operand + '}'});\n"
+            text += f"attributes.keep_apart({how});\n" if how else ""
             context = ", attributes"
-            if how and any(f.name == "keep_cuts" for f in self.structs[dict(
-                    one.parameters)[how]].fields):
-                text += f"{how}.keep_cuts = {how}.keep_cuts || attributes.mixes();\n"
         report = bool(how) and any("progress" in f.type for f in self.structs[dict(
             one.parameters)[how]].fields)
         text += f"return as_python(run([&](const tf::progress_callback&" \

@@ -17,6 +17,18 @@ _RAYS = {"origins": "(n, 3)", "directions": "(n, 3) of any length.",
          "t_max": "nor what is hit beyond this."}
 _MESHES = {"meshes": "each a mesh, or a list of meshes."}
 _VOLUMES = {"volumes": "compute those of two operands, of what is in either, and of what is in both."}
+_WELD = {
+    "same": "vertex properties that must agree, with the largest difference.",
+    "keep_seams": "normals, texture coordinates and colors must agree, except for those in `across`.",
+    "rule": "'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one "
+            "point of all that steps of at most the tolerance link.",
+    "keep": "which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of "
+            "`keep_by`.",
+    "keep_by": "a property of vertices.",
+    "order": "in which 'first' goes through the points: 'given', 'lowest' or 'highest' of `order_by`. "
+             "Needs `keep` 'first'.",
+    "order_by": "a property of vertices.",
+    "across": "properties that `keep_seams` does not look at."}
 _FIXED = "a fixed body, or a list of them."
 
 #: A set operation by its name.
@@ -48,8 +60,8 @@ FUNCTIONS = [
                "that a file of several objects was read to, its objects are the solids, as in "
                "`difference`. See `boolean`."),
     Function("boolean(expression: str, options: boolean_options, **meshes: Mesh) -> BooleanResult",
-             body='_core.boolean([held(mesh) for mesh in meshes.values()], "", expression,\n'
-                  "                      list(meshes), how, progress=progress)",
+             body='_core.boolean_of([held(mesh) for mesh in meshes.values()], "", expression,\n'
+                  "                         list(meshes), how, progress=progress)",
              check="solids", leave="gap",
              also="Attributes of operands are carried over: a face has the values of the face that it "
                   "lies in, a new vertex on a cut interpolated ones. 0 or NaN stand where an operand "
@@ -67,6 +79,13 @@ FUNCTIONS = [
                  "even be closed. Edges are not checked, since the result is open.",
              docs={"keep": "'outside' or 'inside'. A piece on the surface of a solid is inside it, so "
                            "both together are the sheet."}),
+    Function("boolean_of(meshes: Meshes, operation: str, formula: str, names: Words, "
+             "options: boolean_options) -> BooleanResult",
+             "(require_faces(meshes, names), tf::boolean($meshes, expression_of("
+             "operation, formula, names, meshes.size()), options))", "attributes of meshes"),
+    Function("clip_by(meshes: Meshes, operation: str, options: boolean_options) -> BooleanResult",
+             "(require_faces(meshes, {}), tf::clip($meshes, 0, expression_of("
+             "operation, {}, {}, meshes.size()), options))", "attributes of meshes"),
     Function("split(*meshes: Operands, options: boolean_options) -> BooleanResult",
              "tf::split($meshes, options)", "attributes of meshes", check="meshes",
              docs=_MESHES,
@@ -231,21 +250,37 @@ FUNCTIONS = [
     Function("weld(mesh_or_points: Body, options: weld_options(tolerance), "
              "label: ArrayLike = None) -> WeldResult",
              body="welded(mesh_or_points, how, label, progress)",
-             docs={"mesh_or_points": "a mesh, points (n, 3), or anything with `points` or `vertices` "
-                                     "and no faces.",
-                   "same": "vertex properties that must agree, with the largest difference.",
-                   "keep_seams": "normals, texture coordinates and colors must agree, except for "
-                                 "those in `across`.",
-                   "rule": "'first' drops a point when an earlier kept one is within the tolerance; "
-                           "'chain' makes one point of all that steps of at most the tolerance link.",
-                   "keep": "which point of a group stays: 'first', 'last', 'mean', 'lowest' or "
-                           "'highest' of `keep_by`.",
-                   "keep_by": "a property of vertices.",
-                   "order": "in which 'first' goes through the points: 'given', 'lowest' or 'highest' "
-                            "of `order_by`. Needs `keep` 'first'.",
-                   "order_by": "a property of vertices.",
-                   "across": "properties that `keep_seams` does not look at.",
-                   "label": "(n,) numbers; points with different ones are never merged."}),
+             docs=_WELD | {
+                 "mesh_or_points": "a mesh, points (n, 3), or anything with `points` or `vertices` and "
+                                   "no faces.",
+                 "label": "(n,) numbers; points with different ones are never merged."}),
+    Function("weld_stream(files: Path | Iterable[Path], out: Path, "
+             "options: weld_stream_options(tolerance), removed: Path = \"\", label: str = \"\", "
+             "withhold: bool = False, columns: Columns = None, mixed: bool = False, "
+             "communicator: Communicator = None) -> WeldStreamResult",
+             body="streamed(settings_of(files, how, columns, mixed), out, removed, label, withhold,\n"
+                  "                    communicator, progress)",
+             words={"inputs": "files", "welded": "out"},
+             also="The bytes of the outputs are those of `weld` of the whole.",
+             docs=_WELD | {
+                 "files": "one or several, as one cloud; or one mesh.",
+                 "tolerance": "as for `weld`.",
+                 "keep_degenerate": "keep faces that repeat a corner.",
+                 "as_las": "for `out` in LAS: coordinates, and means of them, are rounded to the steps "
+                           "of that file before anything is decided of them.",
+                 "memory": "bytes that the process may take; 0: three quarters of the machine's.",
+                 "folder": "for tiles; empty: beside the first input. Where a run was killed, the same "
+                           "call goes on.",
+                 "removed": "a file for the dropped points.",
+                 "label": "write all points, with the group of each in a property of this name.",
+                 "withhold": "write all points, with LAS's flag \"withheld\" of those dropped.",
+                 "columns": "as for `read`.",
+                 "mixed": "LAS files may have other reference systems or time types than the first, "
+                          "whose are written.",
+                 "communicator": "ranks that do it together, each its share, in a folder that all see: "
+                                 "anything with `rank`, `size` and `allgather`, such as "
+                                 "`mpi4py.MPI.COMM_WORLD`. All call the same. Where one fails or is "
+                                 "interrupted, all raise at the next collective call."}),
     # _nearness
     Function("closest_point(mesh: Mesh, points: Points, *, radius: float = np.inf)"
              " -> tuple[Floats, Floats, Ids]", made="ClosestPoints", value="ClosestPoints(*{})",

@@ -1,9 +1,6 @@
 #include "bindings.hpp"
 
 namespace binding {
-namespace {
-
-/// What is made of so many operands: by name, or by a formula in letters or names.
 tf::boolean_expression expression_of(const std::string& operation, const std::string& formula,
                                      const std::vector<std::string>& names, std::size_t count) {
     if (operation == "union") return tf::boolean_expression::union_of(count);
@@ -18,6 +15,8 @@ void require_faces(const held_meshes& meshes, const std::vector<std::string>& na
     for (std::size_t i = 0; i < meshes.size(); ++i)
         require_faces(*meshes[i], names.empty() ? "operand " + std::to_string(i) : names[i]);
 }
+
+namespace {
 
 /// The objects of a mesh, in order, each with what it has; none where they cannot be told apart.
 py::list objects_of(const held_mesh& mesh) {
@@ -40,49 +39,8 @@ py::list objects_of(const held_mesh& mesh) {
     return objects;
 }
 
-/// What options say of the attributes of operands.
-struct merging {
-    merging(tf::boolean_options& options, const held_meshes& meshes)
-        : attributes(meshes), groups(attributes.face_groups()) {
-        attributes.keep_apart(options);
-        options.face_groups = groups;
-    }
-    carrying attributes;
-    std::vector<std::uint32_t> groups;
-};
-
-py::object boolean(const held_meshes& meshes, const std::string& operation,
-                   const std::string& formula, const std::vector<std::string>& names,
-                   tf::boolean_options options) {
-    const tf::boolean_expression expression =
-        expression_of(operation, formula, names, meshes.size());
-    require_faces(meshes, names);
-    const merging with(options, meshes);
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::boolean(refs_of(meshes), expression, options);
-                     }),
-                     with.attributes);
-}
-
-py::object clip(const held_meshes& meshes, const std::string& operation,
-                tf::boolean_options options) {
-    const tf::boolean_expression expression = expression_of(operation, {}, {}, meshes.size());
-    require_faces(meshes, {});
-    const merging with(options, meshes);
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::clip(refs_of(meshes), 0, expression, options);
-                     }),
-                     with.attributes);
-}
-
 }  // namespace
 
-void add_booleans(py::module_& module) {
-    module.def("objects_of", &objects_of);
-    add_job(module, "boolean", &boolean);
-    add_job(module, "clip", &clip);
-}
+void add_booleans(py::module_& module) { module.def("objects_of", &objects_of); }
 
 }  // namespace binding

@@ -78,16 +78,6 @@ carrying::carrying(const held_meshes& operands) {
     sources_ = std::move(sources);
 }
 
-void carrying::keep_apart(tf::boolean_options& options) const {
-    if (!options.simplify && sources_.has_vertex_values()) options.keep_cuts = true;
-}
-
-bool carrying::mixes() const { return sources_.merging_mixes_values(); }
-
-std::vector<std::uint32_t> carrying::face_groups() const {
-    return sources_.face_groups(true, false);
-}
-
 template <class Carry>
 py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
     if (sources_.all().empty()) return py::none();

@@ -16,12 +16,17 @@ class carrying {
     /// \throws std::invalid_argument where attributes are not those of the mesh that has them
     explicit carrying(const held_meshes& operands);
 
-    /// Keeps all cuts where vertices have values, unless `simplify` is asked for.
-    void keep_apart(tf::boolean_options& options) const;
-    /// Whether merging faces may mix values, of one group or not.
-    [[nodiscard]] bool mixes() const;
-    /// `boolean_options::face_groups` for merging coplanar faces: only those of equal values.
-    [[nodiscard]] std::vector<std::uint32_t> face_groups() const;
+    /// Has options merge no faces of different values, nor any where vertices have values, unless
+    /// `simplify` is asked for. They refer to this.
+    template <class Options>
+    void keep_apart(Options& options) {
+        if constexpr (std::is_same_v<Options, tf::boolean_options>) {
+            if (!options.simplify && sources_.has_vertex_values()) options.keep_cuts = true;
+            options.face_groups = groups_ = sources_.face_groups(true, false);
+        } else if constexpr (requires { options.keep_cuts; }) {
+            options.keep_cuts = options.keep_cuts || sources_.merging_mixes_values();
+        }
+    }
 
     /// The attributes of what was made of the operands; None where these have none.
     [[nodiscard]] py::object to(const tf::mesh& made, const tf::carried_elements& elements) const;
@@ -35,6 +40,7 @@ class carrying {
     py::object carried(const tf::mesh& made, Carry&& carry) const;
 
     std::vector<tf::mesh_file> files_;
+    std::vector<std::uint32_t> groups_;
     tf::carry_sources sources_{
         std::vector<tf::carry_source>{}};  ///< empty: there is nothing to carry
 };

@@ -24,6 +24,11 @@ inline void require_faces(const held_mesh& mesh, const std::string& name) {
                                     " points without a face are no solid");
 }
 
+void require_faces(const held_meshes& meshes, const std::vector<std::string>& names);
+/// What is made of so many operands: by name, or by a formula in letters or names.
+tf::boolean_expression expression_of(const std::string& operation, const std::string& formula,
+                                     const std::vector<std::string>& names, std::size_t count);
+
 /// The pieces, and the certificate of all.
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes);
 /// As columns: of layers, of loops, of points.

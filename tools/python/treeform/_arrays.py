@@ -8,8 +8,7 @@ from typing import Any, Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Floats", "Ids", "NONE", "conditions", "faces", "floats", "ids", "is_pair", "matrix", "number",
-           "path_of", "points", "rows", "several", "triangles_of", "vector", "word", "words"]
+__all__ = ["NONE"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint32]

@@ -113,10 +113,10 @@ class NearestPoints(NamedTuple):
     distance: float
     face_a: int
     face_b: int
-# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
+# end
 
 
 # made of functions:

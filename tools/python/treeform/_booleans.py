@@ -14,8 +14,8 @@ from ._mesh import Mesh, MeshLike, MeshResult, held, listed
 from ._progress import Progress
 from ._results import Certificate
 
-__all__ = ["BooleanResult", "MeshesLike", "boolean", "check_solid", "clip", "difference",
-           "intersection", "split", "symmetric_difference", "union"]
+__all__ = ["BooleanResult", "boolean", "check_solid", "clip", "difference", "intersection", "split",
+           "symmetric_difference", "union"]
 
 
 # made of results:
@@ -62,7 +62,7 @@ def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
     operands = operands_of(meshes)
     if len(operands) == 1 and operation != "union":
         operands = _core.objects_of(operands[0]) or operands
-    return _core.boolean(operands, operation, "", [], how, progress=progress)
+    return _core.boolean_of(operands, operation, "", [], how, progress=progress)
 
 
 def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.BooleanOptions,
@@ -71,7 +71,7 @@ def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.Bool
     if keep not in ("outside", "inside"):
         raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
     operation = "difference" if keep == "outside" else "intersection"
-    return _core.clip([held(sheet), *operands_of(solids)], operation, how, progress=progress)
+    return _core.clip_by([held(sheet), *operands_of(solids)], operation, how, progress=progress)
 
 
 # made of functions:
@@ -291,8 +291,8 @@ def boolean(expression: str, *, inside: str = "nonzero", precision: str = "float
     0.375
     """
     how = options(_core.BooleanOptions, locals())
-    return checked(_core.boolean([held(mesh) for mesh in meshes.values()], "", expression,
-                      list(meshes), how, progress=progress), check)
+    return checked(_core.boolean_of([held(mesh) for mesh in meshes.values()], "", expression,
+                         list(meshes), how, progress=progress), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: str = "nonzero",

@@ -18,8 +18,8 @@ from ._repair import MadeMesh
 from ._results import Result
 
 __all__ = ["CutPiece", "MassProperties", "MeshPart", "Section", "SectionLoop", "components",
-           "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights", "mass_properties", "section",
-           "submesh", "transformed"]
+           "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights", "mass_properties",
+           "section", "submesh", "transformed"]
 
 
 @dataclass(frozen=True, repr=False)

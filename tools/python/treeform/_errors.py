@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ._results import Certificate
 
-__all__ = ["Cancelled", "CertificateError", "Error", "FileError", "file_error", "NotCertifiedError",
-           "NotSolidError", "checked", "name_argument", "need", "options", "require", "settings"]
+__all__ = ["Cancelled", "CertificateError", "Error", "FileError", "NotCertifiedError",
+           "NotSolidError"]
 
 _Made = TypeVar("_Made")
 

@@ -16,7 +16,7 @@ from ._mesh import Mesh, MeshLike, as_mesh, listed
 from ._progress import Progress
 from ._results import Result
 
-__all__ = ["Columns", "PartsLike", "Path", "Written", "named_columns", "read", "write"]
+__all__ = ["Written", "read", "write"]
 
 Path = Union[str, "os.PathLike[str]"]
 Columns = Mapping[str, Union[str, int]]

@@ -174,6 +174,9 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
     communicator: ranks that do it together, as for `weld_stream`; the first one gets the result,
         all others an empty one.
 
+    Raises FileError when the file cannot be read or is of another format; FileError for the folder;
+    ValueError for more than 2^32 - 1 triangles.
+
     Cost: time as `self_intersections`; memory as the options say, plus what is found; 60 to 100
     bytes on the disk for each tile that a face reaches into, and 24 a vertex of a PLY.
 

@@ -17,8 +17,7 @@ from ._results import Certificate, Result
 if TYPE_CHECKING:
     from ._show import View
 
-__all__ = ["Body", "HasCells", "HasFaces", "HasMesh", "HasPolys", "HasTensors", "HasTriangles", "Mesh",
-           "MeshLike", "MeshResult", "as_mesh", "bodies", "cloud_of", "held", "held_body", "listed", "points_of"]
+__all__ = ["Attributes", "Mesh", "MeshLike"]
 
 
 class HasFaces(Protocol):

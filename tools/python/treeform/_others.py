@@ -12,8 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays
 from ._arrays import Floats, Ids
 
-__all__ = ["arrays_of", "to_meshio", "to_open3d", "to_pyvista", "to_trimesh", "to_vtk"]
-
 
 def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
     """Vertices and faces of whatever is taken for a mesh."""

@@ -36,6 +36,9 @@ class SearchEffort(NamedTuple):
     pairs: int
     bound: int
     cut: int
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
 # end
 
 
@@ -437,7 +440,7 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
 
     Raises ValueError naming a point that is not finite or a face with a corner out of range; for a
     direction that is zero where one is needed; for options not finite, a negative tolerance, and an
-    overhang angle out of range.
+    overhang angle out of range; OverflowError for coordinates too large to be turned.
 
     Cost: that of `convex_hull`, and O(F) for the center of mass and each side with an overhang.
 
@@ -554,7 +557,9 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError naming a point that is not finite or a face with a corner out of range, and
-    for an option that is out of its range.
+    for an option that is out of its range; OverflowError when the matrix, a point as written, or
+    the square of a distance, in about the diagonals of the fixed mesh, is beyond the range of
+    double.
 
     Cost: the index of `closest_point` over the fixed mesh, a search for all moving points at the
     start and at the end, and for the samples in each step; of a fixed cloud, only for those whose
@@ -588,6 +593,9 @@ class PackedPart(NamedTuple):
     plate: int
     matrix: Floats
     mesh: Mesh
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
 # end
 
 
@@ -721,10 +729,10 @@ class Depth(NamedTuple):
     depth: float
     move: Floats
     effort: SearchEffort
-# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
+# end
 
 
 # made of functions:
@@ -779,10 +787,10 @@ class Impact(NamedTuple):
     time: float
     faces: Ids
     points: Floats
-# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
+# end
 
 
 # made of functions:

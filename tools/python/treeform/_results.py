@@ -9,7 +9,7 @@ import numpy as np
 
 from ._arrays import Floats, Ids
 
-__all__ = ["Certificate", "Result", "brief", "tuple_repr"]
+__all__ = ["Certificate"]
 
 
 def brief(value: Any) -> str:

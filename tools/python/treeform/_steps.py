@@ -11,8 +11,6 @@ from ._errors import Cancelled, Error
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = ["InSteps", "Communicator", "in_communicator"]
-
 
 class Communicator(Protocol):
     """Processes that work together, such as `mpi4py.MPI.COMM_WORLD`."""

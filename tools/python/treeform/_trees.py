@@ -12,7 +12,7 @@ from ._arrays import Floats
 from ._progress import Progress, part
 from ._results import tuple_repr
 
-__all__ = ["BoxTree", "Neighbors", "Numbers", "PointTree"]
+__all__ = ["BoxTree", "Neighbors", "PointTree"]
 
 Numbers = NDArray[np.int64]
 

@@ -5,9 +5,38 @@ namespace binding {
 
 namespace {
 
+py::object boolean_of(const held_meshes& meshes, const std::string& operation,
+                      const std::string& formula, const std::vector<std::string>& names,
+                      tf::boolean_options options) {
+    carrying attributes(meshes);
+    attributes.keep_apart(options);
+    return as_python(
+        run([&](const tf::progress_callback& report) {
+            options.progress = report;
+            return (require_faces(meshes, names),
+                    tf::boolean(refs_of(meshes),
+                                expression_of(operation, formula, names, meshes.size()), options));
+        }),
+        attributes);
+}
+
+py::object clip_by(const held_meshes& meshes, const std::string& operation,
+                   tf::boolean_options options) {
+    carrying attributes(meshes);
+    attributes.keep_apart(options);
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return (
+                             require_faces(meshes, {}),
+                             tf::clip(refs_of(meshes), 0,
+                                      expression_of(operation, {}, {}, meshes.size()), options));
+                     }),
+                     attributes);
+}
+
 py::object split(const held_meshes& meshes, tf::boolean_options options) {
-    const carrying attributes(meshes);
-    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    carrying attributes(meshes);
+    attributes.keep_apart(options);
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::split(refs_of(meshes), options);
@@ -39,8 +68,8 @@ py::object layer_heights(const held_mesh& mesh, double thickness, const array_of
 
 py::object cut(const held_mesh& mesh, const array_of<double>& normal, const array_of<double>& at,
                const array_of<double>& heights, tf::cut_options options) {
-    const carrying attributes({&mesh});
-    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    carrying attributes({&mesh});
+    attributes.keep_apart(options);
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::cut(mesh.ref(), {point_of(at), point_of(normal)},
@@ -51,8 +80,8 @@ py::object cut(const held_mesh& mesh, const array_of<double>& normal, const arra
 
 py::object cut_to_fit(const held_mesh& mesh, const array_of<double>& size,
                       tf::cut_options options) {
-    const carrying attributes({&mesh});
-    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    carrying attributes({&mesh});
+    attributes.keep_apart(options);
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::cut_to_fit(mesh.ref(), point_of(size), options);
@@ -62,7 +91,7 @@ py::object cut_to_fit(const held_mesh& mesh, const array_of<double>& size,
 
 py::object cut_along(const held_mesh& mesh, const array_of<double>& values,
                      const array_of<double>& levels) {
-    const carrying attributes({&mesh});
+    carrying attributes({&mesh});
     return as_python(run([&](const tf::progress_callback& report) {
                          return tf::cut_along(mesh.ref(), rows_of<double>(values),
                                               rows_of<double>(levels), {.progress = report});
@@ -71,14 +100,15 @@ py::object cut_along(const held_mesh& mesh, const array_of<double>& values,
 }
 
 py::object components(const held_mesh& mesh, tf::components_options options) {
-    const carrying attributes({&mesh});
+    carrying attributes({&mesh});
+    attributes.keep_apart(options);
     return as_python(
         run([&](const tf::progress_callback&) { return tf::components(mesh.ref(), options); }),
         attributes);
 }
 
 py::object submesh(const held_mesh& mesh, const ids_array& faces) {
-    const carrying attributes({&mesh});
+    carrying attributes({&mesh});
     return as_python(run([&](const tf::progress_callback&) {
                          return tf::submesh(mesh.ref(), rows_of<std::uint32_t>(faces));
                      }),
@@ -122,7 +152,8 @@ py::object thicken(const held_mesh& mesh, double thickness, const std::string& s
 }
 
 py::object simplify(const held_mesh& mesh, double max_distance, tf::simplify_options options) {
-    const carrying attributes({&mesh});
+    carrying attributes({&mesh});
+    attributes.keep_apart(options);
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::simplify(mesh.ref(), max_distance, options);
@@ -151,8 +182,8 @@ py::object isolines(const held_mesh& mesh, const array_of<double>& values,
 
 py::object resolve_self_intersections(const held_mesh& mesh, const std::string& mode,
                                       tf::resolve_options options) {
-    const carrying attributes({&mesh});
-    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    carrying attributes({&mesh});
+    attributes.keep_apart(options);
     return as_python(
         run([&](const tf::progress_callback& report) {
             options.progress = report;
@@ -164,8 +195,8 @@ py::object resolve_self_intersections(const held_mesh& mesh, const std::string& 
 }
 
 py::object repair(const held_mesh& mesh, tf::repair_options options) {
-    const carrying attributes({&mesh});
-    options.keep_cuts = options.keep_cuts || attributes.mixes();
+    carrying attributes({&mesh});
+    attributes.keep_apart(options);
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::repair(mesh.ref(), options);
@@ -401,6 +432,8 @@ py::object clash_in_poses(const held_meshes& parts, const array_of<double>& pose
 }  // namespace
 
 void add_functions(py::module_& module) {
+    add_job(module, "boolean_of", &boolean_of);
+    add_job(module, "clip_by", &clip_by);
     add_job(module, "split", &split);
     add_job(module, "check_solid", &check_solid);
     add_job(module, "section", &section);
