@@ -9,9 +9,7 @@ namespace binding {
 
 void add_assembly(py::module_& module);
 void add_booleans(py::module_& module);
-void add_boxes(py::module_& module);
 void add_carrying(py::module_& module);
-void add_clouds(py::module_& module);
 void add_cuts(py::module_& module);
 void add_functions(py::module_& module);
 void add_files(py::module_& module);
@@ -23,6 +21,7 @@ void add_placement(py::module_& module);
 void add_repair(py::module_& module);
 void add_robots(py::module_& module);
 void add_streams(py::module_& module);
+void add_trees(py::module_& module);
 void add_weld(py::module_& module);
 
 }  // namespace binding

@@ -103,7 +103,6 @@ PYBIND11_MODULE(_core, module) {
     add_nearness(module);
     add_pictures(module);
     add_assembly(module);
-    add_clouds(module);
-    add_boxes(module);
+    add_trees(module);
     add_functions(module);
 }

@@ -193,30 +193,11 @@ class Mesh:
 
         return show(self, *others, **look)
 
-    def to_trimesh(self) -> Any:
-        """A `trimesh.Trimesh` with copies of the arrays, as all that follow; the library has to be
-        installed. A cloud becomes a cloud there."""
-        return _others.to_trimesh(*self._own())
-
-    def to_open3d(self, *, tensor: bool = False) -> Any:
-        """An `open3d.geometry.TriangleMesh`; with `tensor`, one of `open3d.t.geometry`."""
-        return _others.to_open3d(*self._own(), tensor)
-
-    def to_pyvista(self) -> Any:
-        """A `pyvista.PolyData`."""
-        return _others.to_pyvista(*self._own())
-
-    def to_vtk(self) -> Any:
-        """A `vtkPolyData`."""
-        return _others.to_vtk(*self._own())
-
-    def to_meshio(self) -> Any:
-        """A `meshio.Mesh`."""
-        return _others.to_meshio(*self._own())
-
-    def _own(self) -> tuple[Floats, Ids]:
-        mesh = self._ready()
-        return mesh._vertices, mesh._faces
+    to_trimesh = _others.to_trimesh
+    to_open3d = _others.to_open3d
+    to_pyvista = _others.to_pyvista
+    to_vtk = _others.to_vtk
+    to_meshio = _others.to_meshio
 
     def __or__(self, other: MeshLike) -> Mesh:
         return _operation("|", self, other)
