@@ -13,7 +13,9 @@ from python_language import ARGUMENTS, Function, Language, call_text, camel, wra
 _ERRORS = {r"std::(invalid_argument|length_error)": "ValueError", r"\b(io|stream)_error": "FileError",
            "std::overflow_error": "OverflowError"}
 #: Types of options in Python, where the default of C++ is none of Python's.
-_OPTIONAL = {"transform<3>": "ArrayLike | None", "pair_kinds": "Iterable[str] | None",
+_OPTIONAL = {"vector<named_column>": "Columns | None",
+             "optional<array<double,3>>": "Sequence[float] | None",
+             "transform<3>": "ArrayLike | None", "pair_kinds": "Iterable[str] | None",
              "optional<array<double,2>>": "tuple[float, float] | None",
              "vector<weld_condition>": "Mapping[str, float] | None"}
 _EMPTY = {"string": ("str", '""'), "filesystem::path": ("Path", '""'),
@@ -207,9 +209,10 @@ class FunctionWriter:
         text = call_text(f"def {one.name}(", signature, f") -> {returns}:") + "\n"
         said, raises, cost = self._paragraphs(one, names)
         lines: list[str] = []
-        for part in said:
+        for before, part in zip([":", *said], said):
             is_item = part.startswith("- ")
-            lines += ([""] if lines and not is_item else []) + wrapped(
+            goes_on = not lines or is_item and before.startswith("- ") or before.endswith(":")
+            lines += ([] if goes_on else [""]) + wrapped(
                 part, 6 if is_item else 4, "" if lines else '"""', 4)
         order = [part.partition(":")[0].strip("*") for part in signature]
         for i, name in enumerate(sorted(notes, key=order.index)):
@@ -241,7 +244,7 @@ class FunctionWriter:
         text = self.said(self.language.sentence(field, False), names)
         values = self.language.words_of(field.type.removeprefix("optional<").rstrip(">"))
         if annotation.endswith("None"):
-            text = re.sub("(Not given|Default):", "None:", text)
+            text = re.sub("(Not given|Default|`NONE`):", "None:", text)
         return " ".join(filter(None, [values and values + ".", text]))
 
     def block(self, names: list[str], functions: dict[str, Function], before: str) -> str:

@@ -6,7 +6,13 @@ from __future__ import annotations
 from python_language import Attribute, Result
 
 #: Words of C++ in sentences, and those of Python.
-WORDS = {"Precision of the coordinates returned. float32 values are stored as doubles.":
+WORDS = {"columns as `las_header` says": "columns are the fields of its records",
+         "what `las_header` says": "what their records hold",
+         "each of `scene_parts`": "each part",
+         " (`libmesh/attributes/known_columns.cpp` is the table)": "",
+         "Of `file.attributes`, each": "Of `Attributes`, each", "`mesh_file::": "`Attributes.",
+         "`attributes::": "`Attributes.",
+         "Precision of the coordinates returned. float32 values are stored as doubles.":
              "Of the coordinates returned; 'float32' for STL and GLB.",
          "above `plane`": "above a plane", "`relation`": "`measure`", "`subtract`": "`difference`",
          "`point_count`": "the number of vertices", "a prepared mesh": "a `Mesh`",
@@ -356,6 +362,7 @@ STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_val
 
 #: Options by name: structs, and the fields that Python gives in another way, or not at all.
 OPTIONS = {
+    "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
     "offset_options": "", "simplify_options": "face_groups", "thickness_options": "",

@@ -244,6 +244,36 @@ FUNCTIONS = [
                              "same call goes on.",
                    "communicator": "ranks that do it together, as for `weld_stream`; the first one "
                                    "gets the result, all others an empty one."}),
+    # _files
+    Function("read(path: Path | IO[bytes], format: str = \"\", *, join: bool = True, "
+             "options: read_options) -> Mesh", body="read_from(path, format, join, how, progress)",
+             also="Polygons are cut into triangles (`Attributes.stored_face`). A cloud has no faces. "
+                  "DAE and others are read where treeform was built with assimp. Where there is no "
+                  "such file, the error is a FileNotFoundError, too, and so on.",
+             docs={"path": "of the file; or what is open for reading bytes, such as BytesIO.",
+                   "format": "an extension without its dot; empty: the content decides, then the "
+                             "extension.",
+                   "join": "in a format that does not number its vertices (STL) or repeats them (GLB), "
+                           "corners with equal coordinates become one vertex, with the attributes of "
+                           "the first of them. Faces keep the order and the numbers that they have in "
+                           "the file, and vertices, too, in other formats.",
+                   "columns": "of XYZ, PTS and CSV, what columns are: {'x': 'E', 'y': 'N', 'z': 'H'}; a "
+                              "number counts them from 1.",
+                   "drop_nan": "drop points with a NaN or infinite coordinate, and their faces."}),
+    Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
+             " -> Written", body="written(path, mesh, format, how, progress)",
+             words={"file": "mesh"},
+             docs={"path": "of the file; or what is open for writing bytes, such as BytesIO, with "
+                           "`format`.",
+                   "mesh": "one; or several, which become the parts of the file, named \"1\", \"2\", "
+                           "...; or a dict of names and meshes. 3MF and OBJ hold parts; in other "
+                           "formats they are one mesh, and a warning says so. Of several, columns of "
+                           "vertices and faces are left out.",
+                   "rename": "columns of points under another name: {'old': 'new'}.",
+                   "las_offset": "likewise.",
+                   "round": "a mesh whose coordinates were certified (`Mesh.certificate`) may be "
+                            "rounded further, which can undo what was certified. Otherwise that is an "
+                            "error: ask the operation for `precision='float32'` instead."}),
     # _weld
     Function("count_nearly_equal(points: Points, distance: float) -> int",
              "tf::count_nearly_equal($points, distance)"),

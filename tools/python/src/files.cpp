@@ -26,20 +26,16 @@ py::tuple read_by(bool join, const Take& take) {
 }
 
 py::tuple read(const std::filesystem::path& path, const std::string& format, bool join,
-               const name_pairs& columns, bool drop_nan) {
-    return read_by(join, [&] {
-        return tf::read(path, format, {.columns = columns_of(columns), .drop_nan = drop_nan});
-    });
+               const tf::read_options& options) {
+    return read_by(join, [&] { return tf::read(path, format, options); });
 }
 
 /// `name` stands for the file in errors, and its extension counts.
 py::tuple read_bytes(const py::bytes& bytes, const std::string& name, const std::string& format,
-                     bool join, const name_pairs& columns, bool drop_nan) {
+                     bool join, const tf::read_options& options) {
     const auto content = static_cast<std::string_view>(bytes);
-    return read_by(join, [&] {
-        return tf::read(std::as_bytes(std::span(content)), name, format,
-                        {.columns = columns_of(columns), .drop_nan = drop_nan});
-    });
+    return read_by(
+        join, [&] { return tf::read(std::as_bytes(std::span(content)), name, format, options); });
 }
 
 /// Meshes as the parts of one file: its points, faces and all else.
@@ -83,21 +79,7 @@ tf::write_result write_to(const std::filesystem::path& path, const held_mesh& me
 }
 
 py::object write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
-                 bool certified, const std::string& format, bool ascii,
-                 const std::optional<std::string>& precision, bool round,
-                 const std::vector<std::string>& drop, const name_pairs& rename,
-                 const std::optional<std::array<double, 3>>& las_scale,
-                 const std::optional<std::array<double, 3>>& las_offset) {
-    tf::write_options options{.format = format,
-                              .ascii = ascii,
-                              .drop = drop,
-                              .rename = columns_of(rename),
-                              .las_scale = las_scale,
-                              .las_offset = las_offset,
-                              .round = round};
-    if (precision)
-        options.precision =
-            choice<tf::precision>("precision", words_of<tf::precision>::all, *precision);
+                 bool certified, tf::write_options options) {
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };

@@ -192,6 +192,12 @@ def conditions(same: Mapping[str, float] | None, name: str) -> list[tuple[str, f
             for key, within in (same or {}).items()]
 
 
+def columns_of(columns: Mapping[str, str | int] | None, name: str) -> list[tuple[str, str]]:
+    """New names of columns, and those that they had; `rename` has them the other way round."""
+    pairs = [(a, str(b)) for a, b in (columns or {}).items()]
+    return [(b, a) for a, b in pairs] if name == "rename" else pairs
+
+
 def path_of(path: str | os.PathLike[str], name: str = "path") -> str:
     """`path` as the library takes it."""
     text = os.fspath(path)

@@ -1,6 +1,6 @@
 # The extension module, as the Python files of the package use it.
 
-from typing import Any, Callable, Optional, Sequence
+from typing import Any, Callable, Mapping, Optional, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -142,18 +142,14 @@ def thread_count() -> int: ...
 def version() -> str: ...
 def lists(begin: Numbers, ids: Numbers) -> list[list[int]]: ...
 def turned(body: HeldMesh, matrix: Floats) -> tuple[Ids, Attributes | None]: ...
-def read(path: str, format: str, join: bool, columns: list[tuple[str, str]], drop_nan: bool,
+def read(path: str, format: str, join: bool, options: ReadOptions,
          progress: Watched = ...) -> tuple[Floats, Ids, Attributes]: ...
-def read_bytes(content: bytes, name: str, format: str, join: bool,
-               columns: list[tuple[str, str]], drop_nan: bool,
+def read_bytes(content: bytes, name: str, format: str, join: bool, options: ReadOptions,
                progress: Watched = ...) -> tuple[Floats, Ids, Attributes]: ...
 def scene(meshes: Sequence[HeldMesh], data: Sequence[Optional[Attributes]], names: Sequence[str],
           progress: Watched = ...) -> tuple[Floats, Ids, Attributes]: ...
-def write(path: str, mesh: HeldMesh, data: Optional[Attributes], certified: bool, format: str,
-          ascii: bool, precision: Optional[str], round: bool, drop: list[str],
-          rename: list[tuple[str, str]], las_scale: Optional[list[float]],
-          las_offset: Optional[list[float]],
-          progress: Watched = ...) -> WeldStreamResult: ...
+def write(path: str, mesh: HeldMesh, data: Optional[Attributes], certified: bool,
+          options: WriteOptions, progress: Watched = ...) -> Written: ...
 def intersection_paths(mesh: HeldMesh, pairs: Ids,
                        kinds: Bytes, progress: Watched = ...) -> tuple[Floats, list[tuple[Ids, bool]]]: ...
 def objects_of(mesh: HeldMesh) -> list[HeldMesh]: ...
@@ -186,6 +182,20 @@ def mate_features(moving: HeldMesh, fixed: list[HeldMesh], kind: str, origin: Fl
                   options: FeatureMateOptions, progress: Watched = ...) -> Placement: ...
 
 # made of options:
+class ReadOptions:
+    names: tuple[str, ...]
+    defaults: dict[str, Any]
+    def __init__(self, *, columns: Optional[Mapping[str, str | int]] = ...,
+                 drop_nan: bool = ...) -> None: ...
+
+class WriteOptions:
+    names: tuple[str, ...]
+    defaults: dict[str, Any]
+    def __init__(self, *, format: str = ..., ascii: bool = ..., precision: Optional[str] = ...,
+                 drop: list[str] = ..., rename: Optional[Mapping[str, str | int]] = ...,
+                 las_scale: Optional[Sequence[float]] = ...,
+                 las_offset: Optional[Sequence[float]] = ..., round: bool = ...) -> None: ...
+
 class BooleanOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]

@@ -9,9 +9,9 @@ from typing import Any, Iterable, Mapping
 from numpy.typing import ArrayLike
 
 from . import _arrays, _core
-from ._arrays import Floats, Ids, path_of
+from ._arrays import Floats, Ids, columns_of, path_of
 from ._errors import options, settings
-from ._files import Columns, Path, named_columns
+from ._files import Columns, Path
 from ._mesh import Body, Mesh, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
 from ._results import Result
@@ -193,7 +193,7 @@ def settings_of(files: Path | Iterable[Path], how: _core.WeldStreamOptions, colu
     if not paths:
         raise ValueError("files: there are none")
     return settings(_core.StreamSettings, [path_of(path) for path in paths], how,
-                    named_columns(columns), mixed)
+                    columns_of(columns, "columns"), mixed)
 
 
 def streamed(how: _core.StreamSettings, out: Path, removed: Path, label: str, withhold: bool,
