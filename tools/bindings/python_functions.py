@@ -211,7 +211,7 @@ class FunctionWriter:
         lines: list[str] = []
         for before, part in zip([":", *said], said):
             is_item = part.startswith("- ")
-            goes_on = not lines or is_item and before.startswith("- ") or before.endswith(":")
+            goes_on = not lines or is_item and (before.startswith("- ") or before.endswith(":"))
             lines += ([] if goes_on else [""]) + wrapped(
                 part, 6 if is_item else 4, "" if lines else '"""', 4)
         order = [part.partition(":")[0].strip("*") for part in signature]

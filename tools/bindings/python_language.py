@@ -130,6 +130,8 @@ ARGUMENTS = {
                 '_arrays.floats({0}, "{0}")'),
     "Levels": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike",
                'np.atleast_1d(_arrays.floats({0}, "{0}"))'),
+    "PairIds": ("const ids_array&", "Ids", "{}", "", ""),
+    "Kinds": ("const array_of<std::uint8_t>&", "Bytes", "{}", "", ""),
     "Words": ("const std::vector<std::string>&", "list[str]", "{}", "", ""),
     "Heights": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike | None",
                 "heights_of({})"),

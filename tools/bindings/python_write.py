@@ -15,7 +15,7 @@ PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
 #: Modules whose results are in `places.cpp`.
 PLACES = ("_assembly", "_nearness", "_placement")
-BLOCK = re.compile(r"^# made of (results|options|functions|names)[^\n]*:\n((?:#   [^\n]+\n)*).*?^# end\n",
+BLOCK = re.compile(r"^# made of (results|options|functions|names|imports)[^\n]*:\n((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
 
 
@@ -38,6 +38,10 @@ class Writer:
         if kind == "options":
             return head + "".join(self.language.option_stub(name, leave)
                                   for name, leave in self.options.items()).rstrip("\n") + "\n# end\n"
+        if kind == "imports":
+            modules = sorted({(one.module, one.name) for one in self.language.results.values()})
+            return head + "".join(f"from .{module} import {name}\n"
+                                  for module, name in modules) + "# end\n"
         if kind == "names":
             return head + self.package.exports() + "# end\n"
         if kind == "functions" and names:

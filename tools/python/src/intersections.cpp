@@ -2,7 +2,6 @@
 #include "steps.hpp"
 
 namespace binding {
-namespace {
 
 constexpr auto& kind_words = words_of<tf::pair_kind>::all;
 
@@ -19,6 +18,8 @@ std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::
     }
     return all;
 }
+
+namespace {
 
 py::object self_intersections_of_file(const std::filesystem::path& path,
                                       tf::stream_search_options options,
@@ -63,38 +64,11 @@ void add_search_in_steps(py::module_& module) {
     add_job(module, "search_of", &search_of, job_kind::long_work);
 }
 
-py::tuple group_pairs(const held_mesh& mesh, const ids_array& pairs,
-                      const array_of<std::uint8_t>& kinds) {
-    const std::vector<tf::face_pair> all = pairs_of(pairs, kinds);
-    tf::intersection_regions groups =
-        run([&](const tf::progress_callback&) { return tf::group_pairs(mesh.view(), all); });
-    const py::object regions = as_python(std::move(groups.regions));
-    return py::make_tuple(regions, as_array(std::move(groups.region_of_pair)));
-}
-
-py::tuple intersection_paths(const held_mesh& mesh, const ids_array& pairs,
-                             const array_of<std::uint8_t>& kinds) {
-    const std::vector<tf::face_pair> all = pairs_of(pairs, kinds);
-    tf::curve_network net =
-        run([&](const tf::progress_callback&) { return tf::intersection_paths(mesh.view(), all); });
-    py::list paths;
-    for (tf::curve_path& one : net.paths)
-        paths.append(py::make_tuple(as_array(std::move(one.points)), one.closed));
-    return py::make_tuple(
-        column(net.points,
-               [](const tf::curve_point& p) {
-                   return std::array<double, 3>{p.position.x, p.position.y, p.position.z};
-               }),
-        paths);
-}
-
 }  // namespace
 
 void add_intersections(py::module_& module) {
     module.attr("KINDS") = py::cast(kind_words);
     add_job(module, "self_intersections_of_file", &self_intersections_of_file, job_kind::long_work);
-    add_job(module, "group_pairs", &group_pairs);
-    add_job(module, "intersection_paths", &intersection_paths);
     add_search_in_steps(module);
 }
 

@@ -97,6 +97,23 @@ py::object object(of_result, tf::cut_result&& from, const carrying& attributes) 
     return py::make_tuple(pieces, as_python(std::move(from.certificate)));
 }
 
+py::object object(of_result, tf::intersection_regions&& from) {
+    const py::object regions = as_python(std::move(from.regions));
+    return py::make_tuple(regions, as_array(std::move(from.region_of_pair)));
+}
+
+py::object object(of_result, tf::curve_network&& from) {
+    py::list paths;
+    for (tf::curve_path& one : from.paths)
+        paths.append(py::make_tuple(as_array(std::move(one.points)), one.closed));
+    return py::make_tuple(
+        column(from.points,
+               [](const tf::curve_point& p) {
+                   return std::array<double, 3>{p.position.x, p.position.y, p.position.z};
+               }),
+        paths);
+}
+
 py::object object(of_result, tf::rounding_defects&& from) {
     return py::make_tuple(from.collapsed, from.meeting);
 }

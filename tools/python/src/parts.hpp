@@ -29,6 +29,12 @@ void require_faces(const held_meshes& meshes, const std::vector<std::string>& na
 tf::boolean_expression expression_of(const std::string& operation, const std::string& formula,
                                      const std::vector<std::string>& names, std::size_t count);
 
+std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::uint8_t>& kinds);
+/// The regions, and that of each pair.
+py::object object(of_result, tf::intersection_regions&& from);
+/// Points, and paths by their numbers.
+py::object object(of_result, tf::curve_network&& from);
+
 /// The pieces, and the certificate of all.
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes);
 /// As columns: of layers, of loops, of points.

@@ -5,18 +5,48 @@ from typing import Any, Callable, Mapping, Optional, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._assembly import ClashResult, NearestPoints, PoseClashes
+from ._cuts import Section
+# made of imports:
+from ._assembly import ClashResult
+from ._assembly import NearestPoints
+from ._assembly import PartClash
+from ._assembly import PoseClashes
 from ._booleans import BooleanResult
-from ._cuts import CutPiece, MassProperties, MeshPart, Section
-from ._intersections import FacePairs, FilePairs, Region
+from ._cuts import CutPiece
+from ._cuts import MassProperties
+from ._cuts import MeshPart
 from ._files import Written
+from ._intersections import FacePairs
+from ._intersections import FilePairs
+from ._intersections import Region
 from ._nearness import Deviation
-from ._placement import Alignment, Depth, Impact, LaidFlat, Measure, Packing, Placement
-from ._properties import Feature, MeshDefects, SolidDefects, Topology
-from ._repair import ConvexHull, RepairResult, ResolveResult, WrapResult
+from ._placement import Alignment
+from ._placement import Depth
+from ._placement import Impact
+from ._placement import LaidFlat
+from ._placement import Measure
+from ._placement import PackedPart
+from ._placement import Packing
+from ._placement import Placement
+from ._placement import SearchEffort
+from ._properties import Feature
+from ._properties import MeshDefects
+from ._properties import SolidDefects
+from ._properties import Topology
+from ._repair import ConvexHull
+from ._repair import RepairResult
+from ._repair import ResolveResult
+from ._repair import WrapResult
 from ._results import Certificate
-from ._shapes import Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness
-from ._weld import WeldResult, WeldStreamResult
+from ._shapes import Isoline
+from ._shapes import Isolines
+from ._shapes import OffsetResult
+from ._shapes import OrientedBox
+from ._shapes import SimplifyResult
+from ._shapes import Thickness
+from ._weld import WeldResult
+from ._weld import WeldStreamResult
+# end
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint32]
@@ -150,8 +180,6 @@ def scene(meshes: Sequence[HeldMesh], data: Sequence[Optional[Attributes]], name
           progress: Watched = ...) -> tuple[Floats, Ids, Attributes]: ...
 def write(path: str, mesh: HeldMesh, data: Optional[Attributes], certified: bool,
           options: WriteOptions, progress: Watched = ...) -> Written: ...
-def intersection_paths(mesh: HeldMesh, pairs: Ids,
-                       kinds: Bytes, progress: Watched = ...) -> tuple[Floats, list[tuple[Ids, bool]]]: ...
 def objects_of(mesh: HeldMesh) -> list[HeldMesh]: ...
 def concatenate(meshes: list[HeldMesh],
                 progress: Watched = ...) -> tuple[Floats, Ids, Optional[Attributes]]: ...
@@ -169,8 +197,6 @@ def raycast_all(mesh: HeldMesh, origins: Floats, directions: Floats, t_min: floa
 def self_intersections_of_file(path: str, options: StreamSearchOptions, communicator: Any,
                                progress: Watched = ...) -> FilePairs: ...
 def search_of(path: str, options: StreamSearchOptions, progress: Watched = ...) -> SearchInSteps: ...
-def group_pairs(mesh: HeldMesh, pairs: Ids, kinds: Bytes,
-                progress: Watched = ...) -> tuple[list[Region], Ids]: ...
 def weld_mesh(mesh: HeldMesh, data: Optional[Attributes], options: WeldOptions, label: Ids,
               progress: Watched = ...) -> WeldResult: ...
 def weld_cloud(points: Floats, data: Optional[Attributes], options: WeldOptions, label: Ids,
@@ -449,6 +475,10 @@ def self_intersections(mesh: HeldMesh, options: SelfIntersectionOptions,
 def mesh_intersections(a: HeldMesh, b: HeldMesh, options: MeshIntersectionOptions,
                        progress: Watched = ...) -> FacePairs: ...
 def faces_in_box(mesh: HeldMesh, min: Floats, max: Floats, progress: Watched = ...) -> Ids: ...
+def group_pairs(mesh: HeldMesh, pairs: Ids, kinds: Bytes,
+                progress: Watched = ...) -> tuple[list[Region], Ids]: ...
+def intersection_paths(mesh: HeldMesh, pairs: Ids, kinds: Bytes,
+                       progress: Watched = ...) -> tuple[Floats, list[tuple[Ids, bool]]]: ...
 def count_nearly_equal(points: Floats, distance: float, progress: Watched = ...) -> int: ...
 def closest_point(mesh: HeldMesh, points: Floats, radius: float,
                   progress: Watched = ...) -> tuple[Floats, Floats, Ids]: ...

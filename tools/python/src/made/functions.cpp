@@ -306,6 +306,20 @@ py::object faces_in_box(const held_mesh& mesh, const array_of<double>& min,
     }));
 }
 
+py::object group_pairs(const held_mesh& mesh, const ids_array& pairs,
+                       const array_of<std::uint8_t>& kinds) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::group_pairs(mesh.view(), pairs_of(pairs, kinds));
+    }));
+}
+
+py::object intersection_paths(const held_mesh& mesh, const ids_array& pairs,
+                              const array_of<std::uint8_t>& kinds) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::intersection_paths(mesh.view(), pairs_of(pairs, kinds));
+    }));
+}
+
 py::object count_nearly_equal(const points_array& points, double distance) {
     return as_python(run([&](const tf::progress_callback&) {
         return tf::count_nearly_equal(points_of(points), distance);
@@ -470,6 +484,8 @@ void add_functions(py::module_& module) {
     add_job(module, "self_intersections", &self_intersections);
     add_job(module, "mesh_intersections", &mesh_intersections);
     add_job(module, "faces_in_box", &faces_in_box);
+    add_job(module, "group_pairs", &group_pairs);
+    add_job(module, "intersection_paths", &intersection_paths);
     add_job(module, "count_nearly_equal", &count_nearly_equal);
     add_job(module, "deviation", &deviation);
     add_job(module, "slide", &slide);
