@@ -250,8 +250,8 @@ class cutter {
         for (const segment& s : segments_)
             if (vertex_of_[s.from] != vertex_of_[s.to])
                 plane.constrain(vertex_of_[s.from], vertex_of_[s.to], s.line);
-        // Where not all pairs that meet are known, edges may be crossed at points without a name, which
-        // are on the way along them now.
+        // Where not all pairs that meet are known, edges may be crossed at points without a name,
+        // which are on the way along them now.
         if (!is_single() && plane.points().size() > named) force_edges(plane);
     }
 

@@ -21,8 +21,8 @@ corner_line::corner_line(const std::array<implicit_point, 3>& corners, int along
 }
 
 // Which side of an edge the line is on is affine in the place of the line: 0 at a, it is s times
-// what it is at b, and 0 there, too, s^2 times what it is at c. Likewise how far ahead a plane is of
-// the face, which the corners are on.
+// what it is at b, and 0 there, too, s^2 times what it is at c. Likewise how far ahead a plane is
+// of the face, which the corners are on.
 
 template <class Point>
 int corner_line::passes(const std::array<Point, 3>& t, const std::array<Point, 3>& corners) const {

@@ -10,9 +10,10 @@
 
 namespace treeform::detail::arrange {
 
-/// The line along an axis through a + s (b - a) + s^2 (c - a), for the corners a, b, c of a face and
-/// an s > 0 smaller than any number: right beside a corner, and inside the face. It passes through
-/// triangles strictly inside or not at all. There need not be a point of doubles inside the face.
+/// The line along an axis through a + s (b - a) + s^2 (c - a), for the corners a, b, c of a face
+/// and an s > 0 smaller than any number: right beside a corner, and inside the face. It passes
+/// through triangles strictly inside or not at all. There need not be a point of doubles inside the
+/// face.
 class corner_line {
   public:
     /// \pre the face is not seen edge on along the axis: `orient2d` of its corners is not 0
@@ -24,11 +25,12 @@ class corner_line {
     /// Around corner a.
     [[nodiscard]] const aabb<double, 3>& start() const { return start_; }
 
-    /// The sign of the normal of a triangle along the axis where the line passes through it, else 0.
+    /// The sign of the normal of a triangle along the axis where the line passes through it, else
+    /// 0.
     [[nodiscard]] int passes(const triangle3& t) const;
 
-    /// Where the line meets the plane of a triangle: +1 ahead of the face, -1 behind it, 0 where both
-    /// are one plane.
+    /// Where the line meets the plane of a triangle: +1 ahead of the face, -1 behind it, 0 where
+    /// both are one plane.
     ///
     /// \param facing which way the normal of the triangle points along the axis, not 0
     [[nodiscard]] int place(const triangle3& t, int facing) const;

@@ -20,8 +20,8 @@ struct escape_ray {
     bool ahead;
 };
 
-/// Along the axis on which the box ends soonest, of those that the face is not too steep to, if there
-/// is one.
+/// Along the axis on which the box ends soonest, of those that the face is not too steep to, if
+/// there is one.
 /// \param mesh what `cut` is the arrangement of
 [[nodiscard]] escape_ray find_escape_ray(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
                                          const aabb<double, 3>& box);

@@ -53,11 +53,11 @@ double perturbed_ray::distance(const crossing& c) const {
     return cut_parameter(from_, direction[static_cast<std::size_t>(along_)], c.cut);
 }
 
-// Of a ray along x: planes are compared along the lines parallel to x through v and, where they are equally far
-// there, through b: what differs at b differs by s times as much along the moved ray. Where they
-// are equal at both, n x m for their normals n and m is parallel to the plane of both lines. The
-// difference of x along the planes has the gradient ((n x m).z, -(n x m).y) / (n.x m.x) over
-// (y, z), and (-d.z, d.y) times that is -(d . (n x m)) / (n.x m.x) without the x.
+// Of a ray along x: planes are compared along the lines parallel to x through v and, where they are
+// equally far there, through b: what differs at b differs by s times as much along the moved ray.
+// Where they are equal at both, n x m for their normals n and m is parallel to the plane of both
+// lines. The difference of x along the planes has the gradient ((n x m).z, -(n x m).y) / (n.x m.x)
+// over (y, z), and (-d.z, d.y) times that is -(d . (n x m)) / (n.x m.x) without the x.
 int perturbed_ray::compare(const crossing& c, const crossing& d) const {
     for (const point3& origin : {from_, toward_})
         if (const int sign =

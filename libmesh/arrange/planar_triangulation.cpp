@@ -1,4 +1,5 @@
 #include <libmesh/arrange/planar_triangulation.hpp>
+#include <libmesh/exact/implicit_filter.hpp>
 
 #include <algorithm>
 #include <initializer_list>
@@ -51,16 +52,21 @@ void planar_triangulation::note_line(std::uint32_t p, std::uint32_t line) {
 
 bool planar_triangulation::known_collinear(std::uint32_t a, std::uint32_t b,
                                            std::uint32_t c) const {
-    const auto& of_b = lines_of_[b];
-    const auto& of_c = lines_of_[c];
-    return std::ranges::any_of(lines_of_[a], [&](std::uint32_t line) {
-        return std::ranges::binary_search(of_b, line) && std::ranges::binary_search(of_c, line);
+    // Hundreds of lines may pass through a corner of a fan, and two through a point that was made.
+    std::array of = {&lines_of_[a], &lines_of_[b], &lines_of_[c]};
+    if (of[1]->size() < of[0]->size()) std::swap(of[0], of[1]);
+    if (of[2]->size() < of[0]->size()) std::swap(of[0], of[2]);
+    return std::ranges::any_of(*of[0], [&](std::uint32_t line) {
+        return std::ranges::binary_search(*of[1], line) && std::ranges::binary_search(*of[2], line);
     });
 }
 
 int planar_triangulation::turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    if (known_collinear(a, b, c)) return 0;
-    return orientation_ * orient2d(axis_, points_[a], points_[b], points_[c]);
+    const implicit_point &p = points_[a], &q = points_[b], &r = points_[c];
+    const int sign =
+        exact::orient2d_filter(axis_, exact::ball_of(p), exact::ball_of(q), exact::ball_of(r));
+    if (sign != exact::undecided) return orientation_ * sign;
+    return known_collinear(a, b, c) ? 0 : orientation_ * orient2d(axis_, p, q, r);
 }
 
 bool planar_triangulation::is_ahead(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -89,33 +95,58 @@ std::uint32_t planar_triangulation::add_triangle() {
     return static_cast<std::uint32_t>(size / 3);
 }
 
-/// Calls `visit` with the half-edges that begin at the vertex until it returns true, and with the
-/// last one when that ends there. Whether it did.
-template <class Visit>
-bool planar_triangulation::around(std::uint32_t vertex, const Visit& visit) const {
-    const half_edge start = leaving_[vertex];
-    half_edge h = start;
-    do {
-        if (visit(h)) return true;
-        h = twin_[previous(h)];
-    } while (h != none && h != start);
-    if (h == start) return false;
-    // The rim of the triangulation: on the other way round.
-    for (h = twin_[start]; h != none; h = twin_[h]) {
-        h = next(h);
-        if (visit(h)) return true;
+/// The half-edges that begin at a vertex, each once.
+class planar_triangulation::star {
+  public:
+    star(const planar_triangulation& of, std::uint32_t vertex)
+        : of_(of), start_(of.leaving_[vertex]), at_(start_) {}
+
+    /// None after the last.
+    half_edge next() {
+        const half_edge now = at_;
+        if (now == none) return none;
+        at_ = is_back_ ? before(now) : of_.twin_[previous(now)];
+        if (is_back_) return now;
+        if (at_ == start_)
+            at_ = none;          // all around
+        else if (at_ == none) {  // the rim: on the other way round
+            is_back_ = true;
+            at_ = before(start_);
+        }
+        return now;
     }
-    return false;
+
+  private:
+    [[nodiscard]] half_edge before(half_edge h) const {
+        const half_edge twin = of_.twin_[h];
+        return twin == none ? none : planar_triangulation::next(twin);
+    }
+
+    const planar_triangulation& of_;
+    half_edge start_;
+    half_edge at_;
+    bool is_back_ = false;
+};
+
+/// Calls `visit` with the half-edges that begin at the vertex until it returns true.
+template <class Visit>
+void planar_triangulation::around(std::uint32_t vertex, const Visit& visit) const {
+    star of(*this, vertex);
+    for (half_edge h = of.next(); h != none; h = of.next())
+        if (visit(h)) return;
 }
 
+/// In the stars of both at the same time: one may be a thousand times as large as the other.
 planar_triangulation::half_edge planar_triangulation::find(std::uint32_t from,
                                                            std::uint32_t to) const {
-    half_edge found = none;
-    around(from, [&](half_edge h) {
-        if (target(h) == to) found = h;
-        return found != none;
-    });
-    return found;
+    star of_from(*this, from), of_to(*this, to);
+    for (;;) {
+        const half_edge leaving = of_from.next();
+        if (leaving == none || target(leaving) == to) return leaving;
+        const half_edge after = of_to.next();
+        if (after == none) return none;
+        if (origin_[previous(after)] == from) return previous(after);
+    }
 }
 
 planar_triangulation::half_edge planar_triangulation::side_between(std::uint32_t u,

@@ -99,8 +99,9 @@ class planar_triangulation {
                                         half_edge from, place& found) const;
     [[nodiscard]] half_edge find(std::uint32_t from, std::uint32_t to) const;
     [[nodiscard]] half_edge side_between(std::uint32_t u, std::uint32_t v) const;
+    class star;
     template <class Visit>
-    bool around(std::uint32_t vertex, const Visit& visit) const;
+    void around(std::uint32_t vertex, const Visit& visit) const;
 
     void set(half_edge h, std::uint32_t origin, half_edge twin, std::uint32_t line);
     std::uint32_t add_triangle();

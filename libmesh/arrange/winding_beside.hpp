@@ -23,8 +23,9 @@ namespace treeform::detail::arrange {
     return way;
 }
 
-/// Calls `visit(i, change)` for the faces that a line passes on its way from a face of an arrangement,
-/// with how often more the surface winds around what is before them than behind, exactly.
+/// Calls `visit(i, change)` for the faces that a line passes on its way from a face of an
+/// arrangement, with how often more the surface winds around what is before them than behind,
+/// exactly.
 ///
 /// \param index   over the faces of a surface; `corners(i)` are those of what it calls i
 /// \param way     `way_along(line, ahead)`
@@ -39,8 +40,8 @@ void visit_beside(const tree<3>& index, const Corners& corners, const corner_lin
     });
 }
 
-/// How often a closed surface winds around all that is right beside a face of an arrangement, on the
-/// side where `line` through it is followed.
+/// How often a closed surface winds around all that is right beside a face of an arrangement, on
+/// the side where `line` through it is followed.
 template <class Corners>
 [[nodiscard]] std::int64_t winding_beside(const tree<3>& index, const Corners& corners,
                                           const corner_line& line, const aabb<double, 3>& way,

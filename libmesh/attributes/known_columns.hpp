@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What formats call the columns of points that they all know, and of which type they are there: one
-/// table for readers, writers and all that looks for a normal or a color by its name.
+/// What formats call the columns of points that they all know, and of which type they are there:
+/// one table for readers, writers and all that looks for a normal or a color by its name.
 ///
 /// \source PCL 1.13, point_types.hpp (PCD); LAS Specification 1.4 R15, and the extra bytes of
 ///         CloudCompare 2.13 and PDAL 2.5 (LAS); MeshLab 2022, vcglib import_ply.h (PLY, OFF, OBJ)
@@ -48,8 +48,8 @@ inline constexpr double bytes_in_word = 257.0;
 
 [[nodiscard]] std::span<const known_column> known_columns();
 
-/// The column that a name means in any dialect, in any case, with underscores or without, and behind
-/// "scalar_" as CloudCompare has it; null where none is known.
+/// The column that a name means in any dialect, in any case, with underscores or without, and
+/// behind "scalar_" as CloudCompare has it; null where none is known.
 [[nodiscard]] const known_column* find_known(std::string_view name);
 
 /// Whether a name is one of a normal or a texture coordinate, or of a color, packed or not.
@@ -62,8 +62,8 @@ inline constexpr double bytes_in_word = 257.0;
 /// "pcd-binary" and "pcd" are PCD; "laz" is LAS.
 [[nodiscard]] dialect dialect_of(std::string_view format);
 
-/// Least and greatest of columns whose scale shows in their values: colors that are floats or have 16
-/// bits, and intensities that are floats. `seen` is of other rows, which are counted in.
+/// Least and greatest of columns whose scale shows in their values: colors that are floats or have
+/// 16 bits, and intensities that are floats. `seen` is of other rows, which are counted in.
 void look_at_ranges(const element& rows, std::vector<value_range>& seen);
 
 /// How columns of points are said in another format.
@@ -74,8 +74,8 @@ class translation {
     translation(const element& columns, std::string_view from, std::string_view to,
                 std::span<const value_range> ranges)
         : translation(columns, from, to, ranges, {}, {}) {}
-    /// Columns named in `drop` are left out, and those in `rename` have another name before anything
-    /// else is done.
+    /// Columns named in `drop` are left out, and those in `rename` have another name before
+    /// anything else is done.
     /// \throws std::invalid_argument naming one that is not there, or is there twice then
     translation(const element& columns, std::string_view from, std::string_view to,
                 std::span<const value_range> ranges, std::span<const std::string> drop,

@@ -5,6 +5,8 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 
+#include <cstddef>
+
 namespace treeform::detail::base {
 
 /// Adds where the faces of `mesh` meet, and the numbers its coordinates are.
@@ -14,6 +16,16 @@ inline void describe(certificate& known, mesh_view mesh, precision of) {
     for (const auto& [f, g] : known.meeting)
         if (f < mesh.faces.size())  // there is no mesh where `progress` said stop
             known.meeting_at.push_back(mesh.points[mesh.faces[f][0]]);
+}
+
+/// Makes it `not_certified`, for pairs of faces that meet, of which the first 100 are told.
+template <class Pairs>
+void refuse_meeting(certificate& known, const Pairs& pairs, mesh_view mesh) {
+    known.status = status::not_certified;
+    known.meeting_count = pairs.size();
+    for (std::size_t i = 0; i < pairs.size() && i < 100; ++i)
+        known.meeting.push_back({pairs[i].a, pairs[i].b});
+    describe(known, mesh, known.precision);
 }
 
 }  // namespace treeform::detail::base

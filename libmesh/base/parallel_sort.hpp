@@ -30,8 +30,8 @@ template <class T, class Less>
     return low;
 }
 
-/// Sorts by `less`: blocks by `std::sort`, which are then merged. Elements that compare equal end up
-/// in an order that depends on them alone.
+/// Sorts by `less`: blocks by `std::sort`, which are then merged. Elements that compare equal end
+/// up in an order that depends on them alone.
 ///
 /// \cost O(N log N); N elements of memory where there are more than some thousand
 /// \same on any number of threads

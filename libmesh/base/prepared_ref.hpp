@@ -11,7 +11,8 @@
 
 namespace treeform::detail::base {
 
-/// A mesh as a prepared one: as it was given, or for the time being. \pre what it refers to outlives it
+/// A mesh as a prepared one: as it was given, or for the time being. \pre what it refers to
+/// outlives it
 class prepared_ref {
   public:
     explicit prepared_ref(const mesh_ref& given) : given_(given.prepared()) {

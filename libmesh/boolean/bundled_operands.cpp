@@ -78,12 +78,18 @@ bool bundled_operands::have_few_pairs(const progress_callback& progress) const {
 }
 
 void bundled_operands::find_pairs(const progress_callback& progress) {
-    all_[0].pairs = own_pairs(*all_[0].mesh, base::part_of(progress, 0.0, 0.5));
+    const progress_callback first = base::part_of(progress, 0.0, 0.5);
+    if (part_) {
+        const auto wanted = [&](const face_pair& pair) {
+            return part_->is_undecided(all_[0].view(), pair);
+        };
+        pairs_within_ = own_pairs(*all_[0].mesh, wanted, first);
+        all_[0].pairs = pairs_within_;
+    } else {
+        all_[0].pairs = own_pairs(*all_[0].mesh, first);
+    }
     if (all_[1].has_pairs)
         all_[1].pairs = own_pairs(*all_[1].mesh, base::part_of(progress, 0.5, 1.0));
-    if (!part_) return;
-    pairs_within_ = part_->pairs_within(all_[0].view(), all_[0].pairs);
-    all_[0].pairs = pairs_within_;
 }
 
 cut_faces cut_near(const bundled_operands& operands, cut_what what,

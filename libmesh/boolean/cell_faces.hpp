@@ -22,8 +22,8 @@ struct cell_face {
     double area = 0.0;
     bool is_given = false;  ///< not only fillings cover it
     bool is_outer = false;  ///< between the unbounded cell and another one
-    /// Inner, and linked to walls: to inner faces that end somewhere, at outer ones perhaps. Those of
-    /// cavities and of shells that overlap do not.
+    /// Inner, and linked to walls: to inner faces that end somewhere, at outer ones perhaps. Those
+    /// of cavities and of shells that overlap do not.
     bool is_doubted = false;
     double times = 0.0;  ///< given faces that run as it does, less those that run against it
 

@@ -8,7 +8,6 @@
 #include <libmesh/boolean/cut_operand.hpp>
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/exact/filter.hpp>
-#include <libmesh/intersect/pairs_by_tree.hpp>
 #include <libmesh/topology/is_manifold.hpp>
 #include <libmesh/weld/few_equal_points.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -104,11 +103,11 @@ struct known_pairs {
 constexpr base::slot<known_pairs> first_found{base::slot_name::few_own_pairs};
 
 known_pairs find_pairs(const prepared_mesh& mesh, const progress_callback& progress,
-                       std::size_t most) {
+                       std::size_t most, const intersect::wanted_pairs* wanted = nullptr) {
     if (mesh.view().faces.empty()) return {};
     self_intersection_result met = intersect::pairs_by_tree(
         mesh.view(), build_face_tree(mesh),
-        {.vertices = vertex_identity::by_index, .progress = progress}, most);
+        {.vertices = vertex_identity::by_index, .progress = progress}, most, wanted);
     if (met.status == treeform::status::cancelled) throw stopped{};
     if (met.pairs.size() > most) return {{}, false};
     return {std::move(met.pairs), true};
@@ -171,6 +170,12 @@ std::span<const face_pair> own_pairs(const prepared_mesh& mesh, const progress_c
     if (first.are_all) return first.pairs;
     constexpr base::slot<known_pairs> all{base::slot_name::own_pairs};
     return base::prepared_slots::get(mesh, all, find_all).pairs;
+}
+
+std::vector<face_pair> own_pairs(const prepared_mesh& mesh, const intersect::wanted_pairs& wanted,
+                                 const progress_callback& progress) {
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    return find_pairs(mesh, progress, most, &wanted).pairs;
 }
 
 }  // namespace treeform::detail::boolean

@@ -4,6 +4,7 @@
 
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
+#include <libmesh/intersect/pairs_by_tree.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -19,8 +20,8 @@ namespace treeform::detail::boolean {
 /// Thrown where `progress` asked to stop: a mesh then keeps no answer.
 struct stopped {};
 
-/// One operand, or several as one mesh, of which no two points are equal, all points are corners, and
-/// all faces have an area.
+/// One operand, or several as one mesh, of which no two points are equal, all points are corners,
+/// and all faces have an area.
 struct cut_operand {
     joined_operands joined{};            ///< empty where the mesh is so as it was given
     std::optional<prepared_mesh> own{};  ///< of `joined.all`, where that is not empty
@@ -45,7 +46,8 @@ struct cut_operand {
 
 /// What operands that were joined are cut as.
 ///
-/// \param is_closed whether nobody need look where they end, as what is left out closes them, perhaps
+/// \param is_closed whether nobody need look where they end, as what is left out closes them,
+///        perhaps
 [[nodiscard]] cut_operand cut_operand_of(joined_operands&& joined, bool is_closed);
 
 /// The pairs of a mesh's own faces that meet beyond shared corners, ascending; none where there are
@@ -59,5 +61,10 @@ struct cut_operand {
 /// The same however many there are.
 [[nodiscard]] std::span<const face_pair> own_pairs(const prepared_mesh& mesh,
                                                    const progress_callback& progress);
+
+/// Those that are wanted.
+[[nodiscard]] std::vector<face_pair> own_pairs(const prepared_mesh& mesh,
+                                               const intersect::wanted_pairs& wanted,
+                                               const progress_callback& progress);
 
 }  // namespace treeform::detail::boolean

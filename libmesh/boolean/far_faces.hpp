@@ -31,8 +31,8 @@ struct face_clusters {
 class far_faces {
   public:
     /// \param is_near [F] by the places of the tree's order
-    /// \pre   what is referred to outlives this; where a face that is not near has a point, the faces
-    ///        at it are one closed fan, and none of them meets anything but its neighbors
+    /// \pre   what is referred to outlives this; where a face that is not near has a point, the
+    ///        faces at it are one closed fan, and none of them meets anything but its neighbors
     far_faces(const prepared_mesh& mesh, std::span<const std::uint8_t> is_near);
 
     /// A face of each set, in an order that the mesh and what is near decide.

@@ -106,8 +106,8 @@ bool are_opposite(const outward_face& f, const outward_face& g, double width) {
            closest_points(f.at, g.at).squared_distance <= width * width;
 }
 
-/// Where the corners of faces go when these move outward by `height`, or a little more: faces of one
-/// operand that lean little move together, so that nothing stays open between them.
+/// Where the corners of faces go when these move outward by `height`, or a little more: faces of
+/// one operand that lean little move together, so that nothing stays open between them.
 std::vector<std::array<point3, 3>> moved_corners(std::span<const outward_face> faces,
                                                  double height) {
     mesh soup;

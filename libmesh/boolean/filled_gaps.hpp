@@ -18,8 +18,8 @@ namespace treeform::detail::boolean {
 /// \throws std::invalid_argument naming the `function` called
 void require_union(const char* function, const boolean_expression& expression);
 
-/// Faces of different operands that lie over each other, and a prism on each of them, outward, to be
-/// further operands: what two such prisms have in common is the gap between their faces.
+/// Faces of different operands that lie over each other, and a prism on each of them, outward, to
+/// be further operands: what two such prisms have in common is the gap between their faces.
 ///
 /// A face is a prism's base as it is; its top is rounded. It is a little higher than gaps are wide,
 /// so that it gets across all the same. Prisms side by side on faces of one operand that lean by at

@@ -33,6 +33,7 @@ bool may_reach_decided(const std::vector<node>& nodes, std::size_t at, box3 box,
         const bool lower = corners.box().min[n.axis] <= n.at;
         const bool upper = corners.box().max[n.axis] >= n.at;
         if (lower && upper) {
+            if (corners.is_apart_from(box)) return false;
             box3 half = box;
             half.max[n.axis] = n.at;
             if (may_reach_decided(nodes, n.below, half, corners)) return true;

@@ -69,12 +69,12 @@ struct interaction_zone {
 };
 
 /// Near are the faces whose boxes overlap that of a face that meets another one, or are at a point
-/// where faces are not one closed fan. So whatever lies in the box of a face that is cut has nothing
-/// in common with the box of a face that is not near, and at each point of such a face, faces are one
-/// closed fan of which none is cut.
+/// where faces are not one closed fan. So whatever lies in the box of a face that is cut has
+/// nothing in common with the box of a face that is not near, and at each point of such a face,
+/// faces are one closed fan of which none is cut.
 ///
-/// `once`: skips indexes that pay off only across operations. `all`: every face is near, as is needed
-/// by those who ask for cells.
+/// `once`: skips indexes that pay off only across operations. `all`: every face is near, as is
+/// needed by those who ask for cells.
 ///
 /// \cost   that of the faces that meet, and O(V + F / 8) besides
 /// \same   on any number of threads

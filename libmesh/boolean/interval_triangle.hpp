@@ -26,23 +26,26 @@ class interval_triangle {
                 off_ = std::max(off_, corners[i].max[k] - corners[i].min[k]);
             }
         }
+        find_axes();
     }
     /// A triangle that is known.
     explicit interval_triangle(const std::array<point3, 3>& corners) : count_(3), at_(corners) {
         for (const point3& corner : corners) all_.include(corner);
+        find_axes();
     }
 
     [[nodiscard]] const aabb<double, 3>& box() const { return all_; }
 
-    /// Whether it is certain that a box has no point of them. Any axis may tell them apart; tried are
-    /// the normal, and what is normal to an edge and to an axis of the box (Akenine-Moeller, Fast 3D
-    /// Triangle-Box Overlap Testing, 2001). There, both ends of the edge are at the same place.
+    /// Whether it is certain that a box has no point of them. Any axis may tell them apart; tried
+    /// are the normal, and what is normal to an edge and to an axis of the box (Akenine-Moeller,
+    /// Fast 3D Triangle-Box Overlap Testing, 2001). There, both ends of the edge are at the same
+    /// place.
     ///
     /// With M for the largest coordinate, all relative to S, the sum of the axis' coordinates:
     /// differences from the middle are off by 2^-52 M, three roundings of products and of their sum
-    /// by 2^-50.4 M, the ends of an edge, which is rounded, by 2^-51 M from each other, and the reach
-    /// by 2^-51 M; together less than 2^-48 M. Products that underflow are off by less than 2^-1000,
-    /// and those of three numbers below 2^330 do not overflow.
+    /// by 2^-50.4 M, the ends of an edge, which is rounded, by 2^-51 M from each other, and the
+    /// reach by 2^-51 M; together less than 2^-48 M. Products that underflow are off by less than
+    /// 2^-1000, and those of three numbers below 2^330 do not overflow.
     [[nodiscard]] bool is_apart_from(const aabb<double, 3>& box) const {
         point3 middle, reach;
         double largest = 0.0;
@@ -57,18 +60,24 @@ class interval_triangle {
         for (std::size_t k = 0; k < 3; ++k) reach[k] += off;
         std::array<point3, 3> p;
         for (std::size_t i = 0; i < count_; ++i) p[i] = base::minus(at_[i], middle);
-        if (count_ == 2) return is_apart_beside(base::minus(at_[1], at_[0]), p[0], p[0], reach);
-        const point3 normal = base::cross(base::minus(at_[1], at_[0]), base::minus(at_[2], at_[0]));
-        const double far = reach_along(normal, reach);
-        const double a = base::dot(normal, p[0]), b = base::dot(normal, p[1]),
-                     c = base::dot(normal, p[2]);
+        if (count_ == 2) return is_apart_beside(edges_[0], p[0], p[0], reach);
+        const double far = reach_along(normal_, reach);
+        const double a = base::dot(normal_, p[0]), b = base::dot(normal_, p[1]),
+                     c = base::dot(normal_, p[2]);
         if (std::min({a, b, c}) > far || std::max({a, b, c}) < -far) return true;
-        return is_apart_beside(base::minus(at_[1], at_[0]), p[0], p[2], reach) ||
-               is_apart_beside(base::minus(at_[2], at_[1]), p[1], p[0], reach) ||
-               is_apart_beside(base::minus(at_[0], at_[2]), p[2], p[1], reach);
+        return is_apart_beside(edges_[0], p[0], p[2], reach) ||
+               is_apart_beside(edges_[1], p[1], p[0], reach) ||
+               is_apart_beside(edges_[2], p[2], p[1], reach);
     }
 
   private:
+    void find_axes() {
+        edges_[0] = base::minus(at_[1], at_[0]);
+        if (count_ == 2) return;
+        edges_[1] = base::minus(at_[2], at_[1]);
+        edges_[2] = base::minus(at_[0], at_[2]);
+        normal_ = base::cross(edges_[0], base::minus(at_[2], at_[0]));
+    }
     static double reach_along(const point3& axis, const point3& reach) {
         return std::abs(axis.x) * reach.x + std::abs(axis.y) * reach.y +
                std::abs(axis.z) * reach.z + 0x1p-1000;
@@ -90,6 +99,8 @@ class interval_triangle {
 
     std::size_t count_;
     std::array<point3, 3> at_{};
+    std::array<point3, 3> edges_{};  ///< from each corner to the next
+    point3 normal_{};
     double off_ = 0.0;
     aabb<double, 3> all_{};
 };

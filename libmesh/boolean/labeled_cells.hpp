@@ -30,10 +30,11 @@ struct labeled_cells {
 ///   then it is lost from sight;
 /// - of an inner face a quarter of its own where it has the same on both sides, all of it with the
 ///   inside in front, none with the inside behind; half of that where it is doubted;
-/// - of a filling, which is a guess and counts for no winding number, half of it where it separates.
+/// - of a filling, which is a guess and counts for no winding number, half of it where it
+///   separates.
 ///
-/// The area around a cell and not its volume is its weight, since faces are weighed by area, too: so
-/// the unit of length is of no effect, and what is thin counts for as much as can be seen of it.
+/// The area around a cell and not its volume is its weight, since faces are weighed by area, too:
+/// so the unit of length is of no effect, and what is thin counts for as much as can be seen of it.
 ///
 /// This is a least cut of a network with a node for each cell. Capacities are whole numbers: areas
 /// in shares of 2^-40 of all area. Of several labelings with the least disagreement, it is that
@@ -41,11 +42,13 @@ struct labeled_cells {
 ///
 /// \param is_filling [F] of the input: 1 for fillings
 /// \pre    `cells` are those of `open_cells_of`
-/// \cost   that of `find_cell_windings`, and of `minimum_cut` for the cells and the faces between them
+/// \cost   that of `find_cell_windings`, and of `minimum_cut` for the cells and the faces between
+///         them
 /// \same   on any number of threads
-/// \source Jacobson, Kavan and Sorkine-Hornung, Robust Inside-Outside Segmentation using Generalized
-///         Winding Numbers, SIGGRAPH 2013, section 4; Diazzi and Attene, Convex Polyhedral Meshing
-///         for Robust Solid Modeling, SIGGRAPH Asia 2021, section 5, for cells of an arrangement
+/// \source Jacobson, Kavan and Sorkine-Hornung, Robust Inside-Outside Segmentation using
+///         Generalized Winding Numbers, SIGGRAPH 2013, section 4; Diazzi and Attene, Convex
+///         Polyhedral Meshing for Robust Solid Modeling, SIGGRAPH Asia 2021, section 5, for cells
+///         of an arrangement
 [[nodiscard]] std::optional<labeled_cells> label_cells(const mesh_arrangement& cut,
                                                        const arrangement_cells& cells,
                                                        std::size_t count,

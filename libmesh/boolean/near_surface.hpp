@@ -12,8 +12,9 @@
 
 namespace treeform::detail::boolean {
 
-/// [F] of the single operand as given, or null: set to 1 for faces that were merged with lower ones,
-/// where something is left of what they became. Those that `face_source` names need not be set.
+/// [F] of the single operand as given, or null: set to 1 for faces that were merged with lower
+/// ones, where something is left of what they became. Those that `face_source` names need not be
+/// set.
 using left_faces = std::vector<std::uint8_t>*;
 
 struct near_result {

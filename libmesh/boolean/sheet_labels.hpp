@@ -16,8 +16,9 @@
 
 namespace treeform::detail::boolean {
 
-/// What winds around the faces of an operand that need not be closed: the first of two bundles. A line
-/// from each patch of its pieces, and from each set of its faces that are not near, tells, exactly.
+/// What winds around the faces of an operand that need not be closed: the first of two bundles. A
+/// line from each patch of its pieces, and from each set of its faces that are not near, tells,
+/// exactly.
 class sheet_labels {
   public:
     /// \param cut the arrangement of `near.local`

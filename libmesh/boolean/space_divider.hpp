@@ -54,13 +54,17 @@ struct halves {
     half lower, upper;
 };
 
+/// Of a box, how much is the lower half. Not a half: faces of machines, made around the middle, lie
+/// at round shares of their boxes, and would be in both halves.
+constexpr double share_below = 0.4931;
+
 /// Where to halve a box; false where it is too small for that.
 inline bool can_be_halved(const aabb<double, 3>& box, std::size_t& axis, double& at) {
     axis = 0;
     const auto extent = [&](std::size_t k) { return 0.5 * box.max[k] - 0.5 * box.min[k]; };
     for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
         if (extent(k) > extent(axis)) axis = k;
-    at = 0.5 * box.min[axis] + 0.5 * box.max[axis];
+    at = (1.0 - share_below) * box.min[axis] + share_below * box.max[axis];
     return box.min[axis] < at && at < box.max[axis];
 }
 

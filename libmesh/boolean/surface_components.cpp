@@ -53,9 +53,9 @@ bool contains(const box3& box, const point3& q) {
 }
 
 /// The range of a closed surface that has q on one side of all its faces. Any line through q meets
-/// it as often as it winds around q, on either half: so that many faces, and no fewer than none, are
-/// ahead of a point on the way out, all turned alike. None where q is in the plane of a face with an
-/// area, or faces are turned both ways.
+/// it as often as it winds around q, on either half: so that many faces, and no fewer than none,
+/// are ahead of a point on the way out, all turned alike. None where q is in the plane of a face
+/// with an area, or faces are turned both ways.
 template <class Corners>
 std::optional<winding_range> range_seen_from(const point3& q, std::size_t count,
                                              const Corners& corners) {

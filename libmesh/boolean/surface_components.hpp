@@ -43,8 +43,8 @@ class surface_components {
   public:
     /// \param edges of the operands, all of which are closed
     /// \pre   `joined` and `operand_of_face` outlive this
-    /// \cost  O(F log F), 40 bytes a face; for components of operands that have several, whose faces
-    ///        are not all seen from one point inside, a search for self-intersections, and
+    /// \cost  O(F log F), 40 bytes a face; for components of operands that have several, whose
+    ///        faces are not all seen from one point inside, a search for self-intersections, and
     ///        where there are some, an arrangement
     /// \same  on any number of threads
     surface_components(mesh_view joined, std::span<const std::uint32_t> operand_of_face,

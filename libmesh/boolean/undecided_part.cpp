@@ -3,7 +3,6 @@
 #include <libmesh/boolean/sample_faces.hpp>
 #include <libmesh/boolean/undecided_part.hpp>
 #include <libmesh/intersect/meetings.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -12,12 +11,8 @@
 namespace treeform::detail::boolean {
 namespace {
 
-/// The least share of faces that has to be hidden: below, halving boxes costs more than it saves.
-constexpr double least_hidden = 0.25;
-/// Cutting costs in proportion to the faces near each other, and so may finding out what is hidden.
-constexpr double neighbors_of_effort = 8.0, least_effort = 0.125, most_effort = 64.0;
-
-constexpr std::size_t pairs_a_chunk = 1024;
+/// What may be spent on a face for each face or neighbor that is hidden, as cutting these is saved.
+constexpr double effort_of_hidden = 0.125, most_effort = 64.0;
 
 }  // namespace
 
@@ -29,11 +24,12 @@ std::unique_ptr<const undecided_part> undecided_part::find(joined_operands& join
     edges = {};
     const partial_expression at_nowhere(expression, rule);
     const face_samples samples = sample_faces(components, at_nowhere);
-    if (samples.hidden < least_hidden) return nullptr;
-    const double effort =
-        std::clamp(samples.neighbors / neighbors_of_effort, least_effort, most_effort);
+    const division_limits limits{
+        .effort =
+            std::min(effort_of_hidden * samples.hidden * (1.0 + samples.neighbors), most_effort)};
+    if (!undecided_space::is_divided(components, limits)) return nullptr;
     return std::make_unique<const undecided_part>(std::move(joined), std::move(components),
-                                                  at_nowhere, division_limits{.effort = effort});
+                                                  at_nowhere, limits);
 }
 
 undecided_part::undecided_part(joined_operands&& joined, surface_components&& components,
@@ -56,27 +52,11 @@ std::size_t undecided_part::left_out() const {
     return static_cast<std::size_t>(std::ranges::count(space_.is_undecided_face(), 0));
 }
 
-std::vector<face_pair> undecided_part::pairs_within(mesh_view mesh,
-                                                    std::span<const face_pair> pairs) const {
+bool undecided_part::is_undecided(mesh_view mesh, const face_pair& pair) const {
     const auto box_of = base::face_boxes(mesh.points);
-    std::vector<std::uint8_t> is_within(pairs.size());
-    for_chunks(pairs.size(), pairs_a_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto& [a, b, kind] = pairs[i];
-            const auto around = common_box(box_of(mesh.faces[a]), box_of(mesh.faces[b]));
-            is_within[i] =
-                space_.reaches_undecided(around) &&
-                        space_.reaches_undecided(intersect::box_of_meeting(mesh, pairs[i]))
-                    ? 1
-                    : 0;
-        }
-    });
-    std::vector<face_pair> within;
-    base::compact(
-        pairs.size(), [&](std::size_t i) { return is_within[i] != 0; },
-        [&](std::size_t count) { within.resize(count); },
-        [&](std::size_t i, std::size_t place) { within[place] = pairs[i]; });
-    return within;
+    const auto around = common_box(box_of(mesh.faces[pair.a]), box_of(mesh.faces[pair.b]));
+    return space_.reaches_undecided(around) &&
+           space_.reaches_undecided(intersect::box_of_meeting(mesh, pair));
 }
 
 }  // namespace treeform::detail::boolean

@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace treeform::detail::boolean {
@@ -20,8 +19,8 @@ namespace treeform::detail::boolean {
 /// tell what winds around a place pass through all of it, though.
 class undecided_part {
   public:
-    /// None where operands hide too little of each other to look for it. How far to look follows
-    /// from what a few faces have beside them (`sample_faces`); the result is the same.
+    /// None where operands hide too little of each other to halve even one box. How far to look
+    /// follows from what a few faces have beside them (`sample_faces`); the result is the same.
     ///
     /// \param joined closed operands; used up where there is a part
     /// \param edges  theirs; used up
@@ -43,10 +42,9 @@ class undecided_part {
     /// How many do not.
     [[nodiscard]] std::size_t left_out() const;
 
-    /// Of the pairs of faces that meet, those that meet in undecided space.
+    /// Whether two faces that meet do so in undecided space.
     /// \param mesh of some of its faces
-    [[nodiscard]] std::vector<face_pair> pairs_within(mesh_view mesh,
-                                                      std::span<const face_pair> pairs) const;
+    [[nodiscard]] bool is_undecided(mesh_view mesh, const face_pair& pair) const;
 
   private:
     joined_operands whole_;

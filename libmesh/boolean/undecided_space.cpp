@@ -142,6 +142,13 @@ void append(const std::vector<node>& below, std::size_t at, std::vector<node>& n
 
 }  // namespace
 
+bool undecided_space::is_divided(const surface_components& components,
+                                 const division_limits& limits) {
+    std::vector<std::uint8_t> none;
+    const divider division(components, limits, none);
+    return division.is_worth_halving(division.everything());
+}
+
 undecided_space::undecided_space(const surface_components& components,
                                  const partial_expression& at_nowhere,
                                  const division_limits& limits)

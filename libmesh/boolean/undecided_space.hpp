@@ -44,6 +44,10 @@ class undecided_space {
     undecided_space(const surface_components& components, const partial_expression& at_nowhere,
                     const division_limits& limits = {});
 
+    /// Whether so much effort pays for halving the box around all components.
+    [[nodiscard]] static bool is_divided(const surface_components& components,
+                                         const division_limits& limits);
+
     /// [F] 1 for faces whose boxes reach into undecided space.
     [[nodiscard]] std::span<const std::uint8_t> is_undecided_face() const {
         return is_undecided_face_;

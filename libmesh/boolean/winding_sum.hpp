@@ -17,9 +17,9 @@ namespace treeform::detail::boolean {
 /// For choices only: nothing of it is exact. It is the same wherever doubles are.
 ///
 /// \cost   O(F log^2 F) to build, serial; a sum O(log F) in practice
-/// \source Jacobson, Kavan and Sorkine-Hornung, Robust Inside-Outside Segmentation using Generalized
-///         Winding Numbers, SIGGRAPH 2013; Barill, Dickson, Schmidt, Levin and Jacobson, Fast
-///         Winding Numbers for Soups and Clouds, SIGGRAPH 2018, for dipoles
+/// \source Jacobson, Kavan and Sorkine-Hornung, Robust Inside-Outside Segmentation using
+///         Generalized Winding Numbers, SIGGRAPH 2013; Barill, Dickson, Schmidt, Levin and
+///         Jacobson, Fast Winding Numbers for Soups and Clouds, SIGGRAPH 2018, for dipoles
 class winding_sum {
   public:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();

@@ -32,6 +32,19 @@ row_source<Row> source_of(const carry_source& input) {
         return {corners.texture, corners.texture_of_corner};
 }
 
+/// Whether two numbers stand for one value.
+template <class Row>
+bool are_same(const std::vector<Row>& rows, std::uint32_t a, std::uint32_t b) {
+    return a == b || (a != none && b != none && rows[a] == rows[b]);
+}
+
+/// Whether the corners of the triangle have one normal.
+bool is_flat(const corner_values& corners, std::uint32_t triangle) {
+    const face& numbers = corners.normal_of_corner[triangle];
+    return numbers[0] != none && are_same(corners.normals, numbers[0], numbers[1]) &&
+           are_same(corners.normals, numbers[0], numbers[2]);
+}
+
 texture_point seen(const texture_point& row, bool) { return row; }
 point3 seen(const point3& n, bool turned) {
     return turned ? point3{0.0 - n.x, 0.0 - n.y, 0.0 - n.z} : n;  // no -0
@@ -116,6 +129,18 @@ class row_carrier {
         return add(p, source, turned, seen(between(sum), turned));
     }
 
+    /// The number in the result of what a corner of a simplified surface has, given the face of the
+    /// input that it is in.
+    [[nodiscard]] std::uint32_t carry_simplified(std::uint32_t p, std::uint32_t triangle,
+                                                 const place_in_face& place) {
+        return carry(p, {0, triangle}, false, numbers_of(0, triangle), place);
+    }
+    /// The number in the result of a new value.
+    [[nodiscard]] std::uint32_t append(const Row& row) {
+        rows_.push_back(row);
+        return static_cast<std::uint32_t>(rows_.size() - 1);
+    }
+
     [[nodiscard]] std::vector<Row>& rows() { return rows_; }
 
   private:
@@ -143,17 +168,25 @@ class row_carrier {
         return last.number;
     }
 
-    [[nodiscard]] std::uint32_t append(const Row& row) {
-        rows_.push_back(row);
-        return static_cast<std::uint32_t>(rows_.size() - 1);
-    }
-
     std::vector<row_source<Row>> sources_{};
     /// By input, as they are and turned around: the number in the result of each row, or none.
     std::vector<std::array<std::vector<std::uint32_t>, 2>> copies_{};
     std::vector<made_row> made_;  ///< [V]
     std::vector<Row> rows_{};
 };
+
+/// Gives corner `k` of face `f` of a simplified surface its value.
+template <class Row>
+std::uint32_t simplified(row_carrier<Row>& carrier, const carry_source& input, const mesh& surface,
+                         const carried_elements& made, std::size_t f, std::size_t k) {
+    if (const std::uint32_t corner = made.corner_source[3 * f + k]; corner != none)
+        return carrier.carry_simplified(surface.faces[f][k], input.triangle(corner / 3),
+                                        {.corner = corner % 3});
+    const std::uint32_t p = surface.faces[f][k], in = made.face_of_cut_vertex[p].index;
+    const mesh& mesh = input.file->mesh;
+    return carrier.carry_simplified(p, input.triangle(in),
+                                    place_of(surface.points[p], mesh, mesh.faces[in]));
+}
 
 /// [F] the numbers of the corners of the result; empty where no input has such values.
 template <class Row>
@@ -171,6 +204,17 @@ std::vector<face> carried(std::span<const carry_source> inputs, const mesh& surf
         const carry_source& input = inputs[source.operand];
         const face numbers = carrier.numbers_of(source.operand, input.triangle(source.index));
         if (numbers == face{none, none, none}) continue;
+        if (!made.corner_source.empty()) {
+            if constexpr (std::is_same_v<Row, point3>)
+                if (is_flat(input.file->attributes.corners, input.triangle(source.index))) {
+                    all[f].fill(
+                        carrier.append(with_length_one(normal_of(surface, surface.faces[f]))));
+                    continue;
+                }
+            for (std::size_t k = 0; k < 3; ++k)
+                all[f][k] = simplified(carrier, input, surface, made, f, k);
+            continue;
+        }
         const mesh& mesh = input.file->mesh;
         const face& corners = mesh.faces[source.index];
         const bool turned =
@@ -207,6 +251,19 @@ void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
     corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const carry_source& input) {
         return input.file->attributes.corners.has_w;
     });
+}
+
+bool look_alike(const corner_values& corners, const std::array<std::uint32_t, 2>& triangles,
+                const std::array<std::array<std::size_t, 2>, 2>& at_ends) {
+    const auto same = [&](const auto& rows, const std::vector<face>& of_corner) {
+        return of_corner.empty() || std::ranges::all_of(at_ends, [&](const auto& end) {
+                   return are_same(rows, of_corner[triangles[0]][end[0]],
+                                   of_corner[triangles[1]][end[1]]);
+               });
+    };
+    return same(corners.texture, corners.texture_of_corner) &&
+           (same(corners.normals, corners.normal_of_corner) ||
+            (is_flat(corners, triangles[0]) && is_flat(corners, triangles[1])));
 }
 
 }  // namespace treeform::detail::carry

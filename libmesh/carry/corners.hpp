@@ -2,7 +2,13 @@
 /// \file
 /// Texture coordinates and normals of the inputs' corners, for the corners of what is made of them.
 
+#include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 namespace treeform::detail::carry {
 
@@ -15,8 +21,15 @@ namespace treeform::detail::carry {
 ///
 /// Rows of an input stand once in the result, in the order of their first use, so that what shares
 /// one still does. Faces from one face of an input share what lies between at a point that they
-/// share. Where a PLY had texture coordinates as double, they are double in one that is written.
+/// share. Of a surface with `corner_source`, values are those of these corners, or in between in the
+/// face of a new vertex; a face whose source has one normal gets its own. Where a PLY had texture coordinates as double, they are double in one that is written.
 void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
                    const carried_elements& made);
+
+/// Whether two triangles that share an edge have equal values at both of its ends, or of normals,
+/// each has one only. `at_ends` has their corners at either end.
+[[nodiscard]] bool look_alike(const corner_values& corners,
+                              const std::array<std::uint32_t, 2>& triangles,
+                              const std::array<std::array<std::size_t, 2>, 2>& at_ends);
 
 }  // namespace treeform::detail::carry

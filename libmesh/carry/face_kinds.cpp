@@ -30,11 +30,12 @@ void append_kind(const std::vector<Row>& rows, const std::vector<face>& of_corne
 
 }  // namespace
 
-face_kinds::face_kinds(std::span<const carry_source> inputs) : inputs_(inputs) {
+face_kinds::face_kinds(std::span<const carry_source> inputs, bool by_corners) : inputs_(inputs) {
     for (const carry_source& input : inputs) {
         const attributes& all = input.file->attributes;
-        has_corner_values_ = has_corner_values_ || !all.corners.texture_of_corner.empty() ||
-                             !all.corners.normal_of_corner.empty();
+        has_corner_values_ =
+            has_corner_values_ || (by_corners && (!all.corners.texture_of_corner.empty() ||
+                                                  !all.corners.normal_of_corner.empty()));
         for (const part& p : all.parts)
             if (!p.material.empty())
                 materials_.try_emplace(p.material, static_cast<double>(materials_.size() + 1));
@@ -47,6 +48,7 @@ void face_kinds::append(std::uint32_t input, std::uint32_t face,
     const carry_source& source = inputs_[input];
     const auto material = materials_.find(material_of(source, face));
     values.push_back(material == materials_.end() ? 0.0 : material->second);
+    if (!has_corner_values_) return;
     const corner_values& corners = source.file->attributes.corners;
     const std::uint32_t triangle = source.triangle(face);
     append_kind(corners.texture, corners.texture_of_corner, input, triangle, values);

@@ -4,8 +4,11 @@
 
 #include <treeform/mesh/carry.hpp>
 
+#include <cstdint>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace treeform::detail::carry {
 
@@ -14,7 +17,7 @@ namespace treeform::detail::carry {
 class face_kinds {
   public:
     /// `inputs` must outlive this.
-    explicit face_kinds(std::span<const carry_source> inputs);
+    face_kinds(std::span<const carry_source> inputs, bool by_corners);
 
     /// Whether there is nothing by which faces could differ.
     [[nodiscard]] bool empty() const { return materials_.empty() && !has_corner_values_; }
@@ -27,5 +30,16 @@ class face_kinds {
     std::map<std::string, double> materials_{};  ///< numbers from 1
     bool has_corner_values_ = false;
 };
+
+/// What faces of a group have in common.
+struct common_of_group {
+    bool values = true;   ///< as of `carry_sources::face_groups`
+    bool input = false;   ///< as there
+    bool corners = true;  ///< with `values`, also what corners have
+};
+
+/// As `carry_sources::face_groups`.
+[[nodiscard]] std::vector<std::uint32_t> groups_of_faces(std::span<const carry_source> inputs,
+                                                         const common_of_group& by);
 
 }  // namespace treeform::detail::carry

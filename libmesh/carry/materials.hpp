@@ -14,9 +14,9 @@ namespace treeform::detail::carry {
 
 /// Gives `file` parts with the materials of the faces' sources, and the material files of all
 /// inputs. Of a single input, parts keep their names, too: of several, they would name what each
-/// piece of a result was once. A face without a source is in the part of a face that it has a corner
-/// with. The texture files are those of the first input: of several, `unite_textures` has been asked
-/// for one list.
+/// piece of a result was once. A face without a source is in the part of a face that it has a
+/// corner with. The texture files are those of the first input: of several, `unite_textures` has
+/// been asked for one list.
 void carry_materials(mesh_file& file, std::span<const carry_source> inputs,
                      const carried_elements& made);
 

@@ -191,6 +191,31 @@ bool any_has_normals(std::span<const carry_source> inputs) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> groups_of_faces(std::span<const carry_source> inputs,
+                                           const common_of_group& by) {
+    std::vector<property> properties;
+    if (by.values) properties = properties_of(inputs, "face");
+    const face_kinds kinds(by.values ? inputs : inputs.first(0), by.corners);
+    if (properties.empty() && kinds.empty() && !by.input) return {};
+    constexpr double nothing = -std::numeric_limits<double>::infinity();
+    std::map<std::vector<double>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> groups;
+    for (std::uint32_t k = 0; k < inputs.size(); ++k)
+        for (std::uint32_t f = 0; f < inputs[k].file->mesh.faces.size(); ++f) {
+            std::vector<double> values{by.input ? static_cast<double>(k) : 0.0};
+            for (const property& p : properties) {
+                const column* column = p.of_input[k];
+                const double value = column ? column->number(inputs[k].stored_face(f)) : nothing;
+                values.push_back(std::isnan(value) ? nothing : value);
+            }
+            kinds.append(k, f, values);
+            const auto next = static_cast<std::uint32_t>(numbers.size());
+            groups.push_back(numbers.try_emplace(std::move(values), next).first->second);
+        }
+    return groups;
+}
+
 }  // namespace treeform::detail::carry
 
 namespace treeform {
@@ -225,7 +250,8 @@ void carry_sources::carry(mesh_file& file, const carried_elements& made) const {
 
 void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_source,
                           std::span<const std::uint32_t> vertex_source,
-                          std::span<const std::uint32_t> face_of_new_vertex) const {
+                          std::span<const std::uint32_t> face_of_new_vertex,
+                          std::span<const std::uint32_t> corner_source) const {
     const auto of_input = [](std::span<const std::uint32_t> indices) {
         std::vector<operand_element> elements(indices.size());
         for (std::size_t i = 0; i < indices.size(); ++i)
@@ -235,32 +261,11 @@ void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_s
     const std::vector<operand_element> faces = of_input(face_source);
     const std::vector<operand_element> vertices = of_input(vertex_source);
     const std::vector<operand_element> cut = of_input(face_of_new_vertex);
-    carry(file, {faces, vertices, cut});
-    if (!cut.empty()) file.attributes.corners = {};
+    carry(file, {faces, vertices, cut, corner_source});
 }
 
 std::vector<std::uint32_t> carry_sources::face_groups(bool by_values, bool by_input) const {
-    const std::span<const carry_source> inputs = all_;
-    std::vector<property> properties;
-    if (by_values) properties = properties_of(inputs, "face");
-    const face_kinds kinds(by_values ? inputs : inputs.first(0));
-    if (properties.empty() && kinds.empty() && !by_input) return {};
-    constexpr double nothing = -std::numeric_limits<double>::infinity();
-    std::map<std::vector<double>, std::uint32_t> numbers;
-    std::vector<std::uint32_t> groups;
-    for (std::uint32_t k = 0; k < inputs.size(); ++k)
-        for (std::uint32_t f = 0; f < inputs[k].file->mesh.faces.size(); ++f) {
-            std::vector<double> values{by_input ? static_cast<double>(k) : 0.0};
-            for (const property& p : properties) {
-                const column* column = p.of_input[k];
-                const double value = column ? column->number(inputs[k].stored_face(f)) : nothing;
-                values.push_back(std::isnan(value) ? nothing : value);
-            }
-            kinds.append(k, f, values);
-            const auto next = static_cast<std::uint32_t>(numbers.size());
-            groups.push_back(numbers.try_emplace(std::move(values), next).first->second);
-        }
-    return groups;
+    return groups_of_faces(all_, {.values = by_values, .input = by_input});
 }
 
 bool carry_sources::has_vertex_values() const {

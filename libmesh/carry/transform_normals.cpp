@@ -14,8 +14,8 @@
 namespace treeform {
 namespace {
 
-/// The cofactors of the linear part, which is how normals go; against them by a mirror, so that what
-/// looked outward still does.
+/// The cofactors of the linear part, which is how normals go; against them by a mirror, so that
+/// what looked outward still does.
 transform<3> of_normals(const transform<3>& m) {
     const double sign = m.mirrors() ? -1.0 : 1.0;
     transform<3> result;
@@ -74,8 +74,8 @@ void turn_columns(element& e, const transform<3>& turn) {
     }
 }
 
-/// Faces, or numbers of their corners, with the second and the last corner of each polygon exchanged
-/// and those between: it is a fan around its first corner, and stays one.
+/// Faces, or numbers of their corners, with the second and the last corner of each polygon
+/// exchanged and those between: it is a fan around its first corner, and stays one.
 void turn_over(std::vector<face>& corners, const std::vector<std::uint32_t>& stored_face) {
     for (face& f : corners) std::swap(f[1], f[2]);
     for (std::size_t first = 0, end = 0; first < stored_face.size() && !corners.empty();

@@ -23,12 +23,6 @@ using detail::base::work_progress;
 
 constexpr std::uint32_t none = cut_piece::none;
 
-certificate with_status(status how) {
-    certificate made;
-    made.status = how;
-    return made;
-}
-
 /// A slab in rounded coordinates, with sources in the mesh that it is of.
 cut_piece rounded_piece(cut_room::slab&& slab, std::size_t faces, const cut_options& options) {
     cut_piece piece;
@@ -110,7 +104,7 @@ cut_piece sound_whole(const mesh_ref& mesh, const cut_options& options, progress
 void judge(cut_result& result, const work_progress& progress) {
     if (progress.cancelled()) {
         result.pieces.clear();
-        result.certificate = with_status(status::cancelled);
+        result.certificate = {.status = status::cancelled};
         return;
     }
     for (const cut_piece& piece : result.pieces) {
@@ -120,23 +114,6 @@ void judge(cut_result& result, const work_progress& progress) {
         result.certificate = piece.certificate;
         return;
     }
-}
-
-cut_result cut_of(const mesh_ref& mesh, const oriented_plane& plane,
-                  std::span<const double> heights, const cut_options& options) {
-    cut_result result;
-    result.certificate.precision = options.precision;
-    (void)cut_room::levels_of("cut", {}, plane, heights);  // refuses what are no planes
-    work_progress progress(options.progress);
-    const cut_piece whole = sound_whole(mesh, options, progress.part(0.0, 0.5), result.resolved);
-    if (!whole.certificate) {
-        result.certificate = whole.certificate;
-        return result;
-    }
-    result.pieces = pieces_of(whole.mesh, plane, heights, options, progress, 0.5, 1.0);
-    for (cut_piece& piece : result.pieces) look_through(piece, whole, 0);
-    judge(result, progress);
-    return result;
 }
 
 }  // namespace
@@ -153,7 +130,19 @@ treeform::mesh cut_piece::value() && {
 
 cut_result cut(const mesh_ref& mesh, const oriented_plane& plane, std::span<const double> heights,
                const cut_options& options) {
-    return cut_of(mesh, plane, heights, options);
+    cut_result result;
+    result.certificate.precision = options.precision;
+    (void)cut_room::levels_of("cut", {}, plane, heights);  // refuses what are no planes
+    work_progress progress(options.progress);
+    const cut_piece whole = sound_whole(mesh, options, progress.part(0.0, 0.5), result.resolved);
+    if (!whole.certificate) {
+        result.certificate = whole.certificate;
+        return result;
+    }
+    result.pieces = pieces_of(whole.mesh, plane, heights, options, progress, 0.5, 1.0);
+    for (cut_piece& piece : result.pieces) look_through(piece, whole, 0);
+    judge(result, progress);
+    return result;
 }
 
 cut_result cut_to_fit(const mesh_ref& mesh, const point3& size, const cut_options& options) {

@@ -1,3 +1,4 @@
+#include <libmesh/base/certify.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/cut/layer_loops.hpp>
@@ -95,8 +96,6 @@ class valued_mesh {
     std::vector<face> kept_;
     std::span<const face> faces_;
 };
-
-bool repeats(const face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
 
 void add_lines(isolines_result& result, const valued_mesh& of, std::uint32_t k,
                std::span<const std::uint32_t> met) {
@@ -207,19 +206,13 @@ isolines_result isolines(const mesh_ref& mesh, std::span<const double> values,
                          std::span<const double> levels, const section_options& options) {
     const valued_mesh of("isolines", mesh, values, levels);
     detail::base::work_progress progress(options.progress);
-    std::vector<std::vector<std::uint32_t>> met(of.levels().size());
-    const mesh_view joined = of.joined();
-    for (std::uint32_t f = 0; f < joined.faces.size(); ++f) {
-        const auto [a, b, c] = joined.faces[f];
-        const auto [low, high] =
-            std::minmax({of.of().level[a], of.of().level[b], of.of().level[c]});
-        if (repeats(joined.faces[f])) continue;
-        for (std::uint32_t k = low; k < high; ++k) met[k].push_back(f);
-    }
-    std::vector<isolines_result> of_level(met.size());
-    for_chunks(met.size(), 1, [&](std::size_t k, std::size_t, std::size_t) {
+    const std::size_t count = of.levels().size();
+    const detail::cut::met_faces met = detail::cut::faces_met(of.joined(), of.of(), count);
+    std::vector<isolines_result> of_level(count);
+    for_chunks(count, 1, [&](std::size_t begin, std::size_t, std::size_t) {
         if (progress.cancelled()) return;
-        add_lines(of_level[k], of, static_cast<std::uint32_t>(k), met[k]);
+        const auto k = static_cast<std::uint32_t>(begin);
+        add_lines(of_level[k], of, k, met.of(k));
         progress.reach(0.0);
     });
     isolines_result result;
@@ -240,11 +233,8 @@ cut_result cut_along(const mesh_ref& mesh, std::span<const double> values,
                      std::span<const double> levels, const cut_options& options) {
     cut_result result;
     result.pieces = along_lines(valued_mesh("cut_along", mesh, values, levels)).take();
-    const std::vector<mesh_view> views = [&] {
-        std::vector<mesh_view> all;
-        for (const cut_piece& piece : result.pieces) all.push_back(piece.mesh);
-        return all;
-    }();
+    std::vector<mesh_view> views;
+    for (const cut_piece& piece : result.pieces) views.push_back(piece.mesh);
     const treeform::mesh whole = concatenate(views);
     const self_intersection_result met = self_intersections(whole, {.progress = options.progress});
     certificate& known = result.certificate;
@@ -253,12 +243,7 @@ cut_result cut_along(const mesh_ref& mesh, std::span<const double> values,
         known.status = status::cancelled;
         return result;
     }
-    known.meeting_count = met.pairs.size();
-    for (std::size_t i = 0; i < met.pairs.size() && i < 100; ++i) {
-        known.meeting.push_back({met.pairs[i].a, met.pairs[i].b});
-        known.meeting_at.push_back(whole.points[whole.faces[met.pairs[i].a][0]]);
-    }
-    if (!met.pairs.empty()) known.status = status::not_certified;
+    if (!met.pairs.empty()) detail::base::refuse_meeting(known, met.pairs, whole);
     for (cut_piece& piece : result.pieces) piece.certificate = known;
     return result;
 }

@@ -1,3 +1,4 @@
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/cut/plane_levels.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -12,17 +13,14 @@
 namespace treeform {
 namespace {
 
-bool is_finite(const point3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-double inner(const point3& a, const point3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+using detail::base::dot;
+using detail::base::is_finite;
 
 /// Of length 1; scaled first, so that no square overflows or vanishes.
 point3 unit(const point3& v) {
-    const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double size = detail::base::largest_of(v);
     const point3 s{v.x / size, v.y / size, v.z / size};
-    const double length = std::sqrt(inner(s, s));
+    const double length = std::sqrt(dot(s, s));
     return {s.x / length, s.y / length, s.z / length};
 }
 
@@ -38,7 +36,7 @@ struct reckoned {
 reckoned along(const point3& normal, const point3& p) {
     const double magnitude =
         std::abs(normal.x * p.x) + std::abs(normal.y * p.y) + std::abs(normal.z * p.z);
-    return {inner(normal, p), 0x1p-50 * magnitude + 0x1p-1018};
+    return {dot(normal, p), 0x1p-50 * magnitude + 0x1p-1018};
 }
 
 /// The axis that the normal runs along, or -1.
@@ -103,8 +101,7 @@ class level_finder {
 }  // namespace
 
 plane_frame oriented_plane::frame() const {
-    const oriented_plane& plane = *this;
-    const point3& n = plane.normal;
+    const point3& n = normal;
     if (!is_finite(n) || n == point3{})
         throw std::invalid_argument("treeform: the normal of a plane is zero or not finite");
     plane_frame frame;
@@ -114,20 +111,17 @@ plane_frame oriented_plane::frame() const {
         if (std::abs(n[i]) > std::abs(n[largest])) largest = i;
     point3 x{};
     x[(largest + 1) % 3] = 1.0;
-    const double off = inner(x, frame.normal);
-    for (std::size_t i = 0; i < 3; ++i) x[i] -= off * frame.normal[i];
-    frame.x = unit(x);
-    const point3 &z = frame.normal, &u = frame.x;
-    frame.y = {z.y * u.z - z.z * u.y, z.z * u.x - z.x * u.z, z.x * u.y - z.y * u.x};
+    const double off = dot(x, frame.normal);
+    frame.x = unit(detail::base::minus(x, detail::base::scaled(frame.normal, off)));
+    frame.y = detail::base::cross(frame.normal, frame.x);
     for (point3* axis : {&frame.normal, &frame.x, &frame.y})
         for (std::size_t i = 0; i < 3; ++i) (*axis)[i] += 0.0;  // no -0
     return frame;
 }
 
 oriented_plane oriented_plane::parallel(double height) const {
-    const oriented_plane& plane = *this;
     const point3 n = frame().normal;
-    oriented_plane result = plane;
+    oriented_plane result = *this;
     for (std::size_t i = 0; i < 3; ++i)
         if (n[i] != 0.0) result.at[i] += height * n[i];
     return result;
@@ -167,6 +161,25 @@ plane_levels levels_of(const char* function, points_view points, const oriented_
         for (std::size_t p = begin; p < end; ++p) finder.find(p, points[p]);
     });
     return result;
+}
+
+met_faces faces_met(mesh_view mesh, const plane_levels& levels, std::size_t planes) {
+    met_faces met;
+    met.begin.assign(planes + 2, 0);
+    const auto each = [&](const auto& visit) {
+        for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+            const auto [a, b, c] = mesh.faces[f];
+            const auto [low, high] =
+                std::minmax({levels.level[a], levels.level[b], levels.level[c]});
+            if (low == high || a == b || b == c || c == a) continue;
+            for (std::uint32_t k = low; k < high; ++k) visit(f, k);
+        }
+    };
+    each([&](std::uint32_t, std::uint32_t k) { ++met.begin[k + 2]; });
+    for (std::size_t k = 2; k < met.begin.size(); ++k) met.begin[k] += met.begin[k - 1];
+    met.faces.resize(met.begin.back());
+    each([&](std::uint32_t f, std::uint32_t k) { met.faces[met.begin[k + 1]++] = f; });
+    return met;
 }
 
 }  // namespace detail::cut

@@ -34,4 +34,18 @@ struct plane_levels {
 [[nodiscard]] plane_levels levels_of(const char* function, points_view points,
                                      const oriented_plane& plane, std::span<const double> heights);
 
+/// The faces that each plane meets.
+struct met_faces {
+    std::vector<std::size_t> begin;
+    std::vector<std::uint32_t> faces;  ///< plane by plane, ascending
+
+    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t k) const {
+        return std::span(faces).subspan(begin[k], begin[k + 1] - begin[k]);
+    }
+};
+
+/// Of faces with three different corners, those with corners below and above a plane.
+/// \cost O(F), and what is returned
+[[nodiscard]] met_faces faces_met(mesh_view mesh, const plane_levels& levels, std::size_t planes);
+
 }  // namespace treeform::detail::cut

@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/cut/layer_loops.hpp>
 #include <libmesh/cut/nested_loops.hpp>
@@ -17,6 +18,9 @@ namespace treeform {
 namespace {
 
 namespace cut = detail::cut;
+using detail::base::dot;
+using detail::base::plus;
+using detail::base::scaled;
 
 /// A layer by itself.
 struct drawn_layer {
@@ -25,36 +29,6 @@ struct drawn_layer {
     std::vector<point2> points;
     std::vector<std::uint32_t> faces;
 };
-
-/// The faces that each plane meets, plane by plane.
-struct met_faces {
-    std::vector<std::size_t> begin;
-    std::vector<std::uint32_t> faces;
-};
-
-met_faces faces_met(mesh_view mesh, const cut::plane_levels& levels) {
-    met_faces met;
-    met.begin.assign(levels.planes.size() + 2, 0);
-    const auto each = [&](const auto& visit) {
-        for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-            const auto [a, b, c] = mesh.faces[f];
-            const auto [low, high] =
-                std::minmax({levels.level[a], levels.level[b], levels.level[c]});
-            if (low == high || a == b || b == c || c == a) continue;
-            for (std::uint32_t k = low; k < high; ++k) visit(f, k);
-        }
-    };
-    each([&](std::uint32_t, std::uint32_t k) { ++met.begin[k + 2]; });
-    for (std::size_t k = 2; k < met.begin.size(); ++k) met.begin[k] += met.begin[k - 1];
-    met.faces.resize(met.begin.back());
-    each([&](std::uint32_t f, std::uint32_t k) { met.faces[met.begin[k + 1]++] = f; });
-    return met;
-}
-
-point2 in_frame(const plane_frame& frame, const point3& p) {
-    return {frame.x.x * p.x + frame.x.y * p.y + frame.x.z * p.z,
-            frame.y.x * p.x + frame.y.y * p.y + frame.y.z * p.z};
-}
 
 void measure(section_loop& loop, std::span<const point2> points) {
     const point2 origin = points.front();
@@ -121,14 +95,14 @@ drawn_layer draw(mesh_view mesh, const cut::plane_levels& levels, const plane_fr
         const implicit_point exact = cut::exact_point(mesh, levels, k, c);
         point3 center = exact.center();
         double off = exact.radius();
-        const double reach = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+        const double reach = detail::base::largest_of(center);
         if (!(off <= 0x1p-46 * reach)) {  // the edge is all but parallel to the plane
             center = rounded(exact);
             off = 0x1p-52 * reach + 0x1p-1021;
         }
         radius = std::max(radius, off);
         centers.push_back(center);
-        layer.points.push_back(in_frame(frame, center));
+        layer.points.push_back({dot(frame.x, center), dot(frame.y, center)});
     }
     const std::vector<cut::nesting> nested =
         cut::nested_loops(mesh, levels, k, traced, centers, radius);
@@ -178,15 +152,13 @@ section_result sections_of(mesh_view mesh, const detail::weld::joined_faces& joi
     if (!progress.reach(0.0)) return cancelled();
     const mesh_view merged = joined.of(mesh);
     const cut::plane_levels levels = cut::levels_of("section", mesh.points, plane, heights);
-    const met_faces met = faces_met(merged, levels);
+    const cut::met_faces met = cut::faces_met(merged, levels, levels.planes.size());
     std::vector<drawn_layer> layers(levels.planes.size());
     std::atomic<std::size_t> done{0};
     for_chunks(layers.size(), 1, [&](std::size_t begin, std::size_t, std::size_t) {
         if (progress.cancelled()) return;
         const auto k = static_cast<std::uint32_t>(begin);
-        const std::size_t first = met.begin[k], count = met.begin[k + 1] - first;
-        layers[k] =
-            draw(merged, levels, result.frame, k, std::span(met.faces).subspan(first, count));
+        layers[k] = draw(merged, levels, result.frame, k, met.of(k));
         progress.reach(0.1 +
                        0.8 * static_cast<double>(++done) / static_cast<double>(layers.size()));
     });
@@ -217,22 +189,19 @@ section_result section(const mesh_ref& mesh, const oriented_plane& plane,
 }
 
 point3 section_result::in_space(const section_layer& layer, const point2& p) const {
-    const point3& n = frame.normal;
-    const double up = n.x * layer.at.x + n.y * layer.at.y + n.z * layer.at.z;
-    point3 result;
-    for (std::size_t i = 0; i < 3; ++i) result[i] = frame.x[i] * p.x + frame.y[i] * p.y + n[i] * up;
-    return result;
+    const auto& [x, y, normal] = frame;
+    return plus(plus(scaled(x, p.x), scaled(y, p.y)), scaled(normal, dot(normal, layer.at)));
 }
 
 std::vector<double> oriented_plane::layer_heights(points_view points, double thickness) const {
     const point3 n = frame().normal;
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    const double zero = n.x * at.x + n.y * at.y + n.z * at.z;
+    const double zero = dot(n, at);
     if (!std::isfinite(zero))
         throw std::invalid_argument(
             "treeform::oriented_plane::layer_heights: the plane is not finite");
     for (const point3& p : points) {
-        const double height = n.x * p.x + n.y * p.y + n.z * p.z - zero;
+        const double height = dot(n, p) - zero;
         if (!std::isfinite(height)) continue;
         low = std::min(low, height);
         high = std::max(high, height);

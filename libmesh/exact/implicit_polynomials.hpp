@@ -48,8 +48,8 @@ struct line_plane_polynomial {
     }
 };
 
-/// x / y is the parameter t with a + t (b - a) in the plane through `at` across n, the normal, which
-/// leads from the origin to the last point.
+/// x / y is the parameter t with a + t (b - a) in the plane through `at` across n, the normal,
+/// which leads from the origin to the last point.
 struct line_normal_polynomial {
     static constexpr std::size_t points = 5;  // a, b, at, the origin, n
     static constexpr int degree = 2;

@@ -13,9 +13,9 @@ constexpr double eighth_of_turn = 0.7853981633974483;
 /// The angle with tangent t, for t in [0, 1].
 ///
 /// Beyond tan(pi/8) = 0.41421 the angle to pi/4 is taken, whose tangent is (t - 1) / (t + 1) and no
-/// larger than that. There the series t - t^3/3 + t^5/5 - ... has falling terms of changing sign, so
-/// what is left out is less than the first term left out: 0.4143^25 / 25 < 1.2e-11. Rounding adds
-/// less than ten units in the last place.
+/// larger than that. There the series t - t^3/3 + t^5/5 - ... has falling terms of changing sign,
+/// so what is left out is less than the first term left out: 0.4143^25 / 25 < 1.2e-11. Rounding
+/// adds less than ten units in the last place.
 double angle_with_tangent(double t) {
     constexpr double tangent_of_half = 0.41421356237309503;
     constexpr std::array shares{1.0 / 23, 1.0 / 21, 1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13,

@@ -35,7 +35,8 @@
 
 namespace treeform::detail::intersect {
 
-/// Tests patches one after the other. 250 kB, of which a patch of 64 faces takes 5, of 512 faces 40.
+/// Tests patches one after the other. 250 kB, of which a patch of 64 faces takes 5, of 512 faces
+/// 40.
 class height_field_test {
   public:
     static constexpr std::size_t max_faces = 4096;
@@ -43,8 +44,8 @@ class height_field_test {
     /// \pre no coordinate is beyond `largest_filtered_coordinate`
     explicit height_field_test(points_view points) : points_(points) {}
 
-    /// Whether `patch` is certainly a height field: seen along the axis that it faces most, or along
-    /// the mean of its normals.
+    /// Whether `patch` is certainly a height field: seen along the axis that it faces most, or
+    /// along the mean of its normals.
     /// \pre  there are 1 to `max_faces`
     /// \cost O(F + B^2) for B border edges
     [[nodiscard]] bool operator()(std::span<const numbered_face> patch);

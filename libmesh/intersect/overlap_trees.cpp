@@ -43,8 +43,8 @@ bool most_reach(const std::vector<box3>& some, const std::vector<box3>& others) 
     return 2 * count > std::ssize(some);
 }
 
-/// Over all faces where that is most likely faster: to find out which ones are left out costs as much
-/// as to have half of them in the trees. Which it is makes no difference to any answer.
+/// Over all faces where that is most likely faster: to find out which ones are left out costs as
+/// much as to have half of them in the trees. Which it is makes no difference to any answer.
 template <class BoxOfA, class BoxOfB>
 trees build_trees(std::span<const face> a, const BoxOfA& box_of_a, std::span<const face> b,
                   const BoxOfB& box_of_b) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Trees over those faces of two meshes that may meet the other mesh, where both have been moved to.
+/// Trees over those faces of two meshes that may meet the other mesh, where both have been moved
+/// to.
 
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>

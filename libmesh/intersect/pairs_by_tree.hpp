@@ -4,6 +4,7 @@
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <cstddef>
@@ -16,10 +17,15 @@ namespace treeform::detail::intersect {
 [[nodiscard]] self_intersection_result pairs_by_tree(mesh_view mesh, tree<3>&& tree,
                                                      const self_intersection_options& options);
 
-/// The same of a tree that stays. Where there are more pairs than `most`, some of them, more than
-/// that.
+/// Which of the pairs that meet are wanted. Called by many threads.
+using wanted_pairs = function_ref<bool(const face_pair& pair)>;
+
+/// The same of a tree that stays, and of the pairs that `wanted` takes, where it is given: no list
+/// of the others is made, but counts include them. Where there are more pairs than `most`, some of
+/// them, more than that.
 [[nodiscard]] self_intersection_result pairs_by_tree(
     mesh_view mesh, const tree<3>& tree, const self_intersection_options& options,
-    std::size_t most = std::numeric_limits<std::size_t>::max());
+    std::size_t most = std::numeric_limits<std::size_t>::max(),
+    const wanted_pairs* wanted = nullptr);
 
 }  // namespace treeform::detail::intersect

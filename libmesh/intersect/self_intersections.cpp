@@ -70,10 +70,11 @@ detail::buffer<detail::intersect::numbered_face> leaf_order(mesh_view mesh, cons
 
 constexpr std::size_t all_pairs = std::numeric_limits<std::size_t>::max();
 
-/// Goes on until more pairs than `most` have been found.
+/// Goes on until more pairs than `most` have been found; keeps those that are wanted.
 self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
                                     const self_intersection_options& options,
-                                    std::size_t most = all_pairs) {
+                                    std::size_t most = all_pairs,
+                                    const detail::intersect::wanted_pairs* wanted = nullptr) {
     self_intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
@@ -97,6 +98,9 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
             phase.add(block);
             return !satisfied() && !not_needed();
         });
+        if (wanted != nullptr)
+            std::erase_if(found[chunk].pairs,
+                          [&](const face_pair& pair) { return !(*wanted)(pair); });
         if (satisfied()) detail::lower(last, chunk);
         count += found[chunk].pairs.size();
         progress.chunk_done();
@@ -139,8 +143,9 @@ self_intersection_result detail::intersect::pairs_by_tree(
 
 self_intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, const tree<3>& tree,
                                                           const self_intersection_options& options,
-                                                          std::size_t most) {
-    return find_pairs(mesh, tree, options, most);
+                                                          std::size_t most,
+                                                          const wanted_pairs* wanted) {
+    return find_pairs(mesh, tree, options, most, wanted);
 }
 
 }  // namespace treeform

@@ -28,8 +28,8 @@ struct parts_gltf {
 /// \throws io_error for a GLB that is cut short, or of another version than 1 and 2
 [[nodiscard]] parts_gltf parts_of_gltf(const source& in);
 
-/// What the buffers hold; each is looked for when it is first needed. What the constructor gets must
-/// outlive it.
+/// What the buffers hold; each is looked for when it is first needed. What the constructor gets
+/// must outlive it.
 ///
 /// A buffer is the binary part of the GLB, a "data:" of base64, or a file whose name is relative to
 /// the folder of `path` and does not leave that.

@@ -8,8 +8,8 @@
 
 namespace treeform::detail::io {
 
-/// Columns nx, ny, nz of points whose corners all have one normal, and s, t likewise; none where some
-/// point has several. Points without any have zeros.
+/// Columns nx, ny, nz of points whose corners all have one normal, and s, t likewise; none where
+/// some point has several. Points without any have zeros.
 [[nodiscard]] std::vector<column> normals_of_points(const mesh_file& file);
 [[nodiscard]] std::vector<column> texture_of_points(const mesh_file& file);
 

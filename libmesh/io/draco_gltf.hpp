@@ -12,8 +12,8 @@ namespace treeform::detail::io {
 /// Whether treeform was built with draco.
 [[nodiscard]] bool reads_draco();
 
-/// Unpacks the attributes that are read and the indices, and gives them to the buffers as the values
-/// of their accessors.
+/// Unpacks the attributes that are read and the indices, and gives them to the buffers as the
+/// values of their accessors.
 ///
 /// \pre    `primitive.draco`
 /// \throws io_error for bytes that are damaged or announce more than they can hold, for another

@@ -45,8 +45,8 @@ struct face_rows {
     std::optional<box3> bounds{};    ///< of all finite points, where these come ahead of the faces
     std::vector<point3>
         sample{};  ///< finite corners from all over it; at most `sample_size` of the file
-    /// Appends the next triangles, about `most` of them. Returns false when there are none left; then
-    /// the last part has been read to its end, and `warnings` got what was to be said.
+    /// Appends the next triangles, about `most` of them. Returns false when there are none left;
+    /// then the last part has been read to its end, and `warnings` got what was to be said.
     std::function<bool(std::vector<placed_triangle>& triangles, std::size_t most,
                        std::vector<io_warning>& warnings)>
         append{};
@@ -54,8 +54,8 @@ struct face_rows {
     std::function<std::uint64_t()> left_out{};
     /// Of PLY: as of `point_rows`.
     std::function<std::vector<row_place>(std::size_t count)> row_parts{};
-    /// Of PLY: `append` gives the triangles of the rows from `first` on, up to row `end`, and looks at
-    /// the end of the file behind the last row. Not called: of all rows.
+    /// Of PLY: `append` gives the triangles of the rows from `first` on, up to row `end`, and looks
+    /// at the end of the file behind the last row. Not called: of all rows.
     std::function<void(const row_place& first, std::optional<std::uint64_t> end)> go_to{};
 };
 

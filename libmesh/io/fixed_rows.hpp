@@ -35,8 +35,8 @@ struct alike_rows {
     std::uint64_t size = 0;
 };
 
-/// Where `count` parts of rows begin that have about as many bytes each, and where the last one ends;
-/// the first row is at byte `begin`.
+/// Where `count` parts of rows begin that have about as many bytes each, and where the last one
+/// ends; the first row is at byte `begin`.
 [[nodiscard]] std::vector<row_place> parts_of_rows(std::uint64_t begin,
                                                    std::span<const alike_rows> rows,
                                                    std::size_t count);

@@ -55,8 +55,8 @@ struct known_format {
     holdings holds{};
 };
 
-/// What the format does not hold of a file, a warning for each kind. `points` is the element "vertex"
-/// in the words of the format, or null.
+/// What the format does not hold of a file, a warning for each kind. `points` is the element
+/// "vertex" in the words of the format, or null.
 [[nodiscard]] std::vector<io_warning> left_out(const known_format& format, const mesh_file& file,
                                                const element* points, bool text);
 

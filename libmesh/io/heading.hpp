@@ -16,8 +16,8 @@ namespace treeform::detail::io {
 [[nodiscard]] std::vector<std::string> split_heading(std::string_view line);
 
 /// Numbers of the columns that hold x, y and z, by their names in any case: x, y, z; pos_x, x_coord
-/// and the like; Points:0, as ParaView writes; easting, northing and elevation, as surveyors do, also
-/// by their first letters. None unless all three are there.
+/// and the like; Points:0, as ParaView writes; easting, northing and elevation, as surveyors do,
+/// also by their first letters. None unless all three are there.
 [[nodiscard]] std::optional<std::array<std::size_t, 3>> find_axes(
     const std::vector<std::string>& names);
 

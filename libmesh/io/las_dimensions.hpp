@@ -58,8 +58,8 @@ struct las_features {
 /// What the records of a format have behind X, Y and Z, in the order of the record.
 [[nodiscard]] std::vector<las_dimension> las_dimensions(unsigned format);
 
-/// Extra bytes as their record ("LASF_Spec", 4) describes them, in 192 bytes each; those that it does
-/// not describe come last. Names are unique, and have underscores for blanks.
+/// Extra bytes as their record ("LASF_Spec", 4) describes them, in 192 bytes each; those that it
+/// does not describe come last. Names are unique, and have underscores for blanks.
 [[nodiscard]] std::vector<las_dimension> extra_dimensions(std::span<const std::byte> descriptions,
                                                           std::size_t first, std::size_t bytes);
 

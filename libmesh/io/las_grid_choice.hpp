@@ -24,9 +24,9 @@ struct las_grid_wish {
     }
 };
 
-/// The scale is the coarsest power of ten that gives each coordinate back within two units in the last
-/// place of the largest one, else the finest of which 32 bits hold all. The steps are counted from 0,
-/// or from the middle where that takes more than 32 bits.
+/// The scale is the coarsest power of ten that gives each coordinate back within two units in the
+/// last place of the largest one, else the finest of which 32 bits hold all. The steps are counted
+/// from 0, or from the middle where that takes more than 32 bits.
 ///
 /// Give all points to `look`, then all to `try_on`, and these again as long as `must_try_again`.
 class las_grid_choice {

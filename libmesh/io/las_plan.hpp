@@ -48,8 +48,8 @@ void choose_las_grid(las_header& header, std::span<const point3> points,
 /// \throws std::invalid_argument for a scale or offset that LAS has not
 [[nodiscard]] las_grid_wish las_grid_wish_of(const write_options& options);
 
-/// The whole number whose coordinate is nearest to `x`: the exact one, where there is one. It may be
-/// beyond 32 bits.
+/// The whole number whose coordinate is nearest to `x`: the exact one, where there is one. It may
+/// be beyond 32 bits.
 [[nodiscard]] double nearest_step(const las_grid& grid, std::size_t axis, double x);
 [[nodiscard]] inline bool is_las_step(double step) {
     return step >= std::numeric_limits<std::int32_t>::min() &&
@@ -62,8 +62,8 @@ void choose_las_grid(las_header& header, std::span<const point3> points,
 /// Makes the format one of these, with all that it has.
 void extend(las_header& header);
 
-/// The plan for the job's file. `points` are all of them; none when they will come by runs: then the
-/// file must have been LAS.
+/// The plan for the job's file. `points` are all of them; none when they will come by runs: then
+/// the file must have been LAS.
 ///
 /// A file that was LAS keeps its version, format, scale and offset, where the columns fit into it;
 /// others get the smallest format that holds the columns, and scales as of `las_grid_choice`.

@@ -79,7 +79,8 @@ class las_source {
     /// The records of `count` points from `first` on; in parallel. `number` is that of the first in
     /// the file, in errors.
     ///
-    /// \throws las_fault naming the lowest point whose coordinates or values the format does not hold
+    /// \throws las_fault naming the lowest point whose coordinates or values the format does not
+    ///         hold
     void put(std::size_t first, std::size_t count, std::uint64_t number, std::uint8_t* records,
              las_tally& tally) const;
 

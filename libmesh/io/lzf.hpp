@@ -18,12 +18,12 @@ namespace treeform::detail::io {
 /// No packed byte stands for more bytes than that.
 constexpr std::size_t lzf_most_ratio = 88;
 
-/// Each block of so many bytes is packed as if it were alone, so many can pack some blocks each, and
-/// what they get, put one after the other, is what one gets.
+/// Each block of so many bytes is packed as if it were alone, so many can pack some blocks each,
+/// and what they get, put one after the other, is what one gets.
 constexpr std::size_t lzf_block = std::size_t{1} << 20;
 
-/// Packed bytes are never more than that: only literals take more room than they stand for, a byte for
-/// 32, and a whole block has a multiple of these.
+/// Packed bytes are never more than that: only literals take more room than they stand for, a byte
+/// for 32, and a whole block has a multiple of these.
 [[nodiscard]] constexpr std::size_t lzf_most_packed(std::size_t size) {
     return size + size / 32 + 1;
 }
@@ -43,9 +43,9 @@ struct lzf_place {
 };
 
 /// Unpacks on from a place until `end` bytes have been read and made in all, or a few more, or the
-/// packed ones end. Calls `put` with some megabytes at a time, which belong at `place.unpacked` and end
-/// at `place.packed`. False when the stream is damaged, or has more than `size` bytes. When all is done,
-/// the place must be at both ends.
+/// packed ones end. Calls `put` with some megabytes at a time, which belong at `place.unpacked` and
+/// end at `place.packed`. False when the stream is damaged, or has more than `size` bytes. When all
+/// is done, the place must be at both ends.
 [[nodiscard]] bool lzf_unpack_on(std::string_view packed, lzf_place& place, std::size_t end,
                                  std::size_t size,
                                  const std::function<void(std::string_view bytes)>& put);

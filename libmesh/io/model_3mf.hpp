@@ -32,8 +32,8 @@ inline constexpr const char* model_relationship_3mf =
 inline constexpr std::array<const char*, 6> units_3mf{"micron", "millimeter", "centimeter",
                                                       "inch",   "foot",       "meter"};
 
-/// An attribute's twelve numbers m00 m01 m02 m10 ... m32: a row vector (x y z 1) times the matrix of
-/// four rows of three.
+/// An attribute's twelve numbers m00 m01 m02 m10 ... m32: a row vector (x y z 1) times the matrix
+/// of four rows of three.
 struct transform_3mf {
     std::array<double, 12> m{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 

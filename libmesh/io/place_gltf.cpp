@@ -257,8 +257,8 @@ class placer_gltf {
         }
     }
 
-    /// Those of their materials, as numbers for the eye; white where there is none. No columns where no
-    /// material has a color.
+    /// Those of their materials, as numbers for the eye; white where there is none. No columns
+    /// where no material has a color.
     void store_colors_of_faces() {
         std::array<double, 4> white{1, 1, 1, 1};
         const auto color_of = [&](std::size_t m) {

@@ -14,8 +14,8 @@
 
 namespace treeform::detail::io {
 
-/// Puts rows 0 to `rows` into the sink of `job`, in their order: `put(piece, first, last)` puts some
-/// into that of `piece`, which is `job` except for its sink. While some pieces are made, those
+/// Puts rows 0 to `rows` into the sink of `job`, in their order: `put(piece, first, last)` puts
+/// some into that of `piece`, which is `job` except for its sink. While some pieces are made, those
 /// before them are written.
 ///
 /// \pre  `put` changes nothing but the sink, so that it can be called on many threads

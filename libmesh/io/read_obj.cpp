@@ -140,8 +140,8 @@ class obj_reader {
         return text_.number("a coordinate");
     }
 
-    /// One more number is the weight of a rational curve's point, which is no coordinate; three are a
-    /// color. What else there is, is counted.
+    /// One more number is the weight of a rational curve's point, which is no coordinate; three are
+    /// a color. What else there is, is counted.
     void rest_of_vertex() {
         double more[3] = {};
         std::size_t count = 0;
@@ -229,7 +229,8 @@ class obj_reader {
         }
     }
 
-    /// Of a cloud, normals and texture coordinates are those of its points where there is one of each.
+    /// Of a cloud, normals and texture coordinates are those of its points where there is one of
+    /// each.
     void store_looks() {
         corner_values& corners = file_.attributes.corners;
         const std::size_t count = file_.mesh.points.size();

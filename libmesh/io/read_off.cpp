@@ -32,8 +32,8 @@ struct extra_numbers {
     std::size_t widest = 0;
     std::size_t rows = 0;
     bool even = true;  ///< every row so far has `width` of them
-    /// By place in a row: whether no row has a number with a point or an exponent there. Shorter where
-    /// that is not known.
+    /// By place in a row: whether no row has a number with a point or an exponent there. Shorter
+    /// where that is not known.
     std::vector<bool> whole{};
     std::vector<double> values{};
     std::vector<std::uint64_t> begin{};  ///< [rows + 1] once there are values
@@ -196,8 +196,8 @@ class off_reader {
         store_columns("vertex", vertices_extra_, names);
     }
 
-    /// One column for each number of a row; what is ahead of texture coordinates as bytes where all of
-    /// it are small whole numbers, as colors are.
+    /// One column for each number of a row; what is ahead of texture coordinates as bytes where all
+    /// of it are small whole numbers, as colors are.
     void store_columns(std::string_view name, const extra_numbers& extras,
                        const std::vector<std::string>& names) {
         if (extras.rows == 0 || names.empty()) return;

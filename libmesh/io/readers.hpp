@@ -29,8 +29,8 @@ namespace treeform::detail::io {
 
 /// True when the library behind `read_scene` knows files of this extension (no dot).
 [[nodiscard]] bool scene_format(std::string_view extension);
-/// A scene through assimp, glTF 1.0 too. `path` is empty for bytes that have none; then files that a
-/// scene refers to cannot be found.
+/// A scene through assimp, glTF 1.0 too. `path` is empty for bytes that have none; then files that
+/// a scene refers to cannot be found.
 [[nodiscard]] mesh_file read_scene(const source& in, const std::filesystem::path& path,
                                    std::string_view extension);
 

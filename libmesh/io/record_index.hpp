@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What is known of the records of a file whose places can only be read, once all have been looked at,
-/// be it by many: how many there are, and where some of them begin.
+/// What is known of the records of a file whose places can only be read, once all have been looked
+/// at, be it by many: how many there are, and where some of them begin.
 
 #include <libmesh/io/file_part.hpp>
 #include <libmesh/io/text.hpp>
@@ -35,8 +35,8 @@ struct text_column {
     }
 };
 
-/// A record is a line with the values of a point, or in a PLY of a row; in binary a point with lists,
-/// where the last mark is the end of all points.
+/// A record is a line with the values of a point, or in a PLY of a row; in binary a point with
+/// lists, where the last mark is the end of all points.
 struct record_index {
     struct mark {
         std::uint64_t record = 0;

@@ -16,7 +16,8 @@
 
 namespace treeform::detail::io {
 
-/// Triangles of a mesh, or points without any. Primitives whose attributes are the same accessors share their points.
+/// Triangles of a mesh, or points without any. Primitives whose attributes are the same accessors
+/// share their points.
 struct shape_gltf {
     const primitive_gltf* primitive = nullptr;
     std::size_t first_point = 0;

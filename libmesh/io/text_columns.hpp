@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The columns of a table of text: which are chosen, and of which type each is by what is in its cells.
+/// The columns of a table of text: which are chosen, and of which type each is by what is in its
+/// cells.
 
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/io/source.hpp>
@@ -33,8 +34,8 @@ struct text_cell {
 [[nodiscard]] std::optional<std::array<std::size_t, 3>> choose_columns(
     const source& in, std::span<const named_column> chosen, std::vector<std::string>& names);
 
-/// Types for columns of `declared` that are data, of which `facts` are in their order: integers of 64
-/// bits where doubles would round, bytes or 16 bits of colors, else doubles.
+/// Types for columns of `declared` that are data, of which `facts` are in their order: integers of
+/// 64 bits where doubles would round, bytes or 16 bits of colors, else doubles.
 void choose_types(element& declared, std::span<const text_column> facts);
 
 /// Says which cells are NaN, and which numbers are rounded.

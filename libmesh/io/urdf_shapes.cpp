@@ -1,6 +1,7 @@
 #include "urdf_shapes.hpp"
 
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/geometry/prism.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -74,23 +75,9 @@ mesh box_shape(const std::array<double, 3>& size) {
 }
 
 mesh cylinder_shape(double radius, double length) {
-    constexpr std::uint32_t n = cylinder_sides;
-    const double out = radius / std::cos(std::numbers::pi / n) * outward;
-    mesh made;
-    for (const double z : {-0.5, 0.5})
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const double angle = 2.0 * std::numbers::pi * i / n;
-            made.points.push_back({out * std::cos(angle), out * std::sin(angle), z * length});
-        }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t j = (i + 1) % n;
-        made.faces.push_back({i, j, n + i});
-        made.faces.push_back({j, n + j, n + i});
-        if (i == 0 || j == 0) continue;
-        made.faces.push_back({0, j, i});
-        made.faces.push_back({n, n + i, n + j});
-    }
-    return made;
+    const double out = radius / std::cos(std::numbers::pi / cylinder_sides) * outward;
+    return geometry::prism({{{0, 0, -0.5 * length}, {0, 0, 0.5 * length}}},
+                           {{{1, 0, 0}, {0, 1, 0}}}, out, cylinder_sides);
 }
 
 mesh sphere_shape(double radius) {

@@ -209,7 +209,8 @@ class writing {
     }
 
   private:
-    /// With what corners have, where the format holds that of points alone, and each has one; else none.
+    /// With what corners have, where the format holds that of points alone, and each has one; else
+    /// none.
     [[nodiscard]] std::optional<element> looks_of_points(const element* vertices) const {
         using detail::io::columns_held;
         const detail::io::holdings& holds = format_.holds;

@@ -96,8 +96,8 @@ struct view_glb {
     int target = 0;  ///< 0: none
 };
 
-/// What is written, in the order of the file: positions, indices, other attributes of vertices, then
-/// the values of each column of whole numbers.
+/// What is written, in the order of the file: positions, indices, other attributes of vertices,
+/// then the values of each column of whole numbers.
 class document_glb {
   public:
     explicit document_glb(const write_job& job)

@@ -7,8 +7,8 @@ namespace treeform::detail::io {
 
 namespace {
 
-/// What vertices have of what an OBJ gives to corners: it is written behind each of them, and corners
-/// then have the numbers of their vertices.
+/// What vertices have of what an OBJ gives to corners: it is written behind each of them, and
+/// corners then have the numbers of their vertices.
 struct vertex_looks {
     std::vector<const column*> texture{};
     std::vector<const column*> normal{};

@@ -172,12 +172,14 @@ void put_bits(sink& out, const column& c, std::size_t i) {
                                                         std::string_view element,
                                                         std::span<const std::string_view> names);
 
-/// Columns red, green, blue, and alpha where there is one, by these names or others that mean the same.
+/// Columns red, green, blue, and alpha where there is one, by these names or others that mean the
+/// same.
 [[nodiscard]] std::vector<const column*> color_columns(const element* e);
 [[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
                                                        std::string_view element);
 
-/// A color as a number from 0 to 1: whole numbers count 255ths, those of 16 bits 65535ths; others are taken as they are.
+/// A color as a number from 0 to 1: whole numbers count 255ths, those of 16 bits 65535ths; others
+/// are taken as they are.
 [[nodiscard]] inline double color_value(const column& c, std::size_t row) {
     const double value = c.number(row);
     if (c.type == scalar_type::uint16) return value / 65535.0;

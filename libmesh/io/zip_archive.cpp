@@ -106,7 +106,8 @@ class inflater {
     inflater& operator=(const inflater&) = delete;
     ~inflater() { inflateEnd(&stream_); }
 
-    /// Appends what `packed` becomes; false where it is damaged, or becomes other than `size` bytes.
+    /// Appends what `packed` becomes; false where it is damaged, or becomes other than `size`
+    /// bytes.
     [[nodiscard]] bool unpack(std::string_view packed, std::uint64_t size, std::string& bytes) {
         std::vector<char> piece(std::size_t{1} << 18);
         int status = Z_OK;

@@ -39,8 +39,8 @@ struct item {
 /// Whether chunks of these items have layers: those of formats 6 to 10.
 [[nodiscard]] bool is_layered(std::span<const item> items);
 
-/// Whether this program knows the items: their types, sizes and versions, in the order in which they
-/// stand in records.
+/// Whether this program knows the items: their types, sizes and versions, in the order in which
+/// they stand in records.
 [[nodiscard]] bool is_known(std::span<const item> items);
 
 [[nodiscard]] std::size_t record_size(std::span<const item> items);

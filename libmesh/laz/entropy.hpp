@@ -2,9 +2,9 @@
 /// \file
 /// The adaptive arithmetic coder of LAZ, in both directions.
 ///
-/// `decoder` and `encoder` have the same calls: each takes a model and a value and returns the value.
-/// The encoder writes the one it is given, the decoder returns the one it reads and ignores what it
-/// is given. So every code below is written once, for both.
+/// `decoder` and `encoder` have the same calls: each takes a model and a value and returns the
+/// value. The encoder writes the one it is given, the decoder returns the one it reads and ignores
+/// what it is given. So every code below is written once, for both.
 ///
 /// \source Said, Introduction to Arithmetic Coding, HP Laboratories HPL-2004-76; Isenburg, LASzip:
 ///         Lossless Compression of LiDAR Data, PE&RS 79 (2013)

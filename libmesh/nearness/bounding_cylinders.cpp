@@ -136,8 +136,8 @@ HWY_INLINE lanes split(const vector3& normal, const vector3& x, vector3& across)
     return along;
 }
 
-/// Near the point of a cylinder that is nearest to `to`, where the map is a rotation or the like; any
-/// point will do. Both from the center, in the common frame.
+/// Near the point of a cylinder that is nearest to `to`, where the map is a rotation or the like;
+/// any point will do. Both from the center, in the common frame.
 HWY_INLINE vector3 near_point(const cylinder_lanes& cylinder, const vector3& to) {
     const floats d;
     vector3 back = mapped_back(cylinder.map, to);
@@ -165,8 +165,8 @@ HWY_INLINE vector3 minus(const vector3& a, const vector3& b) {
     return {{hn::Sub(a.of[0], b.of[0]), hn::Sub(a.of[1], b.of[1]), hn::Sub(a.of[2], b.of[2])}};
 }
 
-/// From one cylinder to another whose center is `gap` away, nearly where they are nearest; of length
-/// 1, or 0 where nothing can be said.
+/// From one cylinder to another whose center is `gap` away, nearly where they are nearest; of
+/// length 1, or 0 where nothing can be said.
 HWY_INLINE vector3 direction_between(const cylinder_lanes& a, const cylinder_lanes& b,
                                      const vector3& gap) {
     const floats d;
@@ -181,8 +181,8 @@ HWY_INLINE vector3 direction_between(const cylinder_lanes& a, const cylinder_lan
     return direction;
 }
 
-/// Eight cylinders against one. Along any direction v, of a length within 2^-20 of 1, the cylinders are
-/// apart by what their centers are less what each reaches toward the other; the best v runs
+/// Eight cylinders against one. Along any direction v, of a length within 2^-20 of 1, the cylinders
+/// are apart by what their centers are less what each reaches toward the other; the best v runs
 /// between their nearest points, and a projection onto one and from there onto the other is close
 /// to that.
 ///

@@ -38,9 +38,9 @@ struct cell_grid {
     [[nodiscard]] point3 point(lattice_key at, double shift = 0.0) const;
 };
 
-/// The cubes that may hold points at `distance` from the mesh on that side of it, all of them: a cube
-/// is left out where its center is too near or too far. None of them meets the mesh. Empty where
-/// `progress` is cancelled.
+/// The cubes that may hold points at `distance` from the mesh on that side of it, all of them: a
+/// cube is left out where its center is too near or too far. None of them meets the mesh. Empty
+/// where `progress` is cancelled.
 ///
 /// \pre    step <= distance / 2; the mesh is closed, unless any side will do
 /// \throws std::invalid_argument, in the name of the function, where there would be too many

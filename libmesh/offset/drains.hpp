@@ -13,8 +13,8 @@ struct drilled {
     bool leads = false;  ///< its ends are outside the solid and in a cavity, exactly
 };
 
-/// Along the shortest way from the point of the surface nearest to `hole.at` to the cavities, and as
-/// far beyond both as the hole is wide, but no more than half of the way to what is next there.
+/// Along the shortest way from the point of the surface nearest to `hole.at` to the cavities, and
+/// as far beyond both as the hole is wide, but no more than half of the way to what is next there.
 ///
 /// \pre both have faces, and no point in common
 [[nodiscard]] drilled drill(const drain& hole, const prepared_mesh& solid,

@@ -15,7 +15,8 @@
 namespace treeform::detail::offset {
 namespace {
 
-/// Corners of the six tetrahedra of a cube, as bits of axes: counter-clockwise, as `orient3d` has it.
+/// Corners of the six tetrahedra of a cube, as bits of axes: counter-clockwise, as `orient3d` has
+/// it.
 constexpr std::array<std::array<unsigned, 4>, 6> tetrahedra{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 

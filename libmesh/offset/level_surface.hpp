@@ -9,8 +9,9 @@
 namespace treeform::detail::offset {
 
 /// The surface between corners of cells that are nearer to the mesh than `distance` and those that
-/// are not. Each cell is six tetrahedra about its diagonal, each cut by a triangle or by two: closed
-/// and manifold, whatever the distances are. Behind its faces is what is near, or else what is far.
+/// are not. Each cell is six tetrahedra about its diagonal, each cut by a triangle or by two:
+/// closed and manifold, whatever the distances are. Behind its faces is what is near, or else what
+/// is far.
 ///
 /// Empty where `progress` says stop.
 ///

@@ -247,8 +247,8 @@ class alignment {
             take_if_better(tried[i].end.map, 0.82, 0.85);
     }
 
-    /// The task without what the last weights leave out, to compare places close by: what belongs to
-    /// nothing costs more than they differ by.
+    /// The task without what the last weights leave out, to compare places close by: what belongs
+    /// to nothing costs more than they differ by.
     [[nodiscard]] search_task without_outliers(const std::vector<partner>& partners) const {
         search_task task = task_;
         const auto within = std::count_if(partners.begin(), partners.end(), [&](const partner& p) {
@@ -260,7 +260,8 @@ class alignment {
         return task;
     }
 
-    /// By what factor the cost of so many points has to be lower at another place: by more than chance.
+    /// By what factor the cost of so many points has to be lower at another place: by more than
+    /// chance.
     [[nodiscard]] static double better_of(std::size_t points) {
         return std::clamp(1.0 - 4.0 / std::sqrt(static_cast<double>(points)), 0.5, 0.9);
     }

@@ -40,13 +40,14 @@ struct freedom {
 [[nodiscard]] std::vector<freedom> freedoms_of(const std::vector<partner>& weighed,
                                                const Vector3d& center);
 
-/// How far the points may be from where they belong: the standard deviation that the distances leave,
-/// as a root mean square over the points. Neighbors that are off to the same side count as fewer.
-/// Motions of a stiffness below `least` are left out.
+/// How far the points may be from where they belong: the standard deviation that the distances
+/// leave, as a root mean square over the points. Neighbors that are off to the same side count as
+/// fewer. Motions of a stiffness below `least` are left out.
 [[nodiscard]] double uncertainty_of(const residuals& left, const std::vector<freedom>& freedoms,
                                     double least);
 
-/// Every fourth of the points is not fitted, where there are many: they are what a fit is judged by.
+/// Every fourth of the points is not fitted, where there are many: they are what a fit is judged
+/// by.
 constexpr std::size_t judge_every = 4;
 [[nodiscard]] inline bool is_judge(std::size_t i) { return i % judge_every == judge_every / 2; }
 

@@ -12,8 +12,8 @@ namespace treeform::detail::place {
 /// Judges places of different scales. A cost of one direction alone is least where all points are
 /// one, or where they are far larger than the fixed side: here a place is as good as the median
 /// distance from the moving to the fixed points, in lengths of the moving side, times that from the
-/// fixed to the moving ones, in those of the fixed side. Whichever side is the moving one, it is the
-/// same.
+/// fixed to the moving ones, in those of the fixed side. Whichever side is the moving one, it is
+/// the same.
 class both_ways {
   public:
     both_ways(const moving_points& few, const align_frame& frame, mesh_view fixed);

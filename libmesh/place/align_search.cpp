@@ -141,8 +141,8 @@ bool is_bounded(const search_task& task, double scale) {
     return scale >= task.least_scale && scale <= task.most_scale;
 }
 
-/// The step to take from `map`, none where nothing counts. At a bound of the scale, the best of those
-/// that keep it.
+/// The step to take from `map`, none where nothing counts. At a bound of the scale, the best of
+/// those that keep it.
 std::optional<similarity> step_from(const search_task& task, const similarity& map,
                                     const std::vector<partner>& partners) {
     const bool any = std::any_of(partners.begin(), partners.end(),

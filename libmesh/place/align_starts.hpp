@@ -29,8 +29,8 @@ struct inertia {
 [[nodiscard]] std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
                                                 const similarity& present, std::size_t count);
 
-/// `present`, and places around it: shifted by 8% of `diagonal` along the axes, turned by 14 degrees
-/// about lines through `center`, moved already, and both.
+/// `present`, and places around it: shifted by 8% of `diagonal` along the axes, turned by 14
+/// degrees about lines through `center`, moved already, and both.
 [[nodiscard]] std::vector<similarity> starts_near(const Vector3d& center, const similarity& present,
                                                   double diagonal);
 

@@ -48,8 +48,8 @@ class facing {
 /// Of a face of the mesh where it is: a mirror exchanges the sides. \pre it is closed
 [[nodiscard]] inside_sides sides_beside(const shape& of, std::uint32_t face);
 
-/// Whether what is in front of a face is inside, and what is behind it is not; false for an open mesh
-/// and for a cloud, which have no inside.
+/// Whether what is in front of a face is inside, and what is behind it is not; false for an open
+/// mesh and for a cloud, which have no inside.
 [[nodiscard]] bool looks_inward(const shape& of, std::uint32_t face);
 
 }  // namespace treeform::detail::place

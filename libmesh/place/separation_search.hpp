@@ -45,8 +45,8 @@ struct separations {
 /// say that it is free is passed over, a way back of which it does is not gone. With an
 /// effort, the ways along the axes past all boxes are always among those given.
 ///
-/// The places are those of exact translations except for rounding: `snap_to_representable`, backing off
-/// `forward`, decides in the coordinates that are written.
+/// The places are those of exact translations except for rounding: `snap_to_representable`, backing
+/// off `forward`, decides in the coordinates that are written.
 ///
 /// \throws std::invalid_argument when the clearance is negative or not finite
 /// \cost   for each of some 50 directions up to a dozen `intersects` or `distance`, a

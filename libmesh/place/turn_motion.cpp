@@ -176,11 +176,11 @@ class turn_searching {
 
     /// An angle within which two faces come no nearer than the clearance.
     ///
-    /// Planes across u keep them apart: all of a lies before u . x = A, all of b beyond B. Turned by
-    /// f, a corner p of a moves by sin f (u . v) - (1 - cos f) (u . w) along u, with v its velocity
-    /// and w its offset from the axis: for f in [0, pi] by no more than
-    /// f max(0, u . v) + f^2 / 2 max(0, -u . w). That holds for any u of length 1; which one is
-    /// taken only decides how far the step leads.
+    /// Planes across u keep them apart: all of a lies before u . x = A, all of b beyond B. Turned
+    /// by f, a corner p of a moves by sin f (u . v) - (1 - cos f) (u . w) along u, with v its
+    /// velocity and w its offset from the axis: for f in [0, pi] by no more than f max(0, u . v) +
+    /// f^2 / 2 max(0, -u . w). That holds for any u of length 1; which one is taken only decides
+    /// how far the step leads.
     [[nodiscard]] double free_angle(const transform<3>& there, const near_pair& pair) const {
         const triangle3 a = face_at(there, pair.a);
         const triangle3 b = triangle_of(parts_[pair.part].mesh(), pair.b);

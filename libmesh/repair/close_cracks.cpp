@@ -98,8 +98,8 @@ class crack_closer {
         return box;
     }
 
-    /// How far the ends of two edges are apart, and whether the edges run opposite ways, as those of
-    /// faces that agree; none where they are no crack.
+    /// How far the ends of two edges are apart, and whether the edges run opposite ways, as those
+    /// of faces that agree; none where they are no crack.
     [[nodiscard]] std::optional<std::pair<double, bool>> width(const border_edge& a,
                                                                const border_edge& b) const {
         if (a.face == b.face) return {};
@@ -169,8 +169,8 @@ class crack_closer {
         return true;
     }
 
-    /// Where on the edge the point is nearest, as a share of it, if that is inside the edge and near
-    /// enough for the edge's face.
+    /// Where on the edge the point is nearest, as a share of it, if that is inside the edge and
+    /// near enough for the edge's face.
     [[nodiscard]] std::optional<double> share_on(const border_edge& e, std::uint32_t p) const {
         const point3 along = base::minus(at(e.to), at(e.from));
         const double square = base::dot(along, along);

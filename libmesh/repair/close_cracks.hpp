@@ -20,9 +20,10 @@ struct closed_cracks {
 ///
 /// Two border edges are zipped when each is the nearest to the other, their ends are within the gap
 /// of each other and within a quarter of either edge, and no face would get two corners in one
-/// point. They may run either way: faces are made to agree later. Nearest pairs come first; of two points the lower number stays. Then a border edge is
-/// split at border vertices within the gap of its inside (and nearer than a quarter of the face's
-/// height over it) where that makes it meet another border edge.
+/// point. They may run either way: faces are made to agree later. Nearest pairs come first; of two
+/// points the lower number stays. Then a border edge is split at border vertices within the gap of
+/// its inside (and nearer than a quarter of the face's height over it) where that makes it meet
+/// another border edge.
 ///
 /// \cost O((V + F) log F) for faces; the search looks at border edges alone
 /// \same on any number of threads

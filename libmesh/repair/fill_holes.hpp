@@ -34,8 +34,8 @@ enum class sheets_too : std::uint8_t { no, yes };
 /// Fills each hole of at most `largest` edges: `triangulate_rim`, or else a cone over the rim.
 /// Large holes of smooth surfaces are refined and made fair. Unless asked for, sheets stay open: a
 /// hole whose filling has more than 0.6 times the area of the part that it is in, unless the rim is
-/// plane and the part lies to one side of that plane, as of a plate without its top. Afterwards, faces
-/// run as often one way as the other along each edge of every rim filled.
+/// plane and the part lies to one side of that plane, as of a plate without its top. Afterwards,
+/// faces run as often one way as the other along each edge of every rim filled.
 ///
 /// What fills a hole may meet other faces: to cut it is the next step's.
 filled_holes fill_holes(working_mesh& mesh, std::uint64_t largest, sheets_too sheets,

@@ -53,7 +53,8 @@ class closed_components {
     /// solid with cavities, inside out. Cavities stay inside of what was filled, whether or not the
     /// filling passes through them.
     ///
-    /// \cost for a component turned inward, a winding number around each one whose box holds its own
+    /// \cost for a component turned inward, a winding number around each one whose box holds its
+    ///       own
     /// \same on any number of threads
     std::uint64_t turn_outward();
 

@@ -10,9 +10,9 @@
 
 namespace treeform::detail::repair {
 
-/// Gives each closed component of `given`, by its own vertex numbers (`face_components`), vertices of
-/// its own in `made`, where equal points were joined: of the corners of its faces that others use,
-/// too, there will be one more for each such component but the first.
+/// Gives each closed component of `given`, by its own vertex numbers (`face_components`), vertices
+/// of its own in `made`, where equal points were joined: of the corners of its faces that others
+/// use, too, there will be one more for each such component but the first.
 ///
 /// \param face_source   [F] of `made`, face of `given` or `repair_result::none`
 /// \param vertex_source [V] of `made`; what is added comes after it

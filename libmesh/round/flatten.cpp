@@ -40,7 +40,8 @@ struct flat_part {
 
 class flattening {
   public:
-    /// \param begin_at    faces that meet, or could not be made flat without others at their corners
+    /// \param begin_at    faces that meet, or could not be made flat without others at their
+    ///        corners
     /// \param falls_apart  what cannot be made does so
     flattening(mesh_view surface, const numbers& begin_at, const flatten_options& options,
                bool falls_apart)

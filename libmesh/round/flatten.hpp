@@ -36,8 +36,8 @@ struct flattened {
 /// - a rim between two parts becomes straight where all of it is within reach of the straight way;
 /// - where two sides of a rim cross, both get a new point.
 /// If a part has no such triangles, its rim is not straightened. If it still has none, all starts
-/// over with its faces among those that meet, at most three times. After that it is replaced face by
-/// face. No result, if that does not end.
+/// over with its faces among those that meet, at most three times. After that it is replaced face
+/// by face. No result, if that does not end.
 ///
 /// The sum of the boundaries stays what it was, so that a closed surface stays closed; points stay
 /// where they are. Whether less meets afterwards is for the caller to see.

@@ -10,8 +10,8 @@
 
 namespace treeform::detail::round {
 
-/// [V] What each point becomes: nearest pairs first, those of `near` that are within `reach` of each
-/// other become one of them, no further away; two that are held never do.
+/// [V] What each point becomes: nearest pairs first, those of `near` that are within `reach` of
+/// each other become one of them, no further away; two that are held never do.
 ///
 /// \param near     ascending
 /// \param is_held  [V] 1 for points that stay themselves

@@ -47,9 +47,9 @@ struct sides_cross : rim_fault {
     std::size_t a, b;  ///< by number
 };
 
-/// The region as triangles between its points, near-Delaunay, oriented as `plane`: what the rim winds
-/// around as seen along the axis, several times where it does so several times, and turned over
-/// where it does so the other way.
+/// The region as triangles between its points, near-Delaunay, oriented as `plane`: what the rim
+/// winds around as seen along the axis, several times where it does so several times, and turned
+/// over where it does so the other way.
 ///
 /// \pre    no side has a point of the region but its ends, and all ends are among the points
 /// \throws sides_cross where sides of the rim do

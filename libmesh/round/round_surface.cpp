@@ -139,8 +139,8 @@ class rounding {
         }
     }
 
-    /// Flat parts come first. Where too much meets after that, nothing is cut: the round begins anew
-    /// with a longer reach.
+    /// Flat parts come first. Where too much meets after that, nothing is cut: the round begins
+    /// anew with a longer reach.
     void flat_rounds(rounds all) {
         for (int round = 1; all.reach <= all.limit; ++round) {
             const state before = now();

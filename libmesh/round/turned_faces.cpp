@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::size_t parts_a_chunk = 16;
 
-/// The parts of faces near those that have moved, as far as they are near, without those that have a
-/// face that holds them: each face's place, after the lowest of its part; ascending.
+/// The parts of faces near those that have moved, as far as they are near, without those that have
+/// a face that holds them: each face's place, after the lowest of its part; ascending.
 ///
-/// All that are not near hold. Where an edge is one of theirs, no box of a face that has moved meets
-/// it, and what is near and has the edge is held there, too: so are both faces at an edge of which
-/// others have been left out.
+/// All that are not near hold. Where an edge is one of theirs, no box of a face that has moved
+/// meets it, and what is near and has the edge is held there, too: so are both faces at an edge of
+/// which others have been left out.
 std::vector<std::array<std::uint32_t, 2>> loose_parts(const near_edges& near) {
     const std::size_t count = near.faces().size();
     base::union_find sets(count);

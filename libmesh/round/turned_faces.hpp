@@ -23,9 +23,9 @@ using winding_of_rest = std::function<std::int64_t(const arrange::corner_line& l
 ///
 /// A part is connected along edges of two faces; there is one winding number in front of all of it.
 /// It is 0 if it has a face that has not moved and whose box meets no box of a face that has: a
-/// point next to such a face is met by nothing on its way from the exact places to the rounded ones,
-/// as rounding is monotone, and what lies beyond one side of a box of doubles stays there. A line
-/// tells of each loose part, all of which is near what has moved. Exact.
+/// point next to such a face is met by nothing on its way from the exact places to the rounded
+/// ones, as rounding is monotone, and what lies beyond one side of a box of doubles stays there. A
+/// line tells of each loose part, all of which is near what has moved. Exact.
 ///
 /// \param near the faces that have moved and all whose boxes meet one of theirs
 /// \param rest faces left out, none of which has moved or meets a box of a face that has

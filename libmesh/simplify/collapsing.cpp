@@ -36,11 +36,12 @@ constexpr std::size_t most_places = 2;  ///< tried for an edge
 }
 
 struct candidate {
+    bool anew = false;  ///< no step was proven: the input is to be looked at
     double cost = 0.0;
     std::uint32_t p = 0, q = 0;
     std::uint64_t version = 0;  ///< of both ends together
     friend bool operator>(const candidate& a, const candidate& b) {
-        return std::tie(a.cost, a.p, a.q) > std::tie(b.cost, b.p, b.q);
+        return std::tie(a.anew, a.cost, a.p, a.q) > std::tie(b.anew, b.cost, b.p, b.q);
     }
 };
 
@@ -74,12 +75,19 @@ class simplifying {
     };
     [[nodiscard]] places_of_edge places(std::uint32_t p, std::uint32_t q) const;
     void line_up(std::uint32_t p, std::uint32_t q);
-    void collapse(std::uint32_t p, std::uint32_t q);
-    std::uint64_t* attempt(std::uint32_t p, std::uint32_t q, const place& to);
+    void collapse(candidate c);
+    std::uint64_t* attempt(const candidate& c, const place& to);
     [[nodiscard]] bool meets();
     void apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, double chain,
                std::uint32_t source);
+    [[nodiscard]] std::uint32_t group_of(std::uint32_t corner) const {
+        if (corner == no_face) return no_face;
+        return options_.corner_groups.empty() ? 0 : options_.corner_groups[corner];
+    }
+    void move_corners(std::uint32_t gone, std::uint32_t kept, bool is_new);
+    [[nodiscard]] bool are_linked(std::uint32_t t, std::uint32_t u) const;
     [[nodiscard]] std::uint32_t nearest_given(std::uint32_t p) const;
+    [[nodiscard]] std::uint32_t nearest_on_side(std::uint32_t p, double enough) const;
     simplify_result finish();
 
     const simplify_options& options_;
@@ -90,6 +98,7 @@ class simplifying {
     std::vector<point3> points_;
     std::vector<face> faces_;
     ids face_source_;
+    std::vector<face> corner_source_{};  ///< [F] as in the result
     std::vector<ids> star_;
     ids source_{};  ///< of each vertex, as in the result
     std::vector<quadric> quadric_{};
@@ -131,6 +140,8 @@ simplifying::simplifying(mesh_view given, connected_faces&& mesh, double distanc
     version_.resize(points_.size());
     source_.resize(points_.size());
     for (std::uint32_t p = 0; p < source_.size(); ++p) source_[p] = p;
+    for (const std::uint32_t f : face_source_)
+        corner_source_.push_back({3 * f, 3 * f + 1, 3 * f + 2});
     tree_ = dynamic_tree<3>(faces_, [&](const face& f) { return box_of(f); });
     add_quadrics();
 }
@@ -144,28 +155,21 @@ simplify_result simplifying::run() {
         }
     const auto start = static_cast<double>(tree_.size());
     for (std::size_t steps = 0; !next_.empty() && tree_.size() > options_.target_faces; ++steps) {
-        if (steps % 1024 == 0 && !progress.step(0.0, 0.95, steps, start)) break;
+        if (steps % 1024 == 0 && !progress.step(0.0, 1.0, steps, start)) break;
         const candidate c = next_.top();
         next_.pop();
         if (c.version == version_[c.p] + version_[c.q] && !star_[c.p].empty() &&
             !star_[c.q].empty())
-            collapse(c.p, c.q);
+            collapse(c);
     }
-    if (progress.cancelled()) {
-        result_ = {};
-        result_.certificate.status = status::cancelled;
-        return std::move(result_);
-    }
-    return finish();
+    return progress.cancelled() ? simplify_result{} : finish();
 }
 
 /// Of planes of faces, and of planes upright on them along borders.
 void simplifying::add_quadrics() {
     if (!faces_.empty()) center_ = points_[faces_.front()[0]];
     const auto add = [&](std::uint32_t p, const point3& normal, const point3& at, double weight) {
-        const double length = std::sqrt(base::dot(normal, normal));
-        if (!(length > 0.0)) return;
-        const point3 unit = base::scaled(normal, 1.0 / length);
+        const point3 unit = unit_of(normal);
         quadric_[p].add_plane(unit, -base::dot(unit, base::minus(at, center_)), weight);
     };
     for (const face& f : faces_) {
@@ -222,11 +226,12 @@ void simplifying::line_up(std::uint32_t p, std::uint32_t q) {
     if (all.count == 0) return;
     const point3 way = base::minus(points_[p], points_[q]);
     const double short_first = 1e-9 * base::dot(way, way) * base::dot(way, way);
-    next_.push({all.best[0].cost + short_first, std::min(p, q), std::max(p, q),
+    next_.push({false, all.best[0].cost + short_first, std::min(p, q), std::max(p, q),
                 version_[p] + version_[q]});
 }
 
-void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
+void simplifying::collapse(candidate c) {
+    const std::uint32_t p = c.p, q = c.q;
     ids &common = workspace_[0], &gone = workspace_[1];
     common.clear();
     gone.clear();
@@ -247,19 +252,26 @@ void simplifying::collapse(std::uint32_t p, std::uint32_t q) {
     change_.same_rim = gone.size() == 2;
     const std::array<point3, 2> before{points_[p], points_[q]};
     std::uint64_t* refused = &result_.refused_by_distance;
+    bool is_far = false;
     const places_of_edge all = places(p, q);
     for (std::size_t i = 0; i < all.count; ++i) {
-        refused = attempt(p, q, all.best[i]);
+        refused = attempt(c, all.best[i]);
         if (refused == nullptr) return;
+        is_far = is_far || refused == &result_.refused_by_distance;
         points_[p] = before[0];
         points_[q] = before[1];
+    }
+    if (is_far && !std::exchange(c.anew, true)) {
+        next_.push(c);
+        return;
     }
     ++*refused;
     if (refused != &result_.refused_by_distance) shelved_.insert(edge_of(p, q));
 }
 
 /// Makes it, or returns the counter of what speaks against it.
-std::uint64_t* simplifying::attempt(std::uint32_t p, std::uint32_t q, const place& to) {
+std::uint64_t* simplifying::attempt(const candidate& c, const place& to) {
+    const std::uint32_t p = c.p, q = c.q;
     const std::uint32_t gone = to.at == points_[p] ? q : p;
     std::optional<double> chain = 0.0;
     if (chains_.has(p, q)) {
@@ -284,7 +296,8 @@ std::uint64_t* simplifying::attempt(std::uint32_t p, std::uint32_t q, const plac
     }
     for (const triangle3& t : change_.after)
         if (collinear(t[0], t[1], t[2])) return &result_.refused_by_turning;
-    if (!proof_.holds(change_, tree_)) return &result_.refused_by_distance;
+    if (!proof_.holds_by_step(change_) && !(c.anew && proof_.holds_anew(change_, tree_)))
+        return &result_.refused_by_distance;
     if (meets()) return &result_.refused_by_contact;
     apply(p, q, gone, *chain, to.source);
     return nullptr;
@@ -317,6 +330,7 @@ void simplifying::apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, do
     ++result_.collapses;
     proof_.accept(change_);
     chains_.join(p, q, gone, chain);
+    move_corners(gone, gone == p ? q : p, source == no_face);
     const ids& left_out = workspace_[1];
     for (const std::uint32_t f : left_out)
         for (const std::uint32_t c : faces_[f]) std::erase(star_[c], f);
@@ -338,6 +352,56 @@ void simplifying::apply(std::uint32_t p, std::uint32_t q, std::uint32_t gone, do
                 line_up(a, b);
 }
 
+/// Gives corners at `gone` what faces that go have at `kept`, on the same side of borders.
+void simplifying::move_corners(std::uint32_t gone, std::uint32_t kept, bool is_new) {
+    for (const std::uint32_t f : change_.kept)
+        for (std::size_t i = 0; i < 3; ++i) {
+            std::uint32_t& corner = corner_source_[f][i];
+            if (faces_[f][i] != gone && !(is_new && faces_[f][i] == kept)) continue;
+            std::uint32_t moved = no_face;
+            for (const std::uint32_t g : workspace_[1]) {
+                const face& at = corner_source_[g];
+                if (!is_new && (moved == no_face ||
+                                group_of(at[corner_of(faces_[g], gone)]) == group_of(corner)))
+                    moved = at[corner_of(faces_[g], kept)];
+            }
+            corner = moved;
+        }
+}
+
+/// Whether no border is between two triangles of the input.
+bool simplifying::are_linked(std::uint32_t t, std::uint32_t u) const {
+    for (std::uint32_t i = 0; i < 3; ++i)
+        for (std::uint32_t j = 0; j < 3; ++j)
+            if (proof_.given(t)[i] == proof_.given(u)[j] &&
+                group_of(3 * face_source_[t] + i) != group_of(3 * face_source_[u] + j))
+                return false;
+    return true;
+}
+
+/// Goes from the triangles that faces at `p` were across sides that are no borders, to the nearest
+/// ones first, until one is near `enough` or no nearer one comes.
+std::uint32_t simplifying::nearest_on_side(std::uint32_t p, double enough) const {
+    constexpr std::size_t patience = 256;
+    using reached = std::pair<double, std::uint32_t>;
+    std::priority_queue<reached, std::vector<reached>, std::greater<>> next;
+    std::unordered_set<std::uint32_t> seen;
+    const auto put = [&](std::uint32_t t) {
+        if (seen.insert(t).second)
+            next.emplace(closest_point(proof_.given(t), points_[p]).squared_distance, t);
+    };
+    for (const std::uint32_t f : star_[p]) put(f);
+    reached best = next.top();
+    for (std::size_t tries = 0; !next.empty() && tries < patience && best.first > enough; ++tries) {
+        const reached one = next.top();
+        next.pop();
+        if (one < best) best = one, tries = 0;
+        for (const std::uint32_t mate : proof_.mates_of_given(one.second))
+            if (mate != no_face && are_linked(one.second, mate)) put(mate);
+    }
+    return best.second;
+}
+
 /// The triangle of the input that is nearest to a vertex, of those in lists of its faces.
 std::uint32_t simplifying::nearest_given(std::uint32_t p) const {
     std::uint32_t nearest = star_[p].front();
@@ -348,7 +412,7 @@ std::uint32_t simplifying::nearest_given(std::uint32_t p) const {
             const double d = closest_point(proof_.given(t), points_[p]).squared_distance;
             if (std::tie(d, t) < std::tie(least, nearest)) least = d, nearest = t;
         }
-    return nearest;
+    return options_.corner_groups.empty() ? nearest : nearest_on_side(p, least);
 }
 
 simplify_result simplifying::finish() {
@@ -368,6 +432,8 @@ simplify_result simplifying::finish() {
         result_.mesh.faces.push_back(
             {number[faces_[f][0]], number[faces_[f][1]], number[faces_[f][2]]});
         result_.face_source.push_back(face_source_[f]);
+        result_.corner_source.insert(result_.corner_source.end(), corner_source_[f].begin(),
+                                     corner_source_[f].end());
     }
     return std::move(result_);
 }

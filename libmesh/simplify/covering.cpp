@@ -11,13 +11,6 @@ namespace {
 
 constexpr int most_pieces = 200;  ///< a triangle that needs more is not proven
 
-[[nodiscard]] bool are_near(const aabb<double, 3>& a, const aabb<double, 3>& b, double distance) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (a.min[axis] - b.max[axis] > distance || b.min[axis] - a.max[axis] > distance)
-            return false;
-    return true;
-}
-
 }  // namespace
 
 /// Points in the plane belong to both halves; a half of such points only is empty. Signs may be
@@ -110,6 +103,8 @@ bool covering::settle(std::span<const target> by, double distance) {
         middle = base::plus(middle, whole.corners[k]);
     }
     middle = base::scaled(middle, 1.0 / whole.count);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        box.min[axis] -= distance, box.max[axis] += distance;
     const auto squared = [&](std::uint32_t i, const point3& p) {
         return geometry::squared_distance(by[i].based, p);
     };
@@ -119,8 +114,9 @@ bool covering::settle(std::span<const target> by, double distance) {
     double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t n = whole.near_begin; n < whole.near_end; ++n) {
         const std::uint32_t i = near_[n];
-        if (!are_near(by[i].box, box, distance)) continue;
+        if (!overlaps(by[i].box, box)) continue;
         near_.push_back(i);
+        if (squared_distance(by[i].box, middle) >= least) continue;
         if (const double d = squared(i, middle); d < least) least = d, best = i;
     }
     whole.near_begin = whole.near_end;

@@ -42,10 +42,10 @@ class covering {
     /// in `used` then.
     ///
     /// Numbers that corners of pieces have within the triangle are taken as exact, whatever they
-    /// are: pieces cover it. With M the largest coordinate and u = 2^-53, a corner is where they say
-    /// to 9 u M for each cut that it comes of: a difference, a product and a sum of at most 2, 2 and
-    /// 1 M on each axis. `closest_point` is off by 8 u times 2 sqrt(3) M, root and square of the
-    /// distance by less than 12 u M.
+    /// are: pieces cover it. With M the largest coordinate and u = 2^-53, a corner is where they
+    /// say to 9 u M for each cut that it comes of: a difference, a product and a sum of at most 2,
+    /// 2 and 1 M on each axis. `closest_point` is off by 8 u times 2 sqrt(3) M, root and square of
+    /// the distance by less than 12 u M.
     [[nodiscard]] bool cover(const triangle3& t, std::span<const target> by, double distance);
 
     [[nodiscard]] const std::vector<use>& used() const { return used_; }

@@ -18,6 +18,35 @@ constexpr double rim_share = 0x1p-6;  ///< of the limit
     return box;
 }
 
+/// Around what is within a margin of a triangle: a box, and planes along its sides.
+class surroundings {
+  public:
+    /// \param margin with 2^-48 of the largest coordinate for rounding: whatever directions come to,
+    ///        planes are where corners and margin put them, to 17 u of that
+    surroundings(const triangle3& t, double margin) : box_(box_around(t, margin)) {
+        const point3 normal = normal_of(t);
+        for (std::size_t i = 0; i < 3; ++i) {
+            out_[i] = unit_of(base::cross(base::minus(t[(i + 1) % 3], t[i]), normal));
+            limit_[i] = margin + std::ranges::max(along(t, out_[i]));
+        }
+    }
+    [[nodiscard]] bool may_meet(const triangle3& t, const aabb<double, 3>& box) const {
+        bool may = overlaps(box_, box);
+        for (std::size_t i = 0; i < 3 && may; ++i)
+            may = !(std::ranges::min(along(t, out_[i])) > limit_[i]);
+        return may;
+    }
+
+  private:
+    [[nodiscard]] static std::array<double, 3> along(const triangle3& t, const point3& way) {
+        return {base::dot(t[0], way), base::dot(t[1], way), base::dot(t[2], way)};
+    }
+
+    aabb<double, 3> box_;
+    std::array<point3, 3> out_{};
+    std::array<double, 3> limit_{};
+};
+
 [[nodiscard]] bool has(const ids& ascending, std::uint32_t value) {
     return std::ranges::binary_search(ascending, value);
 }
@@ -26,7 +55,7 @@ constexpr double rim_share = 0x1p-6;  ///< of the limit
 
 distance_proof::distance_proof(mesh_view given, const connected_faces& now, double largest,
                                double limit)
-    : limit_(limit), rounding_(0x1p-50 * largest), covering_(largest) {
+    : limit_(limit), rounding_(0x1p-48 * largest), covering_(largest) {
     faces_.resize(now.faces.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         const triangle3 corners = base::triangle_of(given, now.source[f]);
@@ -43,8 +72,18 @@ distance_proof::distance_proof(mesh_view given, const connected_faces& now, doub
     }
 }
 
+void distance_proof::make_room(const change& c) {
+    made_.resize(c.kept.size());
+    for (std::size_t i = 0; i < made_.size(); ++i) {
+        made_[i].now = c.after[i];
+        made_[i].there = made_[i].back = 0.0;
+        made_[i].near.clear();
+    }
+}
+
 /// Triangles of the input in lists of old faces.
 void distance_proof::find_affected(const change& c) {
+    raised_.clear();
     affected_.clear();
     ++visit_;
     for (const std::uint32_t f : c.old)
@@ -52,30 +91,14 @@ void distance_proof::find_affected(const change& c) {
             if (std::exchange(given_[t].visited, visit_) != visit_) affected_.push_back(t);
 }
 
-bool distance_proof::holds(const change& c, const dynamic_tree<3>& tree) {
-    made_.resize(c.kept.size());
-    raised_.clear();
-    for (std::size_t i = 0; i < made_.size(); ++i) {
-        made_[i].now = c.after[i];
-        made_[i].there = made_[i].back = 0.0;
-        made_[i].near.clear();
-    }
-    const bool by_step = c.same_rim && holds_by_step(c);
-    find_affected(c);
-    if (!by_step) return holds_anew(c, tree);
-    for (bounded& made : made_) {
-        const auto reach = box_around(made.now, std::max(made.there, made.back) + rounding_);
-        for (const std::uint32_t t : affected_)
-            if (overlaps(reach, given_[t].box)) made.near.push_back(t);
-    }
-    return true;
-}
-
 /// Old and new disks have one rim, and all faces of both face the eye: of each place in view, they
 /// cover it equally often, and where one does, so does the other.
 bool distance_proof::holds_by_step(const change& c) {
+    make_room(c);
+    if (!c.same_rim) return false;
     point3 along;
-    for (const triangle3& t : c.before) along = base::plus(along, normal_of(t));
+    for (const auto* all : {&c.before, &c.after})
+        for (const triangle3& t : *all) along = base::plus(along, unit_of(normal_of(t)));
     if (!(base::dot(along, along) > 0.0)) return false;
     const view_along view(along, c.after[0][0]);
     const auto see = [&](const std::vector<triangle3>& all, std::vector<seen_triangle>& seen) {
@@ -93,11 +116,18 @@ bool distance_proof::holds_by_step(const change& c) {
                 made_[i].back = std::max(made_[i].back, faces_[c.old[j]].back + *gap);
                 if (made_[i].there > limit_ || made_[i].back > limit_) return false;
             }
+    find_affected(c);
+    for (bounded& made : made_) {
+        const surroundings reach(made.now, std::max(made.there, made.back) + rounding_);
+        for (const std::uint32_t t : affected_)
+            if (reach.may_meet(given_[t].corners, given_[t].box)) made.near.push_back(t);
+    }
     return true;
 }
 
 bool distance_proof::holds_anew(const change& c, const dynamic_tree<3>& tree) {
-    for (bounded& made : made_) made.there = made.back = 0.0;
+    make_room(c);
+    find_affected(c);
     find_targets(c, tree);
     if (!covers_there(c)) return false;
     for (std::size_t i = 0; i < made_.size(); ++i)
@@ -143,9 +173,9 @@ bool distance_proof::covers_there(const change& c) {
     return true;
 }
 
-/// Whether the input, seen along the face, covers it no further away than the limit. What is seen of
-/// it grows from a triangle that covers some of it, across all sides of those that cover more. The
-/// face is made smaller by `rim` first, so that what hardly meets it does not count.
+/// Whether the input, seen along the face, covers it no further away than the limit. What is seen
+/// of it grows from a triangle that covers some of it, across all sides of those that cover more.
+/// The face is made smaller by `rim` first, so that what hardly meets it does not count.
 bool distance_proof::is_under(std::size_t i, const triangle3& t) {
     const point3 normal = normal_of(t);
     if (!(base::dot(normal, normal) > 0.0)) return false;

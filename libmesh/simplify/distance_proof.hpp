@@ -31,28 +31,32 @@ struct change {
     }
 };
 
-/// Bounds for each face: `there`, of points of the input that are near it, and `back`, of its points
-/// from the input.
+/// Bounds for each face: `there`, of points of the input that are near it, and `back`, of its
+/// points from the input.
 ///
 /// Each point of the input belongs to a face now that it is near to, and that face has the triangle
 /// of the point in its list. When faces change, their points go to the new ones. The two surfaces
 /// before and after, seen along a direction in which both face the eye and have one rim, cover each
 /// other: so bounds grow by the gap between them (a step). Where that is too much, both bounds are
-/// made anew from the input: points of all triangles in lists are covered by faces, and faces by the
-/// input, seen along their normals or in pieces.
+/// made anew from the input: points of all triangles in lists are covered by faces, and faces by
+/// the input, seen along their normals or in pieces.
 class distance_proof {
   public:
     /// \param largest no coordinate has a larger magnitude, nor will
     distance_proof(mesh_view given, const connected_faces& now, double largest, double limit);
 
+    [[nodiscard]] bool holds_by_step(const change& c);
     /// \param tree of faces as they are before
-    [[nodiscard]] bool holds(const change& c, const dynamic_tree<3>& tree);
+    [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
     /// Makes the change that was last asked for, and holds.
     void accept(const change& c);
 
     [[nodiscard]] const triangle3& given(std::uint32_t t) const { return given_[t].corners; }
     [[nodiscard]] const aabb<double, 3>& box_of_given(std::uint32_t t) const {
         return given_[t].box;
+    }
+    [[nodiscard]] const std::array<std::uint32_t, 3>& mates_of_given(std::uint32_t t) const {
+        return given_[t].mates;
     }
     [[nodiscard]] const ids& near(std::uint32_t f) const { return faces_[f].near; }
     [[nodiscard]] double there(std::uint32_t f) const { return faces_[f].there; }
@@ -62,7 +66,8 @@ class distance_proof {
     struct bounded {
         triangle3 now{};
         double there = 0.0, back = 0.0;
-        ids near{};  ///< triangles of the input some of whose points belong to it, or that it is near
+        /// triangles of the input some of whose points belong to it, or that it is near
+        ids near{};
     };
     struct input_triangle {
         triangle3 corners{};
@@ -74,8 +79,7 @@ class distance_proof {
         std::uint32_t face, given;
         double there;
     };
-    [[nodiscard]] bool holds_by_step(const change& c);
-    [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
+    void make_room(const change& c);
     void find_targets(const change& c, const dynamic_tree<3>& tree);
     [[nodiscard]] bool covers_there(const change& c);
     [[nodiscard]] bool covers_back(std::size_t i, const triangle3& t);

@@ -5,17 +5,13 @@
 #include <libmesh/weld/equal_firsts.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
 namespace treeform::detail::simplify {
 namespace {
-
-/// Where in the face the vertex is.
-[[nodiscard]] std::size_t corner_of(const face& f, std::uint32_t p) {
-    return f[0] == p ? 0 : f[1] == p ? 1 : 2;
-}
 
 [[nodiscard]] bool uses(const face& f, std::uint32_t p) {
     return f[0] == p || f[1] == p || f[2] == p;
@@ -78,8 +74,15 @@ kept_chains::kept_chains(const connected_faces& mesh, const simplify_options& op
     : at_(mesh.points.size()), locked_(mesh.points.size()) {
     const double cosine = std::cos(options.feature_angle * std::numbers::pi / 180.0);
     const auto& groups = options.face_groups;
-    const auto is_smooth = [&](std::uint32_t f, std::uint32_t g) {
+    const auto group_at = [&](std::uint32_t f, std::uint32_t p) {
+        return options.corner_groups[3 * mesh.source[f] + corner_of(mesh.faces[f], p)];
+    };
+    const auto is_smooth = [&](std::uint32_t f, std::uint32_t g,
+                               const std::array<std::uint32_t, 2>& ends) {
         if (!groups.empty() && groups[mesh.source[f]] != groups[mesh.source[g]]) return false;
+        if (!options.corner_groups.empty())
+            for (const std::uint32_t p : ends)
+                if (group_at(f, p) != group_at(g, p)) return false;
         if (options.feature_angle >= 180.0) return true;
         const point3 m = normal_of(base::triangle_of(mesh.points, mesh.faces[f]));
         const point3 n = normal_of(base::triangle_of(mesh.points, mesh.faces[g]));
@@ -89,7 +92,7 @@ kept_chains::kept_chains(const connected_faces& mesh, const simplify_options& op
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t p = mesh.faces[f][i], q = mesh.faces[f][(i + 1) % 3];
             const std::uint32_t mate = mesh.mates[f][i];
-            if (mate != no_face && (mate < f || is_smooth(f, mate))) continue;
+            if (mate != no_face && (mate < f || is_smooth(f, mate, {p, q}))) continue;
             const bool is_border = std::ranges::count_if(mesh.star[p], [&](std::uint32_t g) {
                                        return uses(mesh.faces[g], q);
                                    }) == 1;

@@ -12,8 +12,8 @@
 
 namespace treeform::detail::simplify {
 
-/// Edges that stay, in chains from vertex to vertex. Within a chain, a vertex may be left out as long
-/// as the chain stays within a distance of what it was.
+/// Edges that stay, in chains from vertex to vertex. Within a chain, a vertex may be left out as
+/// long as the chain stays within a distance of what it was.
 class kept_chains {
   public:
     kept_chains(const connected_faces& mesh, const simplify_options& options);

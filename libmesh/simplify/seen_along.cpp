@@ -39,12 +39,9 @@ struct cut_corners {
 }  // namespace
 
 view_along::view_along(const point3& direction, const point3& around) : around_(around) {
-    const auto unit = [](const point3& v) {
-        return base::scaled(v, 1.0 / std::sqrt(base::dot(v, v)));
-    };
-    along_ = unit(direction);
+    along_ = unit_of(direction);
     const bool flat = std::abs(along_.x) < 0.6;
-    across_ = unit(base::cross(along_, flat ? point3{1.0, 0.0, 0.0} : point3{0.0, 1.0, 0.0}));
+    across_ = unit_of(base::cross(along_, flat ? point3{1.0, 0.0, 0.0} : point3{0.0, 1.0, 0.0}));
     up_ = base::cross(along_, across_);
 }
 

@@ -1,4 +1,6 @@
+#include <libmesh/base/certify.hpp>
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/work_progress.hpp>
 #include <libmesh/simplify/collapsing.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -33,19 +35,23 @@ simplify_result simplify(const mesh_ref& mesh, double max_distance,
     detail::base::check_finite_faces("simplify", view);
     if (!options.face_groups.empty() && options.face_groups.size() != view.faces.size())
         throw std::invalid_argument("simplify: face_groups needs one for each face");
-    simplify_result result = detail::simplify::collapse_edges(view, max_distance, options);
+    if (!options.corner_groups.empty() && options.corner_groups.size() != 3 * view.faces.size())
+        throw std::invalid_argument("simplify: corner_groups needs three for each face");
+    detail::base::work_progress progress(options.progress);
+    simplify_options how = options;
+    how.progress = progress.part(0.0, 0.9);
+    simplify_result result = detail::simplify::collapse_edges(view, max_distance, how);
     result.certificate.precision = options.precision;
-    if (result.certificate.status == status::cancelled) return result;
-    const solid_defects before = find_solid_defects(view), after = find_solid_defects(result.mesh);
+    const solid_defects before = find_solid_defects(view, progress.part(0.9, 0.95));
+    const solid_defects after = find_solid_defects(result.mesh, progress.part(0.95, 1.0));
+    if (progress.cancelled()) {
+        result = {};
+        result.certificate.status = status::cancelled;
+        return result;
+    }
     if (has_more(after, before)) {
-        certificate& known = result.certificate;
-        known.status = status::not_certified;
         const auto met = self_intersections(result.mesh);
-        known.meeting_count = met.pairs.size();
-        for (std::size_t i = 0; i < std::min<std::size_t>(met.pairs.size(), 100); ++i) {
-            known.meeting.push_back({met.pairs[i].a, met.pairs[i].b});
-            known.meeting_at.push_back(result.mesh.points[result.mesh.faces[met.pairs[i].a][0]]);
-        }
+        detail::base::refuse_meeting(result.certificate, met.pairs, result.mesh);
     }
     return result;
 }

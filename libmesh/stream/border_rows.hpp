@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// What tiles leave to borders, as rows of five numbers and the values of the point: its tag, where it
-/// is, and one number more. A point that has a leader takes two, the second one for where that is.
+/// What tiles leave to borders, as rows of five numbers and the values of the point: its tag, where
+/// it is, and one number more. A point that has a leader takes two, the second one for where that
+/// is.
 
 #include <libmesh/stream/row_file.hpp>
 #include <libmesh/weld/tile_weld.hpp>

@@ -36,8 +36,8 @@ class paged_file {
         if (held_[slot] != p) load(p, slot);
         return records_[slot * page + static_cast<std::size_t>(i % page)];
     }
-    /// Those of the numbers `of`, fewer than 2^32. Where the last ones were all over the file, they are
-    /// looked up in ascending order, so that each page is read once.
+    /// Those of the numbers `of`, fewer than 2^32. Where the last ones were all over the file, they
+    /// are looked up in ascending order, so that each page is read once.
     ///
     /// \throws stream_error
     template <class To>

@@ -25,7 +25,8 @@ class point_keys {
 
     /// Those of all points, one point after the other, in the place of what is in `to`.
     void values_of(point_block& block, std::vector<std::uint64_t>& to) const;
-    /// One a point: less for what comes first in the order, or is rather kept; 0 without a property.
+    /// One a point: less for what comes first in the order, or is rather kept; 0 without a
+    /// property.
     void order_of(point_block& block, std::vector<std::uint64_t>& to) const;
     void choice_of(point_block& block, std::vector<std::uint64_t>& to) const;
 

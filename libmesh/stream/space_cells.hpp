@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Space cut into cells by planes across the axes, so that each has about the same share of a sample.
+/// Space cut into cells by planes across the axes, so that each has about the same share of a
+/// sample.
 
 #include <libmesh/stream/state_record.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -11,8 +12,8 @@
 
 namespace treeform::detail::stream {
 
-/// Each point is in one cell: a cell has its low faces, but not its high ones. Cells are as wide one
-/// way as the other, so that few things reach into several of them.
+/// Each point is in one cell: a cell has its low faces, but not its high ones. Cells are as wide
+/// one way as the other, so that few things reach into several of them.
 class space_cells {
   public:
     /// At most `count` cells. \pre the points are finite \cost O(n log n) time for n points

@@ -19,8 +19,8 @@ namespace treeform::detail::topology {
 /// \same on any number of threads
 [[nodiscard]] std::vector<std::uint32_t> points_without_fan(mesh_view mesh);
 
-/// Whether faces run along every edge once each way, and the faces at every point are one fan. False
-/// also for a mesh with a point of more than 64 faces.
+/// Whether faces run along every edge once each way, and the faces at every point are one fan.
+/// False also for a mesh with a point of more than 64 faces.
 ///
 /// \pre  every corner is a vertex
 /// \cost O(V + F)

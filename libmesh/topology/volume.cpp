@@ -36,7 +36,8 @@ using lanes_tag = hn::CappedTag<double, volume_lanes>;
 
 using vec = hn::Vec<lanes_tag>;
 
-/// As `base::double_double`, side by side: functions for one kind of machine cannot use those there.
+/// As `base::double_double`, side by side: functions for one kind of machine cannot use those
+/// there.
 struct doubled {
     vec high, low;
 };

@@ -18,8 +18,8 @@ void check_rows(const attributes& properties, std::size_t point_count, std::size
 /// Whether other elements than "vertex" and "face" name points by it.
 [[nodiscard]] bool numbers_points(const column& c);
 
-/// Replaces values `begin` to `end` of such a column by `new_of_old` of each; what is no number less
-/// than `points` stays.
+/// Replaces values `begin` to `end` of such a column by `new_of_old` of each; what is no number
+/// less than `points` stays.
 template <class NewOfOld>
 void renumber(column& c, std::size_t begin, std::size_t end, std::uint64_t points,
               const NewOfOld& new_of_old) {

@@ -47,8 +47,8 @@ struct tiling {
 /// The earliest point of each point's chain; empty when progress stopped it.
 ///
 /// \cost O(V) expected, and what `any_match` costs (linked.hpp) for neighboring cubes that are not
-///       one set by their earliest points; 20 bytes a point (36 where they are in few cells of cubes),
-///       and some 50 a cube with points
+///       one set by their earliest points; 20 bytes a point (36 where they are in few cells of
+///       cubes), and some 50 a cube with points
 [[nodiscard]] std::vector<std::uint32_t> dense_chains(points_view points,
                                                       const weld_options& options);
 

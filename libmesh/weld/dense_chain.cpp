@@ -217,8 +217,8 @@ class chain_finder {
         }
     }
 
-    /// Cuts the members of one hash into blocks: all are one unless `may_merge` says no, they are of
-    /// several cubes or labels, or so far out that cubes are wide.
+    /// Cuts the members of one hash into blocks: all are one unless `may_merge` says no, they are
+    /// of several cubes or labels, or so far out that cubes are wide.
     void add_blocks(std::span<member> members, std::size_t place, std::vector<block>& blocks) {
         std::vector<std::vector<member>> apart;
         std::size_t together = 1;

@@ -118,9 +118,9 @@ class first_pass {
         is_news_.push_back(false);
     }
 
-    /// As `border_weld`. An open point within a fourth of the tolerance of `asked` may have one that
-    /// stands for it and is as near to it. What was received, others have handed over; it is news
-    /// that it stands for points of another bundle.
+    /// As `border_weld`. An open point within a fourth of the tolerance of `asked` may have one
+    /// that stands for it and is as near to it. What was received, others have handed over; it is
+    /// news that it stands for points of another bundle.
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
                    std::vector<border_point>& known) {
         const std::uint64_t salt = agree_.salt(values.data());

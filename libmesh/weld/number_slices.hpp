@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The points of a cloud by their numbers, cut into slices: all of one come before those of the next.
+/// The points of a cloud by their numbers, cut into slices: all of one come before those of the
+/// next.
 
 #include <algorithm>
 #include <bit>

@@ -10,8 +10,8 @@
 namespace treeform::detail::weld {
 
 /// Rounded as the header of `weld` says; NaN when one of the values is not finite. Where a sum of
-/// differences is beyond the doubles it is taken of values scaled by 2^-64: 2^32 differences of less
-/// than 2^961 each. What this drops of small values is nothing beside such differences.
+/// differences is beyond the doubles it is taken of values scaled by 2^-64: 2^32 differences of
+/// less than 2^961 each. What this drops of small values is nothing beside such differences.
 class running_mean {
   public:
     void add(double value) {

@@ -33,7 +33,8 @@ class TREEFORM_API tile_cuts {
     [[nodiscard]] std::span<const node> nodes() const { return nodes_; }
     tile_cuts(std::vector<node> nodes, double tolerance);
 
-    /// The tile that the point is in. The others whose halo it is in replace the content of `halos`.
+    /// The tile that the point is in. The others whose halo it is in replace the content of
+    /// `halos`.
     ///
     /// \pre `p` is finite
     [[nodiscard]] std::uint32_t find(const point3& p, std::vector<std::uint32_t>& halos) const;

@@ -19,8 +19,8 @@
 /// in the halo of another tile. It goes through these in their order and drops an open point when
 /// an earlier kept one of them is within the tolerance, keeps it else. This is the rule's answer:
 /// an earlier neighbor that is kept in the end was not called kept here, or it would have dropped
-/// the point, nor dropped. So it is open in its own tile, or kept there and in our halo; both
-/// ways it is in the border pass. For the same reason the leader of a provisional point is the one it
+/// the point, nor dropped. So it is open in its own tile, or kept there and in our halo; both ways
+/// it is in the border pass. For the same reason the leader of a provisional point is the one it
 /// leans on, or one that the border pass has seen before it.
 ///
 /// Open points are not kept apart from open ones within a fourth of the tolerance of them: one
@@ -47,16 +47,16 @@
 ///
 /// With the rule first, the border pass may have much to do: where points come row by row, what is
 /// open along a border may leave all later points of the rows open. So that memory need not hold
-/// them all, it may be taken in runs. A run has some slices of the numbers, which follow each other,
-/// and a `border_weld` of its own. It has to know of those points of earlier runs that decide the fate
-/// of its own. These are asked for: when an own point is open or leans, a tile marks the open points
-/// near it that are of another slice with the bundle of its slice. What the border pass has made of a
-/// marked point is handed over to each bundle that marked it, and so is what it has made of those the
-/// point stands for. That is all a run needs: an earlier neighbor that is kept in the end is open in
-/// the point's own tile, or dropped the point there. A run that has a part of a bundle takes, of what
-/// the bundle gets, what is near its own points. A pass of some tiles asks the next one likewise, for
-/// its own open points. It hands on what a tile asks for when that is outer: a place within a fourth
-/// of the tolerance of a point of another tile is.
+/// them all, it may be taken in runs. A run has some slices of the numbers, which follow each
+/// other, and a `border_weld` of its own. It has to know of those points of earlier runs that
+/// decide the fate of its own. These are asked for: when an own point is open or leans, a tile
+/// marks the open points near it that are of another slice with the bundle of its slice. What the
+/// border pass has made of a marked point is handed over to each bundle that marked it, and so is
+/// what it has made of those the point stands for. That is all a run needs: an earlier neighbor
+/// that is kept in the end is open in the point's own tile, or dropped the point there. A run that
+/// has a part of a bundle takes, of what the bundle gets, what is near its own points. A pass of
+/// some tiles asks the next one likewise, for its own open points. It hands on what a tile asks for
+/// when that is outer: a place within a fourth of the tolerance of a point of another tile is.
 
 #include <libmesh/weld/agreement.hpp>
 #include <libmesh/weld/number_slices.hpp>
@@ -221,7 +221,8 @@ class TREEFORM_API border_weld {
 
     /// Rule first: takes what has been handed over by earlier runs, before any of its own, and each
     /// point once. Of an open one several runs may know for whom it stands (`leader`, a set of
-    /// bundles): all of them. What is farther than `reach_of_open` from all of its own is not needed.
+    /// bundles): all of them. What is farther than `reach_of_open` from all of its own is not
+    /// needed.
     void receive(const border_point& p, std::span<const std::uint64_t> values);
     /// Rule first: appends to `known` what is kept or open in a bundle within a fourth of the
     /// tolerance of that place, of the same values, except for what others have handed over.

@@ -119,7 +119,8 @@ void for_chunks(std::size_t count, std::size_t grain,
         return;
     }
     // In a context that is bound, a nested loop would end early, and without an exception, when
-    // another chunk of the loop around it throws; what stands after it would read what is not there.
+    // another chunk of the loop around it throws; what stands after it would read what is not
+    // there.
     tbb::task_group_context own(tbb::task_group_context::isolated);
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),

@@ -36,7 +36,8 @@ class search_watch {
     std::mutex mutex_;
 };
 
-/// Over boxes that overlap where two points are within `radius`, and where they are not far from it.
+/// Over boxes that overlap where two points are within `radius`, and where they are not far from
+/// it.
 template <std::size_t D>
 tree<D> tree_around(points_of<D> points, double radius) {
     return build(points, [half = radius * 0.5 * (1 + 1e-15)](const auto& p) {

@@ -2,11 +2,11 @@
 """compare.py OLD NEW [--pairs N] [--out DIR] [--] [BENCH OPTION...]: the times of two builds of the
 bench, as ratios new / old.
 
-OLD and NEW are bench programs, each run in turn N times (20), with `--only treeform` and the options
-given: `--models DIR`, `--cache DIR` (required), `--quick`, ids such as B1 B5. Which is first changes
-from pair to pair. A pair gives a ratio for each case; that of a workload is the geometric mean of its
-cases. The median over the pairs is printed, with an interval that holds it in 95 of 100 series (by
-ranks, whatever the distribution). DIR/ratios.csv gets all of them."""
+OLD and NEW are bench programs, each run in turn N times (20), with `--only treeform` and the
+options that follow: `--models DIR`, `--cache DIR` (required), `--quick`, ids such as B1 B5. Which
+is first changes from pair to pair. A pair gives a ratio for each case; that of a workload is the
+geometric mean of its cases. The median over the pairs is printed, with an interval that holds it in
+95 of 100 series (by ranks, whatever the distribution). DIR/ratios.csv gets all of them."""
 
 import argparse
 import collections

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Set operations of many solids, beside what cannot be had for less: to read the input and to write
-/// the result once.
+/// Set operations of many solids, beside what cannot be had for less: to read the input and to
+/// write the result once.
 
 #include "bench/crowds.hpp"
 #include "bench/page.hpp"

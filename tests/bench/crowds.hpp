@@ -19,8 +19,8 @@ using crowd = std::function<std::shared_ptr<const meshes>()>;
 
 enum class poles { joined, apart };
 
-/// 960 faces each, of radius 0.5 to 1, in a cube of side 4. With their poles apart they are open: of
-/// the corners of faces at the lower pole, the rounded sine of pi leaves no two equal.
+/// 960 faces each, of radius 0.5 to 1, in a cube of side 4. With their poles apart they are open:
+/// of the corners of faces at the lower pole, the rounded sine of pi leaves no two equal.
 [[nodiscard]] meshes spheres(std::size_t count, poles poles);
 
 /// `models` in turn, scaled to a size of 1 to 2, turned at random, in a cube of side 4; every tenth

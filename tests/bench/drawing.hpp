@@ -22,8 +22,9 @@ inline constexpr double width = 760, left = 76, top = 80, bottom = 60;
 inline constexpr double plot_height = 300;
 inline constexpr double height = top + plot_height + bottom;
 
-/// Colors by class, not by variable: some viewers know no others. A picture has paper of its own, as
-/// nobody knows on what it will lie; marks have a rim of it, so that each can be told from the next.
+/// Colors by class, not by variable: some viewers know no others. A picture has paper of its own,
+/// as nobody knows on what it will lie; marks have a rim of it, so that each can be told from the
+/// next.
 inline constexpr std::string_view style =
     "text{font:13px system-ui,'DejaVu Sans',sans-serif;fill:#24292f}"
     ".title{font-size:15px;font-weight:600}.small{font-size:11px;fill:#57606a}"

@@ -3,11 +3,11 @@
 TREEFORM_PAIRS_DIR, fitted by `tf-place fit` and by Open3D's ICP (Debian's python3-open3d), in turn,
 on all cores.
 
-Open3D is told to look for partners within a tenth of the diagonal, as far as the pairs are apart, to
-fit planes to the 20 nearest points, and to take up to 100 steps. A mesh that is fixed is for Open3D a cloud
-of 20,000 points spread over it, made before its time is taken. Times are of planes, index and
-search; of treeform as it reports them. Prints a table; the options go to tf-place. Skipped, with
-status 77, where Open3D is not installed."""
+Open3D is told to look for partners within a tenth of the diagonal, as far as the pairs are apart,
+to fit planes to the 20 nearest points, and to take up to 100 steps. A mesh that is fixed is for
+Open3D a cloud of 20,000 points spread over it, made before its time is taken. Times are of planes,
+index and search; of treeform as it reports them. Prints a table; the options go to tf-place.
+Skipped, with status 77, where Open3D is not installed."""
 
 import json
 import pathlib

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""sections_beside_others.py TF_CUT MESH [TIMES]: a mesh, lying on z = 0 as STL, cut in 1,000 layers across z by
-tf-cut section, by VTK's vtkCutter, whose segments vtkStripper joins, and by PrusaSlicer, in turn, on all cores
-(Debian's python3-vtk9 and prusa-slicer; what is not installed is left out).
+"""sections_beside_others.py TF_CUT MESH [TIMES]: a mesh, lying on z = 0 as STL, cut in 1,000 layers
+across z by tf-cut section, by VTK's vtkCutter, whose segments vtkStripper joins, and by
+PrusaSlicer, in turn, on all cores (Debian's python3-vtk9 and prusa-slicer; what is not installed is
+left out).
 
-Prints medians: seconds by the clock of the step that makes the loops, and of all of the process, CPU seconds and
-memory of all of it. PrusaSlicer says itself when it slices: from "slice_mesh to polygons" to the end of "make_slices",
-which closes and nests the loops on a lattice of nanometers; before that it reads and repairs, after it a single
-perimeter and G-code are made, without infill. Its mesh is scaled to a height of 100 mm, layers are 0.1 mm."""
+Prints medians: seconds by the clock of the step that makes the loops, and of all of the process,
+CPU seconds and memory of all of it. PrusaSlicer says itself when it slices: from "slice_mesh to
+polygons" to the end of "make_slices", which closes and nests the loops on a lattice of nanometers;
+before that it reads and repairs, after it a single perimeter and G-code are made, without infill.
+Its mesh is scaled to a height of 100 mm, layers are 0.1 mm."""
 
 import datetime
 import json
@@ -55,17 +57,20 @@ def run(command):
         said.seek(0)
         text = said.read().decode(errors="replace")
     if status != 0:
-        sys.exit(f"{command[0]} ended with status {os.waitstatus_to_exitcode(status)}: {text[-500:]}")
+        sys.exit(f"{command[0]} ended with status {os.waitstatus_to_exitcode(status)}: "
+                 f"{text[-500:]}")
     return text, (clock, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
 
 
 def by_tool(tool, mesh, height, folder):
     report = os.path.join(folder, "report.json")
-    _, whole = run([tool, "section", mesh, "--layers", repr(height / LAYERS), "-n", "-q", "-f", "-r", report])
+    _, whole = run([tool, "section", mesh, "--layers", repr(height / LAYERS), "-n", "-q", "-f",
+                    "-r", report])
     with open(report, encoding="utf-8") as file:
         content = json.load(file)
     layers = content["files"][0]["layers"]
-    return content["seconds"]["cut"], whole, f"{sum(layer['loops'] for layer in layers)} loops, nested"
+    loops = sum(layer["loops"] for layer in layers)
+    return content["seconds"]["cut"], whole, f"{loops} loops, nested"
 
 
 def by_vtk(mesh):
@@ -75,10 +80,13 @@ def by_vtk(mesh):
 
 
 def by_slicer(mesh, height, folder):
-    text, whole = run(["prusa-slicer", "--export-gcode", "--loglevel", "4", "--scale", repr(100 / height),
+    text, whole = run(["prusa-slicer", "--export-gcode", "--loglevel", "4", "--scale",
+                       repr(100 / height),
                        "--layer-height", "0.1", "--first-layer-height", "0.1", "--perimeters", "1",
-                       "--fill-density", "0%", "--top-solid-layers", "0", "--bottom-solid-layers", "0",
-                       "--skirts", "0", "--center", "100,100", "-o", os.path.join(folder, "out.gcode"), mesh])
+                       "--fill-density", "0%", "--top-solid-layers", "0", "--bottom-solid-layers",
+                       "0",
+                       "--skirts", "0", "--center", "100,100", "-o",
+                       os.path.join(folder, "out.gcode"), mesh])
     def when(words):
         stamp = re.search(r"\[(\d+-\d+-\d+ [\d:.]+)\][^\n]*" + words, text).group(1)
         return datetime.datetime.fromisoformat(stamp)
@@ -99,7 +107,8 @@ def main():
             box = json.load(file)["files"][0]["info"]["box"]
         height = box["max"][2] - box["min"][2]
         programs = {"tf-cut": lambda: by_tool(tool, mesh, height, folder)}
-        if subprocess.run(["/usr/bin/python3", "-c", "import vtk"], check=False, capture_output=True).returncode == 0:
+        if subprocess.run(["/usr/bin/python3", "-c", "import vtk"], check=False,
+                          capture_output=True).returncode == 0:
             programs["VTK"] = lambda: by_vtk(mesh)
         if shutil.which("prusa-slicer"):
             programs["PrusaSlicer"] = lambda: by_slicer(mesh, height, folder)
@@ -108,8 +117,10 @@ def main():
                 runs.setdefault(name, []).append(program())
     for name, all_runs in runs.items():
         step = statistics.median(one[0] for one in all_runs)
-        clock, cpu, memory = (statistics.median(column) for column in zip(*(one[1] for one in all_runs)))
-        print(f"{name:12} {step:7.2f} s   process {clock:7.2f} s, {cpu:7.2f} s of CPU, {memory:6.0f} MB   "
+        clock, cpu, memory = (statistics.median(column)
+                              for column in zip(*(one[1] for one in all_runs)))
+        print(f"{name:12} {step:7.2f} s   process {clock:7.2f} s, {cpu:7.2f} s of CPU, "
+              f"{memory:6.0f} MB   "
               f"{all_runs[-1][2]}")
 
 

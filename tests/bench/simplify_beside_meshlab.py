@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""simplify_beside_meshlab.py TF_CUT MODEL FACES [TIMES]: one mesh with fewer faces, from file to file, by
-MeshLab's quadric edge collapse (Debian's meshlab and xvfb) and by tf-cut simplify.
+"""simplify_beside_meshlab.py TF_CUT MODEL FACES [TIMES]: one mesh with fewer faces, from file to
+file, by MeshLab's quadric edge collapse (Debian's meshlab and xvfb) and by tf-cut simplify.
 
-MeshLab is asked for a number of faces. How far its result is from the model, both ways, is then what
-tf-cut is allowed, once with that number to stop at, and once as far as it goes. Distances of all are
-measured by `treeform.deviation`, at samples: set PYTHONPATH to tools/python of the build. Prints medians
-of the CPU seconds of whole processes on one thread, of MeshLab without what it takes to copy the mesh."""
+MeshLab is asked for a number of faces. How far its result is from the model, both ways, is then
+what tf-cut is allowed, once with that number to stop at, and once as far as it goes. Distances of
+all are measured by `treeform.deviation`, at samples: set PYTHONPATH to tools/python of the build.
+Prints medians of the CPU seconds of whole processes on one thread, of MeshLab without what it takes
+to copy the mesh."""
 
 import os
 import statistics

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""thin_beside_others.py TF_WELD CLOUD DISTANCE [TIMES]: one cloud thinned from file to file by tf-weld,
-by CloudCompare's spatial subsampling, and by Open3D's voxel_down_sample (Debian's cloudcompare and
-python3-open3d), in turn, on all cores.
+"""thin_beside_others.py TF_WELD CLOUD DISTANCE [TIMES]: one cloud thinned from file to file by
+tf-weld, by CloudCompare's spatial subsampling, and by Open3D's voxel_down_sample (Debian's
+cloudcompare and python3-open3d), in turn, on all cores.
 
 Prints the medians of the CPU seconds of whole processes and of the clock, and how many points each
-has left. tf-weld keeps the first of any points within the distance in the file's order; CloudCompare
-leaves no two within it, too, but keeps which it likes; cells of Open3D have one mean each, and two of
-these may be as near as one likes. Programs that are not installed are left out."""
+has left. tf-weld keeps the first of any points within the distance in the file's order;
+CloudCompare leaves no two within it, too, but keeps which it likes; cells of Open3D have one mean
+each, and two of these may be as near as one likes. Programs that are not installed are left out."""
 
 import os
 import shutil

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""check_symbols.py SOURCE LIBRARY: every function of <treeform.h> is documented, shown by the library
-under a version, named in exports.map and called by the C tests; and the library shows nothing else."""
+"""check_symbols.py SOURCE LIBRARY: every function of <treeform.h> is documented, shown by the
+library under a version, named in exports.map and called by the C tests; and the library shows
+nothing else."""
 
 import pathlib
 import re

@@ -1,5 +1,5 @@
-/* Runs every test. argv[1] is a folder in which the tests may write; the working folder is the top of
-   the project. */
+/* Runs every test. argv[1] is a folder in which the tests may write; the working folder is the top
+   of the project. */
 #include "test.h"
 
 #include <math.h>

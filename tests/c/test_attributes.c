@@ -59,6 +59,9 @@ static void test_of_two(void) {
     OK(treeform_face_groups(sources, 2, 1, 0, &groups));
     CHECK(groups->count == 24 && groups->values[0] != groups->values[12]);
     treeform_free(groups);
+    OK(treeform_corner_groups(sources, &groups));
+    CHECK(groups->count == 36);
+    treeform_free(groups);
     INVALID("operand 1",
             treeform_carry(made_file, sources, 1, made->face_source, made->vertex_source, NULL));
     treeform_free(made_file);
@@ -88,14 +91,15 @@ static void test_of_one(void) {
     source.file = file;
     source.triangle_of_face = seen;
     source.face_count = 11;
-    OK(treeform_carry_one(part_file, &source, faces, vertices));
+    OK(treeform_carry_one(part_file, &source, faces, vertices, NULL, NULL));
     OK(treeform_file_look(part_file, &view));
     CHECK(column(view, "face", "red") != NULL);
     treeform_free(view);
-    INVALID("face_source names 11", treeform_carry_one(part_file, &source, out, vertices));
+    INVALID("face_source names 11",
+            treeform_carry_one(part_file, &source, out, vertices, NULL, NULL));
     source.triangle_of_face = wrong;
     source.face_count = 1;
-    INVALID("triangle 12", treeform_carry_one(part_file, &source, faces, vertices));
+    INVALID("triangle 12", treeform_carry_one(part_file, &source, faces, vertices, NULL, NULL));
     treeform_free(part_file);
     treeform_free(part_mesh);
     treeform_free(part);

@@ -1,4 +1,5 @@
-/* Progress of calls without options: the same answers in pieces, a stop, elements by their numbers. */
+/* Progress of calls without options: the same answers in pieces, a stop, elements by their
+   numbers. */
 #include "test.h"
 
 #include <math.h>

@@ -32,9 +32,9 @@ class Run:
 
 
 def for_rank(rank, size, head, *parts):
-    """Bytes of a file as one of some ranks has to know them: the head, the first of each part's rows,
-    and of each part, and of all bytes, its share with a quarter of that on either side. All others are
-    other bytes; lines stay lines."""
+    """Bytes of a file as one of some ranks has to know them: the head, the first of each part's
+    rows, and of each part, and of all bytes, its share with a quarter of that on either side. All
+    others are other bytes; lines stay lines."""
     rows = [row for part in parts for row in part]
     whole = sum(map(len, rows))
     near = lambda at, count: (rank - 0.25) * count <= size * at <= (rank + 1.25) * count
@@ -177,7 +177,8 @@ ALL_SKIPPED = 77  # SKIP_RETURN_CODE of the tests
 
 
 def slow(test):
-    """A test case that takes long: with --slow, `ctest -L slow`, these are run, and without it all others."""
+    """A test case that takes long: with --slow, `ctest -L slow`, these are run, and without it all
+    others."""
     test.is_slow = True
     return test
 

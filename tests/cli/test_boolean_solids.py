@@ -124,7 +124,8 @@ class Solids(BooleanTest):
         speck = box((5, 5, 5), (5 + 2 ** -40, 5 + 2 ** -40, 5 + 2 ** -40))
         self.mesh("both.obj", together(cube(), speck))
         entry = self.made("union", "both.obj", name="out.stl")
-        self.assertEqual(entry["output"]["lost_parts"], {"count": 1, "list": [[5, 5, 5]], "reach": 0.0})
+        self.assertEqual(entry["output"]["lost_parts"],
+                         {"count": 1, "list": [[5, 5, 5]], "reach": 0.0})
         self.assertIn("1 part of the exact result left out, the first at (5, 5, 5)",
                       " ".join(w["text"] for w in entry["warnings"]))
         entry = self.made("union", "both.obj")
@@ -198,8 +199,10 @@ class Solids(BooleanTest):
 
     def test_operands_may_be_parts_of_a_scene(self):
         lines, first = [], 1
-        for name, mesh in (("body", box((0, 0, 0), (4, 4, 4))), ("bolt_1", box((1, 1, 1), (2, 2, 9))),
-                           ("left bolt", box((3, 3, 1), (5, 5, 2))), ("far", box((9, 9, 9), (10, 10, 10)))):
+        for name, mesh in (("body", box((0, 0, 0), (4, 4, 4))),
+                           ("bolt_1", box((1, 1, 1), (2, 2, 9))),
+                           ("left bolt", box((3, 3, 1), (5, 5, 2))),
+                           ("far", box((9, 9, 9), (10, 10, 10)))):
             points, faces = mesh
             lines += [f"o {name}", *(f"v {x} {y} {z}" for x, y, z in points),
                       *("f " + " ".join(str(c + first) for c in face) for face in faces)]
@@ -234,7 +237,8 @@ class Solids(BooleanTest):
         write(self.path("dirty.obj"), (points, turned[1:]))
         write(self.path("b.obj"), cube((0.5, 0.5, 0.5)))
         self.run_tool("union", "dirty.obj", "b.obj", "-o", "u.obj", status=1)
-        run = self.run_tool("union", "dirty.obj", "b.obj", "--repair", "-o", "u.obj", "-v", status=0)
+        run = self.run_tool("union", "dirty.obj", "b.obj", "--repair", "-o", "u.obj", "-v",
+                            status=0)
         self.assertIn("dirty.obj: 1 face flipped, 1 hole filled (3 edges)", run.err)
         self.assertEqual(volume(*obj_mesh(self.read("u.obj"))), 1.875)
         entry = self.entry("union", "dirty.obj", "b.obj", "--repair", "-o", "u.ply", "--ascii",
@@ -372,7 +376,8 @@ class Solids(BooleanTest):
                 texts = [w["text"] for w in entry["warnings"] if w["code"] == "nonmanifold"]
                 self.assertEqual(len(texts), count)
                 for text in texts:
-                    self.assertIn("1 edge of more than two faces, where the result touches itself", text)
+                    self.assertIn("1 edge of more than two faces, where the result touches itself",
+                                  text)
                     self.assertIn("tf-repair sets it apart", text)
                     self.assertEqual("STL" in text, format == "stl")
         self.made("union", "a.obj", "d.obj", name="out.stl")
@@ -453,7 +458,8 @@ class Solids(BooleanTest):
         self.run_tool("difference", "a.obj", "sheet.obj", "--accept-open", "-o", "no.obj",
                       status=1)
         self.sheet("other.obj", 0.5)
-        run = self.run_tool("intersection", "sheet.obj", "other.obj", "--accept-open", "-n", status=1)
+        run = self.run_tool("intersection", "sheet.obj", "other.obj", "--accept-open", "-n",
+                            status=1)
         self.assertIn("one may", run.text)
         self.assertNotIn("no.obj", self.listing())
 

@@ -12,7 +12,8 @@ FILE = {"input": (str, NULL), "error": NULL, "warnings": list, "operation": (str
         "separated_points": (int, NULL), "skipped": dict,
         "min_volume": dict, "gap": dict, "max_move": dict,
         "output": (dict, NULL), "exit": int}
-INPUT = {"file": str, "part": (str, NULL), "format": str, "sha256": str, "precision_in": str, "matrix": (str, NULL),
+INPUT = {"file": str, "part": (str, NULL), "format": str, "sha256": str, "precision_in": str,
+         "matrix": (str, NULL),
          "faces": int, "triangles": int, "volume": NUMBER, "closed": (bool, NULL),
          "reason": (str, NULL), "repair": (dict, NULL), "open": dict, "skipped": dict}
 OUTPUT = {"file": (str, NULL), "format": (str, NULL), "precision_out": str, "vertices": int,

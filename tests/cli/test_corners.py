@@ -49,7 +49,8 @@ class Parsed:
     """v, vt, vn, faces of (v, vt, vn) from 0 or None, the material of each face, mtllib."""
 
     def __init__(self, text):
-        self.v, self.vt, self.vn, self.faces, self.materials, self.libraries = [], [], [], [], [], []
+        self.v, self.vt, self.vn = [], [], []
+        self.faces, self.materials, self.libraries = [], [], []
         material = ""
         for line in text.splitlines():
             word, *rest = line.split()
@@ -323,7 +324,8 @@ class Booleans(CornerTest):
         return done.stderr.decode()
 
     def test_repair_carries_them_where_other_points_are_searched_than_the_file_has(self):
-        text = textured_text(together(box((0, 0, 0), (2, 2, 2)), box((0.7, 0.9, 1.1), (3, 3.5, 3.7))),
+        text = textured_text(together(box((0, 0, 0), (2, 2, 2)),
+                                      box((0.7, 0.9, 1.1), (3, 3.5, 3.7))),
                              head="mtllib a.mtl", material=lambda i: "oak" if i < 12 else "pine")
         self.put("part.obj", text)
         self.repaired("--repair", "part.obj", "-o", "whole.obj")
@@ -401,7 +403,8 @@ class Weld(CornerTest):
                  "5 0 1 2 3 4 10 0 0 1 0 2 2 3 3 0 1\n3 4 3 0 6 0 1 1 1 0 0\n")
         self.run_tool("in.ply", "--ascii", "-o", "out.ply", status=0)
         self.assertEqual(self.read("out.ply").split("\n")[-4:-1],
-                         ["3 0 1 2 6 0 0 1 0 2 2", "3 0 2 3 6 0 0 3 3 0 1", "3 3 2 0 6 0 1 1 1 0 0"])
+                         ["3 0 1 2 6 0 0 1 0 2 2", "3 0 2 3 6 0 0 3 3 0 1",
+                          "3 3 2 0 6 0 1 1 1 0 0"])
 
 
     def test_joined_wedge_coordinates_lose_no_digits_and_stand_once(self):

@@ -32,7 +32,8 @@ def runs_of(document):
 def commands_in(lines):
     """The words of each command of ours, without comments."""
     for line in lines:
-        for command in re.split(r" (?:\||&&|#) | xargs \S+ \S+ \S+ ", line.strip().removeprefix("$ ")):
+        for command in re.split(r" (?:\||&&|#) | xargs \S+ \S+ \S+ ",
+                                line.strip().removeprefix("$ ")):
             if re.match(r"tf-[a-z]+ ", command.strip()):
                 yield command.split()
 

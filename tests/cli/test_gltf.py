@@ -1,6 +1,6 @@
-"""glTF and GLB through the tools: what people reported about other programs, and what other programs
-say of the files. These are assimp (apt-get install assimp-utils) and gltf-transform with the
-validator of Khronos (npm install -g @gltf-transform/cli)."""
+"""glTF and GLB through the tools: what people reported about other programs, and what other
+programs say of the files. These are assimp (apt-get install assimp-utils) and gltf-transform with
+the validator of Khronos (npm install -g @gltf-transform/cli)."""
 
 from support import *
 from gltf_support import *

@@ -10,11 +10,14 @@ TOOLS = {name: os.environ["TF_" + name.upper()]
 MODES = {"place": {"drop": "drop", "lay": "lay", "slide": "slide", "mate": "mate", "turn": "turn",
                    "clear": "separate", "arrange": "pack", "fit": "align", "measure": "measure",
                    "clash": "clash", "check": "check"},
-         "boolean": {mode: mode for mode in ("union", "intersection", "difference", "xor", "split")},
-         "cut": {mode: mode for mode in ("half", "section", "isolines", "pieces", "parts", "info", "simplify",
+         "boolean": {mode: mode for mode in ("union", "intersection", "difference", "xor",
+                                             "split")},
+         "cut": {mode: mode for mode in ("half", "section", "isolines", "pieces", "parts", "info",
+                                         "simplify",
                                          "offset", "hollow", "thicken")}}
 # What a mode needs beside the option that is tried, so that only this is refused.
-NEEDED = {"half": ["--height", "1"], "isolines": ["--levels", "1"], "section": ["--height", "1"], "pieces": ["--height", "1"],
+NEEDED = {"half": ["--height", "1"], "isolines": ["--levels", "1"], "section": ["--height", "1"],
+          "pieces": ["--height", "1"],
           "arrange": ["--size", "9,9"], "check": ["--poses", "poses"],
           "simplify": ["--distance", "1"], "offset": ["--distance", "1"],
           "hollow": ["--wall", "1"], "thicken": ["--thickness", "1"]}
@@ -25,7 +28,8 @@ VALUES = {"X,Y,Z": "0,0,-1", "X,Y[,Z]": "9,9", "DIST": "1", "SEC": "1", "DEG": "
           "FACE|X,Y,Z": "1", "KIND": "plane", "EXT": "ply", "SET": "90", "EXPR": "a+b",
           "N:FILE": "1:m", "SHARE": "1%", "WHEN": "never", "V,...": "iso,top", "WxH": "90x60",
           "V": "1", "H,...": "1", "T": "1", "HALF": "below", "D": "1", "W": "1", "R": "0.1",
-          "SIDE": "both", "HOW": "none", "NAME": "height", "MESH": "m.ply", "L,...": "1", "X,Y,Z,D": "0,0,0,1"}
+          "SIDE": "both", "HOW": "none", "NAME": "height", "MESH": "m.ply", "L,...": "1",
+          "X,Y,Z,D": "0,0,0,1"}
 WORDS = {"--precision": "float", "--png": "p.png", "--weights": "equal", "--metric": "plane"}
 # Options that are refused without others, or beside -o.
 WITH = {"--pick": ["--feature", "plane"], "--pick-fixed": ["--feature", "plane"],
@@ -33,7 +37,8 @@ WITH = {"--pick": ["--feature", "plane"], "--pick-fixed": ["--feature", "plane"]
         "--flip": ["--feature", "plane"], "--suffix": ["--output-dir", "dir"]}
 # Options that choose the planes themselves.
 PLANES = ("--bed", "--layers")
-OUTPUTS = {"section": "out.svg", "isolines": "out.svg", "half": "out%d.ply", "pieces": "out%d.ply", "parts": "out%d.ply"}
+OUTPUTS = {"section": "out.svg", "isolines": "out.svg", "half": "out%d.ply", "pieces": "out%d.ply",
+           "parts": "out%d.ply"}
 WITHOUT_OUTPUT = ("--output-dir", "--in-place", "--suffix", "--check", "--output")
 
 
@@ -78,12 +83,15 @@ class Help(ToolTest):
                 self.assertNotRegex(text, r"(?m)^.{26}(\w+, )*(" + "|".join(modes) + "): ")
 
     def test_a_mode_says_nothing_of_others_and_its_lines_are_full(self):
-        output = {mode: " ".join(re.search(r"-o, --output FILE ((?s:.*?))\n +--", self.help_of("place", mode))
+        output = {mode: " ".join(re.search(r"-o, --output FILE ((?s:.*?))\n +--",
+                                           self.help_of("place", mode))
                                  .group(1).split()) for mode in MODES["place"] if mode != "check"}
         self.assertEqual(output["lay"], "MOVING at its new place")
         self.assertEqual(output["slide"],
-                         "MOVING at its new place; PLY, GLB: faces that penetrate --fixed are red, touching "
-                         "yellow, closer than --clearance or stopped at it cyan (if they had no colors)")
+                         "MOVING at its new place; PLY, GLB: faces that penetrate --fixed are red, "
+                         "touching "
+                         "yellow, closer than --clearance or stopped at it cyan (if they had no "
+                         "colors)")
         self.assertTrue(output["measure"].startswith("MOVING where it is; PLY, GLB: "))
         for mode in MODES["place"]:
             if mode != "drop":

@@ -1,4 +1,5 @@
-"""Manual pages and completions: they name every option of --help, and shells take them as they are."""
+"""Manual pages and completions: they name every option of --help, and shells take them as they
+are."""
 
 import re
 import shutil
@@ -50,7 +51,8 @@ class Manual(ToolTest):
             shown = self.run_quietly("groff", "-man", "-ww", "-Tutf8", "-P-c", "-P-b", "-P-u", page)
             words = set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", shown))
             self.assertLessEqual(self.options_of(tool), words)
-            for heading in ("NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXAMPLES", "EXIT STATUS"):
+            for heading in ("NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXAMPLES",
+                            "EXIT STATUS"):
                 self.assertRegex(shown, rf"(?m)^{heading}$")
             if shutil.which("man"):
                 self.run_quietly("man", "--warnings", "-l", page)

@@ -67,7 +67,8 @@ class Mend(ToolTest):
         point = lambda x, y, z: 6 * x + 2 * y + z + 1
         for i in range(2):
             for j in range(2):
-                roof = [point(i, j, 1), point(i + 1, j, 1), point(i + 1, j + 1, 1), point(i, j + 1, 1)]
+                roof = [point(i, j, 1), point(i + 1, j, 1), point(i + 1, j + 1, 1),
+                        point(i, j + 1, 1)]
                 lines += ["f " + " ".join(map(str, roof)),
                           "f " + " ".join(str(p - 1) for p in reversed(roof))]
         for at in range(3):  # walls, each there once
@@ -145,7 +146,8 @@ class Mend(ToolTest):
         faces = [face for i, face in enumerate(cube()[1]) if i not in (0, 1)]  # one side is open
         part = write(self.path("part.obj"), together((cube()[0], faces), TWO_CUBES))
         run = self.run_tool(part, "--wrap", "1.5", "-o", "out.stl", status=0)
-        self.assertRegex(run.text, r"part.obj: wrap, [\d,]+ faces, volume .* \(was .*\), 0.05 from the faces")
+        self.assertRegex(run.text,
+                         r"part.obj: wrap, [\d,]+ faces, volume .* \(was .*\), 0.05 from the faces")
         self.assertNotIn("skin", run.err)
         self.run_tool("out.stl", "--check", status=0)
         entry = self.mended(part, "--wrap", "20%", "--offset", "0.1", "-o", "out.ply")
@@ -200,7 +202,9 @@ class Mend(ToolTest):
     def test_a_step_can_be_left_out(self):
         hole = write(self.path("hole.obj"), self.cube_without(3))
         run = self.run_tool(hole, "--no-fill", "-o", "out.stl", status=1)
-        self.assertEqual(run.text, hole + ": not written: open at 3 edges (--sheet writes it, --wrap 2% wraps it)\n")
+        self.assertEqual(run.text, hole
+                         + ": not written: open at 3 edges (--sheet writes it, --wrap 2% wraps "
+                           "it)\n")
         self.assertNotIn("out.stl", self.listing())
         run = self.run_tool(hole, "--holes", "2", "-n", status=1)
         entry = self.mended(hole, "--sheet", "-o", "sheet.obj")
@@ -219,11 +223,14 @@ class Mend(ToolTest):
         points, faces = together(self.cube_without(3), (sheet, grid(1)[1]))
         part = write(self.path("part.obj"), (points, faces))
         run = self.run_tool(part, "-o", "out.obj", status=1)
-        self.assertEqual(run.text, part + ": not written: open at 4 edges (--sheet writes it, --accept-loss makes a solid, --wrap 2% wraps it)\n")
+        self.assertEqual(run.text, part
+                         + ": not written: open at 4 edges (--sheet writes it, --accept-loss makes "
+                           "a solid, --wrap 2% wraps it)\n")
         entry = self.mended(part, "--strays", "30%", "-o", "out.obj", status=1)
         self.assertEqual(entry["repair"]["loss"], {"of": "area", "before": 6.5, "after": 5.5})
         self.assertNotIn("out.obj", self.listing())
-        for options in (["--strays", "30%", "--accept-loss"], ["--strays", "0.3", "--max-loss", "20%"]):
+        for options in (["--strays", "30%", "--accept-loss"],
+                        ["--strays", "0.3", "--max-loss", "20%"]):
             self.run_tool(part, *options, "-f", "-o", "out.obj", status=0)
             self.assertEqual(volume(*obj_mesh(self.read("out.obj"))), 1)
 
@@ -283,7 +290,8 @@ class Mend(ToolTest):
         self.put("m.mtl", "newmtl left_m\nKd 1 0 0\nnewmtl right_m\nKd 0 1 0\n")
         self.run_tool("scene.obj", "-o", "out.obj", status=0)
         text = self.read("out.obj")
-        self.assertEqual([l for l in text.splitlines() if l.split()[0] in ("o", "usemtl", "mtllib")],
+        self.assertEqual([l for l in text.splitlines()
+                          if l.split()[0] in ("o", "usemtl", "mtllib")],
                          ["mtllib m.mtl", "o left", "usemtl left_m", "o right", "usemtl right_m"])
         self.run_tool("scene.obj", "-o", "out.3mf", status=0)
         with zipfile.ZipFile(self.path("out.3mf")) as package:
@@ -301,7 +309,8 @@ class Mend(ToolTest):
             first += len(points)
         self.put("scene.obj", "\n".join([*lines, ""]))
         run = self.run_tool("scene.obj", "-o", "out.3mf", status=0)
-        self.assertIn("2 parts, each a solid, 24 faces, volume 2 (was 2): nothing to mend", run.text)
+        self.assertIn("2 parts, each a solid, 24 faces, volume 2 (was 2): nothing to mend",
+                      run.text)
         entry = self.mended("scene.obj", "-o", "again.3mf")
         self.assertEqual([(p["name"], p["faces"], p["solid"]) for p in entry["repair"]["parts"]],
                          [("a", 12, True), ("b", 12, True)])

@@ -2,8 +2,8 @@
 output is whole or absent.
 
 Damaged files of data/ and, with TREEFORM_MODELS_DIR, of its folder hostile; 60 of them, or
-$TREEFORM_STRESS_COUNT, from $TREEFORM_STRESS_SEED on; with --slow, the nine times as many after those.
-"""
+$TREEFORM_STRESS_COUNT, from $TREEFORM_STRESS_SEED on; with --slow, the nine times as many after
+those. """
 
 from support import *
 
@@ -65,7 +65,8 @@ class Mutations(ToolTest):
         return self.read_bytes(name) if os.path.exists(self.path(name)) else None
 
     def check_stopped(self, command, name, whole, choose):
-        """Once more, over an older file, with too little room on the disk or killed at some time."""
+        """Once more, over an older file, with too little room on the disk or killed at some
+        time."""
         with open(self.path(name), "wb") as file:
             file.write(b"older")
         if choose.randrange(2) == 0:

@@ -4,9 +4,12 @@ import zipfile
 
 from boolean_support import *
 
-MODEL = '<model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">'
-RELATIONSHIPS = ('<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
-                 '<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/'
+MODEL = ('<model unit="millimeter" '
+         'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">')
+RELATIONSHIPS = ('<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/'
+                 'relationships">'
+                 '<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://'
+                 'schemas.microsoft.com/'
                  '3dmanufacturing/2013/01/3dmodel"/></Relationships>')
 
 
@@ -110,7 +113,8 @@ class Objects(BooleanTest):
              *("f " + " ".join(str(i + 9) for i in f) for f in faces[1:]), ""]))
         run = self.run_tool("difference", "open.obj", "-n", status=1)
         self.assertIn("open.obj: hole: no solid", run.err)
-        self.assertEqual(self.run_tool("difference", "open.obj", "--repair", "-n", status=0).status, 0)
+        self.assertEqual(self.run_tool("difference", "open.obj", "--repair", "-n",
+                                       status=0).status, 0)
 
     def test_a_union_leaves_nothing_of_an_object_out_that_is_inside_out(self):
         points, faces = box((0, 0, 0), (1, 1, 1))
@@ -151,7 +155,8 @@ class Objects(BooleanTest):
         self.mesh("two.stl", turned_over(box((0.5, 0, 0), (1.5, 1, 1))))
         self.mesh("away.stl", turned_over(box((9, 0, 0), (10, 1, 1))))
         done = self.clash("one.stl", "two.stl", "away.stl", status=1)
-        self.assertIn("one and two: penetrating, at most 0.5 deep, volume in common 0.5", done.stdout)
+        self.assertIn("one and two: penetrating, at most 0.5 deep, volume in common 0.5",
+                      done.stdout)
         self.assertIn("warning: 3 inputs: two: is inside out", done.stderr)
         self.assertNotIn("away", done.stderr)
         self.assertNotIn("one:", done.stderr)
@@ -177,7 +182,8 @@ class Objects(BooleanTest):
         self.entry("--expr", "a", "a.obj", "b.obj", "--matrix", "1:mirror.txt", "--inside",
                    "positive", "-o", "x.obj", "-f", status=0)
         self.assertEqual(volume(*obj_mesh(self.read("x.obj"))), 8)
-        done = subprocess.run([PLACE, "drop", "a.obj", "--start", "mirror.txt", "-o", "dropped.obj"],
+        done = subprocess.run([PLACE, "drop", "a.obj", "--start", "mirror.txt", "-o",
+                               "dropped.obj"],
                               cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, msg=done.stderr)
         self.assertEqual(volume(*obj_mesh(self.read("dropped.obj"))), 8)
@@ -200,7 +206,8 @@ class Objects(BooleanTest):
         self.assertIn('<base name="blue" displaycolor="#0000FF"/>', model)
         for name in ("m.obj", "m.3mf"):
             weld("-q", name, "--ascii", "-o", "m.ply", "-f")
-            rows = [line.split()[4:] for line in self.read("m.ply").splitlines() if line[:2] == "3 "]
+            rows = [line.split()[4:] for line in self.read("m.ply").splitlines()
+                    if line[:2] == "3 "]
             self.assertEqual(rows, 6 * [["255", "0", "0"]] + 6 * [["0", "0", "255"]], msg=name)
 
 

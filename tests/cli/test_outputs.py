@@ -135,7 +135,8 @@ class Outputs(ToolTest):
         self.run_tool("a.obj", "--output-dir", "none", "--repair", "--first", status=2)
         self.assertNotIn("none", self.listing())
         self.put("file", "")
-        self.assertIn("no folder file", self.run_tool("a.obj", "--output-dir", "file", status=4).err)
+        self.assertIn("no folder file",
+                      self.run_tool("a.obj", "--output-dir", "file", status=4).err)
         os.mkdir(self.path("other"))
         write(self.path("other/a.obj"), CLEAN)
         self.run_tool("a.obj", "other/a.obj", "--output-dir", "out", "-f", status=2)
@@ -223,7 +224,8 @@ class Page(ToolTest):
         mesh = scene["meshes"][0]
         self.assertEqual((mesh["faces"], mesh["points"]), (26, 21))
         self.assertGreater(scene["lines"][0]["count"], 0)
-        self.assertEqual(len(scene["tables"][0]["rows"]), len(self.report(self.path("part.obj"))["files"][0]["regions"]))
+        self.assertEqual(len(scene["tables"][0]["rows"]),
+                         len(self.report(self.path("part.obj"))["files"][0]["regions"]))
 
     def test_the_legend_says_what_it_counts(self):
         text, page = self.page(write(self.path("part.obj"), together(TWO_CUBES, PIERCE)))

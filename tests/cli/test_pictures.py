@@ -1,4 +1,5 @@
-"""--png of every tool: what is seen, sizes and views, refusals; pictures of real models as they were.
+"""--png of every tool: what is seen, sizes and views, refusals; pictures of real models as they
+were.
 
 With --keep, writes the pictures that are kept in pictures/ again."""
 
@@ -69,7 +70,8 @@ class Pictures(ToolTest):
         return sum(fits(*pixel) for row in rows for pixel in row)
 
     def test_every_tool_writes_one(self):
-        one, other = write(self.path("a.obj"), CLEAN), write(self.path("b.obj"), cube((0.5, 0.5, 0.5)))
+        one, other = write(self.path("a.obj"), CLEAN), write(self.path("b.obj"),
+                                                             cube((0.5, 0.5, 0.5)))
         for tool, *arguments in ((TOOL, one), (MEND, one, "-n"), (MEND, one, "--check"),
                                  (BOOLEAN, "union", one, other, "-n"), (WELD, one, "-n"),
                                  (PLACE, "drop", one, "-n"),
@@ -84,7 +86,8 @@ class Pictures(ToolTest):
 
     def test_what_is_nearer_hides_what_is_behind_it(self):
         square = lambda z: ([(0, 0, z), (1, 0, z), (1, 1, z), (0, 1, z)], [(0, 1, 2), (0, 2, 3)])
-        upper, lower = write(self.path("a.obj"), square(1.0)), write(self.path("b.obj"), square(0.0))
+        upper, lower = write(self.path("a.obj"), square(1.0)), write(self.path("b.obj"),
+                                                                     square(0.0))
         self.tool = PLACE
         for first, second, sees in ((upper, lower, True), (lower, upper, False)):
             rows = self.picture("measure", first, "--fixed", second, "--view", "front")
@@ -102,8 +105,10 @@ class Pictures(ToolTest):
                 self.run_tool(part, "-o", self.path(name), status=0)
             self.tool = PLACE
             up_in[name] = {
-                "drop": self.picture("drop", self.path(name), "-n", "--bed", "0", "--view", "front"),
-                "arrange": self.picture("arrange", self.path(name), self.path(name), "--size", "19,19",
+                "drop": self.picture("drop", self.path(name), "-n", "--bed", "0", "--view",
+                                     "front"),
+                "arrange": self.picture("arrange", self.path(name), self.path(name), "--size",
+                                        "19,19",
                                         "-n", "--view", "front")}
             self.tool = BOOLEAN
             up_in[name]["union"] = self.picture("union", self.path(name), self.path(name), "-n",
@@ -146,13 +151,15 @@ class Pictures(ToolTest):
         colors = self.legend("union", *parts[:2], "-n")
         self.assertEqual(colors, [(0x4E, 0x79, 0xA7), (0xF2, 0x8E, 0x2B)])
         self.run_tool("union", *parts, "-n", "--html", "p.html", status=0)
-        of_sources = [c["color"] for c in self.scene_in("p.html")["classes"] if c["name"].startswith("from ")]
+        of_sources = [c["color"] for c in self.scene_in("p.html")["classes"]
+                      if c["name"].startswith("from ")]
         self.assertEqual(len(set(of_sources)), 14)
 
     def test_what_the_map_colors_has_its_colors_in_the_legend(self):
         self.tool = WELD
         points = [(i, 0, 0) for i in range(9)] + [(0.1, 0, 0), (5.05, 0, 0)]
-        cloud = self.put("p.xyz", "".join("%g %g %g\n" % p for p in points + [(float("nan"), 1, 1)]))
+        cloud = self.put("p.xyz", "".join("%g %g %g\n" % p for p in points
+                                          + [(float("nan"), 1, 1)]))
         self.run_tool(cloud, "-t", "0.2", "-n", "--html", "p.html", status=0)
         scene = self.scene_in("p.html")
         counts = {c["name"]: (c["count"], c["mapped"]) for c in scene["classes"]}
@@ -181,7 +188,8 @@ class Pictures(ToolTest):
         self.tool = BOOLEAN
         for name in ("deep/er/a.obj", "other/a.obj"):
             write(self.path(name), CLEAN)
-        self.run_tool("union", "deep/er/a.obj", "other/a.obj", "-n", "--html", "p.html", "-f", status=0)
+        self.run_tool("union", "deep/er/a.obj", "other/a.obj", "-n", "--html", "p.html", "-f",
+                      status=0)
         self.assertIn("from deep/er/a.obj", self.read("p.html"))  # which else
 
     def test_a_clash_has_a_color_for_each_pair(self):
@@ -189,7 +197,8 @@ class Pictures(ToolTest):
         parts = [write(self.path(f"{name}.obj"), cube(at)) for name, at in
                  (("a", (0, 0, 0)), ("b", (0.5, 0.5, 0.5)), ("c", (5, 0, 0)), ("d", (6, 0, 0)),
                   ("e", (9, 0, 0)), ("f", (10.1, 0, 0)))]
-        self.run_tool("clash", *parts, "--clearance", "0.2", "--html", "p.html", "-r", "r.json", status=1)
+        self.run_tool("clash", *parts, "--clearance", "0.2", "--html", "p.html", "-r", "r.json",
+                      status=1)
         scene = self.scene_in("p.html")
         self.assertEqual([c["name"] for c in scene["classes"]],
                          ["parts", "a and b, penetrating", "e and f, closer-than-clearance",
@@ -199,7 +208,8 @@ class Pictures(ToolTest):
         rows = {(row["cells"][0], row["cells"][1]): row for row in scene["tables"][0]["rows"]}
         for pair in pairs:
             row = rows.pop((pair["a"], pair["b"]))
-            self.assertEqual((row["cells"][2], row["cells"][7]), (pair["status"], pair["face_pairs"]))
+            self.assertEqual((row["cells"][2], row["cells"][7]),
+                             (pair["status"], pair["face_pairs"]))
             self.assertIn("box", row)
         self.assertEqual(rows, {})
         self.assertEqual(scene["lines"][0]["text"], "0.1")
@@ -218,7 +228,8 @@ class Pictures(ToolTest):
 
     def test_the_number_of_threads_changes_no_byte(self):
         part = write(self.path("part.obj"), together(TWO_CUBES, grid(40, 3.0)))
-        files = [self.run_tool(part, "--png", "-", "--png-size", "700x500", "--view", "all", "-j", j,
+        files = [self.run_tool(part, "--png", "-", "--png-size", "700x500", "--view", "all", "-j",
+                               j,
                                status=1).out for j in (1, 2, 3)]
         self.assertEqual(files[0], files[1])
         self.assertEqual(files[0], files[2])
@@ -268,7 +279,8 @@ class Pictures(ToolTest):
             self.assertIn(words, self.run_tool(part, *arguments, status=2).err)
         self.tool = PLACE
         for words in (("--png", "p.png"), ("--html", "p.html")):
-            self.assertIn(words[0] + " is of clash, which shows parts as they stand; check looks at",
+            self.assertIn(words[0]
+                          + " is of clash, which shows parts as they stand; check looks at",
                           self.run_tool("check", part, "--poses", "q", *words, status=2).err)
         self.tool = WELD
         points = self.put("p.xyz", "0 0 0\n1 0 0\n")

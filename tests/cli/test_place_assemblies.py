@@ -159,7 +159,8 @@ class Assemblies(PlaceTest):
 
     def test_check_says_what_is_wrong_with_poses(self):
         self.robot()
-        for text, words in (('{"bend": "x"}\n', "poses.jsonl:1: the value of joint bend is no number"),
+        for text, words in (('{"bend": "x"}\n',
+                             "poses.jsonl:1: the value of joint bend is no number"),
                             ('{}\n{"bond": 1}\n', "poses.jsonl:2: there is no joint bond"),
                             ("1 2 3", "poses of a robot are lines of JSON"),
                             ("{}\n{\n", "poses.jsonl:2: no JSON")):

@@ -25,7 +25,8 @@ class PlaceFeatures(PlaceTest):
         points = self.points("out.obj")
         self.assertEqual(len(points), 48)
         self.assertLessEqual(max(p[0] for p in points), 2 * 1.2 * 9 + 9)
-        run = self.run_tool("arrange", "a.obj", "--count", "a.obj:5", "--size", "9,4.5", "--spacing",
+        run = self.run_tool("arrange", "a.obj", "--count", "a.obj:5", "--size", "9,4.5",
+                            "--spacing",
                             "0.5", "--plates", "2", "--tries", "3", "-n", status=1)
         self.assertIn("4 of 5 parts placed on 2 plates; a place for all was not found in 3 tries",
                       run.text)
@@ -34,11 +35,13 @@ class PlaceFeatures(PlaceTest):
 
     def test_a_box_with_a_height_is_filled_and_a_flat_one_is_not(self):
         size = ["--size", "4,4,7", "--spacing", "0.5"]
-        entry = self.entry("arrange", "a.obj", "--count", "a.obj:3", *size, "-o", "out.obj", status=0)
+        entry = self.entry("arrange", "a.obj", "--count", "a.obj:3", *size, "-o", "out.obj",
+                           status=0)
         points = self.points("out.obj")
         self.assertEqual(sorted({p[2] for p in points}), [0, 2, 2.5, 4.5, 5, 7])
         self.assertEqual(entry["plates"], 1)
-        entry = self.entry("arrange", "a.obj", "--count", "a.obj:3", *size, "--flat", "-n", status=1)
+        entry = self.entry("arrange", "a.obj", "--count", "a.obj:3", *size, "--flat", "-n",
+                           status=1)
         self.assertEqual(len(entry["not_placed"]), 2)
 
     def test_time_ends_the_tries(self):
@@ -77,7 +80,8 @@ class PlaceFeatures(PlaceTest):
         entry = self.entry("turn", "a.obj", "--fixed", "wall.obj", "--clearance", "0.5", "-o",
                            "clear.obj", status=0)
         self.assertGreaterEqual(self.relation("clear.obj", "wall.obj")["distance"], 0.5)
-        run = self.run_tool("turn", "a.obj", "--fixed", "wall.obj", "--max-angle", "5", "-n", status=1)
+        run = self.run_tool("turn", "a.obj", "--fixed", "wall.obj", "--max-angle", "5", "-n",
+                            status=1)
         self.assertIn("nothing is in the way", run.text)
         for bad in (["--axis", "0,0,0"], ["--max-angle", "0"], ["--max-angle", "400"],
                     ["--max-travel", "3"], ["--bed", "0"], ["--origin", "1,2"]):

@@ -382,27 +382,34 @@ class Moves(PlaceTest):
                 self.assertAlmostEqual(x, y, places=3)
 
     def test_fit_of_a_part_needs_to_know_that_it_is_one_or_says_that_it_is_in_doubt(self):
-        bowl = [(x, y, 0.05 * (x - 5) ** 2 + 0.02 * (y - 7) ** 2 + 0.004 * x * x * y) for x, y, _ in grid(16)[0]]
+        bowl = [(x, y, 0.05 * (x - 5) ** 2 + 0.02 * (y - 7) ** 2 + 0.004 * x * x * y) for x, y,
+                _ in grid(16)[0]]
         faces = grid(16)[1]
         self.mesh("fixed.obj", (bowl, faces))
         c, s = math.cos(0.03), math.sin(0.03)
-        beside = [(x, y, z + 30) for x, y, z in bowl[::3]]  # a third more than there is on the other side
+        # a third more than there is on the other side
+        beside = [(x, y, z + 30) for x, y, z in bowl[::3]]
         moved = [(c * x - s * y + 0.2, s * x + c * y, z) for x, y, z in bowl + beside]
         self.put("moved.xyz", "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in moved))
-        entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", "--weights", "equal", "-n", status=1)
+        entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", "--weights", "equal", "-n",
+                           status=1)
         self.assertEqual((entry["fit"]["end"], entry["fit"]["converged"]), ("doubtful", False))
         for options in ([], ["--trim", "0.26"], ["--overlap", "0.7", "--metric", "plane"],
                         ["--trim", "0.26", "--starts", "6"]):
             with self.subTest(options):
-                entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", *options, "-n", status=0)
+                entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", *options, "-n",
+                                   status=0)
                 fit = entry["fit"]
-                self.assertEqual((fit["end"], fit["undetermined"], len(fit["freedoms"])), ("converged", 0, 6))
+                self.assertEqual((fit["end"], fit["undetermined"], len(fit["freedoms"])),
+                                 ("converged", 0, 6))
                 self.assertEqual(fit["inliers"], len(bowl))
                 for row, wanted in zip(entry["matrix"], ((c, s, 0), (-s, c, 0), (0, 0, 1))):
                     for x, y in zip(row, wanted):
                         self.assertAlmostEqual(x, y, places=6)
-        entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", "--iterations", "1", "-n", status=1)
-        self.assertEqual((entry["fit"]["end"], entry["fit"]["iterations"]), ("out-of-iterations", 1))
+        entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", "--iterations", "1", "-n",
+                           status=1)
+        self.assertEqual((entry["fit"]["end"], entry["fit"]["iterations"]),
+                         ("out-of-iterations", 1))
 
     def test_fit_of_a_plane_on_a_plane_says_that_it_slides(self):
         self.mesh("flat.obj", grid(9))

@@ -87,7 +87,8 @@ class Scenes(PlaceTest):
                 self.assertEqual(one[key], each[key], msg=f"{mode} {key}")
             nearest = one["closest"]
             if nearest:
-                self.assertEqual(nearest["fixed"]["name"] + ".obj", each["closest"]["fixed"]["file"])
+                self.assertEqual(nearest["fixed"]["name"] + ".obj",
+                                 each["closest"]["fixed"]["file"])
                 self.assertEqual(nearest["fixed"]["point"], each["closest"]["fixed"]["point"])
 
     def test_patches_of_one_surface_are_one_body_with_an_inside(self):

@@ -14,7 +14,8 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "chosen": (int, NULL), "corrected": (*NUMBER, NULL), "tolerance": dict, "fit": (dict, NULL),
         "center_of_mass": (dict, NULL), "turn": (dict, NULL), "features": (dict, NULL),
         "tries": (int, NULL), "plates": (int, NULL), "density": (*NUMBER, NULL),
-        "fits": (bool, NULL), "parts": list, "not_placed": list, "rounding": (dict, NULL), "matrix_file": (str, NULL),
+        "fits": (bool, NULL), "parts": list, "not_placed": list, "rounding": (dict, NULL),
+        "matrix_file": (str, NULL),
         "effort": (dict, NULL), "depth": (dict, NULL), "points": (dict, NULL),
         "deviation": (dict, NULL),
         "output": (dict, NULL), "warnings": list, "exit": int}
@@ -79,11 +80,15 @@ class Usage(PlaceTest):
         self.refused("drop", "a.obj", "--seed", "1")
         self.refused("drop", "a.obj", "--scale")
         self.refused("fit", "a.obj", *fixed, "--overlap", "2")
-        for bad in (("--overlap", "0.5", "--trim", "0.5"), ("--trim", "1"), ("--trim", "-1"), ("--starts", "0"),
-                    ("--scale=2",), ("--scale=3,2",), ("--scale=0,2",), ("--scale=1,2,3",), ("--scale=1,x",),
-                    ("--iterations", "many"), ("--fit-tolerance", "-1"), ("--metric", "line"), ("--weights", "some")):
+        for bad in (("--overlap", "0.5", "--trim", "0.5"), ("--trim", "1"), ("--trim", "-1"),
+                    ("--starts", "0"),
+                    ("--scale=2",), ("--scale=3,2",), ("--scale=0,2",), ("--scale=1,2,3",),
+                    ("--scale=1,x",),
+                    ("--iterations", "many"), ("--fit-tolerance", "-1"), ("--metric", "line"),
+                    ("--weights", "some")):
             self.refused("fit", "a.obj", *fixed, *bad)
-        for fits in (("--trim", "0.5"), ("--starts", "9"), ("--iterations", "9"), ("--fit-tolerance", "1e-3"),
+        for fits in (("--trim", "0.5"), ("--starts", "9"), ("--iterations", "9"),
+                     ("--fit-tolerance", "1e-3"),
                      ("--metric", "point"), ("--weights", "equal")):
             self.refused("measure", "a.obj", *fixed, *fits)
         self.refused("fit", "a.obj", *fixed, *fixed)
@@ -94,22 +99,26 @@ class Usage(PlaceTest):
 
     def test_a_report_has_a_line_for_each_contact_and_row(self):
         self.mesh("plate.obj", grid(3))
-        text = self.run_tool("slide", self.mesh("b.obj", grid(3, 3.0)), "--fixed", "plate.obj", "-r", "-",
+        text = self.run_tool("slide", self.mesh("b.obj", grid(3, 3.0)), "--fixed", "plate.obj",
+                             "-r", "-",
                              "-n", status=0).text
         entry = json.loads(text)["files"][0]
         self.assertGreater(len(entry["contacts"]), 50)
         lines = [line.strip().rstrip(",") for line in text.splitlines()]
         for contact in entry["contacts"]:
-            self.assertIn(contact, [json.loads(line) for line in lines if line.startswith('{"point"')])
+            self.assertIn(contact, [json.loads(line) for line in lines
+                                    if line.startswith('{"point"')])
         for row in entry["matrix"]:
-            self.assertIn(row, [json.loads(line) for line in lines if line.startswith("[") and len(line) > 1
+            self.assertIn(row, [json.loads(line) for line in lines if line.startswith("[")
+                                and len(line) > 1
                                 and line.endswith("]")])
         self.assertLess(len(lines), len(entry["contacts"]) + 150)
 
     def test_a_report_says_where_to_start(self):
         self.run_tool("drop", "a.obj", "--fixed", "floor.obj", "-o", "down.obj", "-r", "down.json",
                       status=0)
-        down = self.entry("measure", "a.obj", "--fixed", "floor.obj", "--start", "down.json", status=0)
+        down = self.entry("measure", "a.obj", "--fixed", "floor.obj", "--start", "down.json",
+                          status=0)
         self.assertEqual((down["status"], down["distance"]), ("touching", 0))
         self.run_tool("arrange", "a.obj", "floor.obj", "--size", "9,9", "-n", "-r", "plate.json",
                       status=0)
@@ -144,7 +153,8 @@ class Usage(PlaceTest):
             file.write("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
         before = self.read_bytes("m.txt")
         for option in ("--matrix", "-r", "--log"):
-            self.assertIn("is an input", self.refused("drop", "a.obj", "--start", "m.txt", "-n", option,
+            self.assertIn("is an input",
+                          self.refused("drop", "a.obj", "--start", "m.txt", "-n", option,
                                                       "./m.txt", "-f"))
         self.assertEqual(self.read_bytes("m.txt"), before)
         self.assertIn("two outputs", self.refused("drop", "a.obj", "-o", "out.obj", "--matrix",
@@ -166,7 +176,8 @@ class Usage(PlaceTest):
 
     def test_every_key_is_there_and_of_its_type(self):
         fixed = ("--fixed", "floor.obj")
-        for arguments in (["drop", "a.obj"], ["lay", "a.obj"], ["drop", "a.obj", *fixed, "-o", "out.stl"],
+        for arguments in (["drop", "a.obj"], ["lay", "a.obj"],
+                          ["drop", "a.obj", *fixed, "-o", "out.stl"],
                           ["slide", "a.obj", *fixed, "-d", "1,0,0"],
                           ["measure", "a.obj", *fixed], ["clear", "a.obj", *fixed],
                           ["mate", "a.obj", *fixed, "--clearance", "0.5"]):

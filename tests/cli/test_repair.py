@@ -96,13 +96,15 @@ class Repair(ToolTest):
         self.assertGreater(entry["repair"]["left_open_edges"], 0)
         self.assertLess(entry["repair"]["removed_faces"], 20)
         self.run_tool("out.obj", status=0)
-        self.assertIn("edges left open", self.run_tool(part, "--repair=remove", "-n", "--accept-loss").text)
+        self.assertIn("edges left open",
+                      self.run_tool(part, "--repair=remove", "-n", "--accept-loss").text)
 
     def test_faces_that_only_touch_stay_unless_contact_counts(self):
         part = write(self.path("part.obj"), TOUCHING)
         repair = self.repaired(part, "--repair=remove", "-o", "out.obj")["repair"]
         self.assertEqual((repair["removed_faces"], repair["faces"]), (0, 2))
-        repair = self.repaired(part, "--repair=remove", "--touching", "-n", "--accept-loss")["repair"]
+        repair = self.repaired(part, "--repair=remove", "--touching", "-n",
+                               "--accept-loss")["repair"]
         self.assertEqual((repair["removed_faces"], repair["faces"]), (1, 1))
 
     def test_what_would_leave_nothing_is_no_repair(self):
@@ -251,7 +253,8 @@ class Repair(ToolTest):
         for mode in ("outer", "split", "remove"):
             for words in (["--repair", mode, part], [part, "--repair", mode, "-o", "out.stl"]):
                 self.assertEqual(self.run_tool(*words, status=2).err,
-                                 f"tf-selfintersect: error: --repair {mode}: type --repair={mode}\n")
+                                 f"tf-selfintersect: error: --repair {mode}: type --repair={mode}\n"
+                                 f"")
         run = self.run_tool("--repair", part, "fixed.stl", status=2)
         self.assertEqual(run.err, "tf-selfintersect: error: fixed.stl: no such file; for the "
                                   "result to go there, type -o fixed.stl\n")

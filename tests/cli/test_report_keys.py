@@ -7,7 +7,8 @@ from weld_support import XYZ, ply_text, xyz_bytes
 
 HOME = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PAGE = os.path.join(HOME, "tools", "REPORTS.md")
-NAMES = {"tf-selfintersect": TOOL, "tf-boolean": BOOLEAN, "tf-cut": CUT, "tf-place": PLACE, "tf-repair": MEND,
+NAMES = {"tf-selfintersect": TOOL, "tf-boolean": BOOLEAN, "tf-cut": CUT, "tf-place": PLACE,
+         "tf-repair": MEND,
          "tf-weld": WELD}
 
 # Modes whose entries have keys of their own.
@@ -302,7 +303,8 @@ class Reports(PlaceTest):
             file.write("<robot name='r'>" + "".join(
                 f"<link name='{name}'><collision><geometry><mesh filename='{name}.obj'/></geometry>"
                 "</collision></link>" for name in ("floor", "part", "in")) + "".join(
-                f"<joint name='j{name}' type='prismatic'><parent link='floor'/><child link='{name}'/>"
+                f"<joint name='j{name}' type='prismatic'><parent link='floor'/><child "
+                f"link='{name}'/>"
                 "<axis xyz='0 0 1'/></joint>" for name in ("part", "in")) + "</robot>")
         self.put("poses.jsonl", '{"jpart": -5}\n{"jpart": -4.5, "jin": 0.5}\n')
         self.put("moves.jsonl", '{"part": [1,0,0,0,0,1,0,0,0,0,1,-5,0,0,0,1]}\n{}\n')
@@ -343,7 +345,8 @@ class Reports(PlaceTest):
     def mend(self):
         points, faces = cube()
         self.mesh("hole.obj", (points, faces[1:]))
-        self.mesh("bad.obj", together((points, faces[1:]), ([(3 + x, y, z) for x, y, z in grid(1)[0]],
+        self.mesh("bad.obj", together((points, faces[1:]),
+                                      ([(3 + x, y, z) for x, y, z in grid(1)[0]],
                                                             grid(1)[1])))
         self.mesh("inverted.obj", (points, [(a, c, b) for a, b, c in faces]))
         self.put("scene.obj", "".join(

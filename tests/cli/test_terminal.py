@@ -1,4 +1,5 @@
-"""What a person at a terminal sees: colors, a table of many files, progress; and none of it in pipes."""
+"""What a person at a terminal sees: colors, a table of many files, progress; and none of it in
+pipes."""
 
 import pty
 import re

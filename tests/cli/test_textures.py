@@ -260,7 +260,8 @@ class Several(TextureTest):
     def test_faces_of_two_textures_stay_apart_where_a_result_is_simplified(self):
         # All texture coordinates are alike.
         for name, mesh in (("a", self.LOW), ("b", box((2, 0, 0), (4, 2, 2)))):
-            self.put(name + ".ply", textured_ply(mesh, [name + "/a.png"], lambda i: name + "/a.png"))
+            self.put(name + ".ply",
+                     textured_ply(mesh, [name + "/a.png"], lambda i: name + "/a.png"))
         self.run_as(BOOLEAN, "union", "a.ply", "b.ply", "--simplify", "-o", "out.ply")
         mesh, _ = self.check("out.ply")
         self.assertEqual(mesh.names, ["a/a.png", "b/a.png"])

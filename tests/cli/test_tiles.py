@@ -45,7 +45,8 @@ def ply_lines(mesh):
             f"element edge {len(edges)}", "property int vertex1", "property int vertex2",
             f"element face {len(polygons)}", "property list uchar int vertex_indices",
             "element note 2", "property list uchar int text", "end_header"]
-    return head + ["1", "", "0.5", *rows, *edges, *polygons[:9], " \t ", *polygons[9:], "0", "2 1 1"]
+    return head + ["1", "", "0.5", *rows, *edges, *polygons[:9], " \t ", *polygons[9:], "0",
+                   "2 1 1"]
 
 
 def polygon_rows(faces, rng):
@@ -53,7 +54,8 @@ def polygon_rows(faces, rng):
     for f in faces:
         corners = (*f, *rng.choices(f, k=rng.choice((0, 0, 1, 4))))
         marks = [rng.random() for _ in range(rng.randrange(3))]
-        yield struct.pack(f"<B{len(corners)}iB{len(marks)}fh", len(corners), *corners, len(marks), *marks,
+        yield struct.pack(f"<B{len(corners)}iB{len(marks)}fh", len(corners), *corners, len(marks),
+                          *marks,
                           rng.randrange(99))
 
 
@@ -172,7 +174,8 @@ class Tiles(ToolTest):
         self.assertEqual(self.run_tool("float.ply", *work, "--plan", status=0).text.split()[1],
                          str(tiles))
         for arguments, words in (
-                (["--plan"], "need --work DIR"), (["--plan", "--finish", *work], "exclude each other"),
+                (["--plan"], "need --work DIR"),
+            (["--plan", "--finish", *work], "exclude each other"),
                 (["--tile", "0", *work, "--pairs", "p.csv"], "outputs belong to --finish"),
                 (["double.ply", "--plan", *work], "take one INPUT")):
             self.assertIn(words, self.run_tool("float.ply", *arguments, status=2).err)
@@ -240,11 +243,13 @@ class Tiles(ToolTest):
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_no_rank_knows_much_more_of_a_file_than_its_share(self):
-        points, faces = together(grid(40, 10.0), *[cube((3 * i + 0.3, 2 * i + 0.3, 9.6)) for i in range(9)])
+        points, faces = together(grid(40, 10.0),
+                                 *[cube((3 * i + 0.3, 2 * i + 0.3, 9.6)) for i in range(9)])
         elements = (f"element vertex {len(points)}\nproperty float x\nproperty float y\n"
                     f"property float z\nelement face {len(faces)}\n"
                     "property list uchar int vertex_indices\nend_header\n")
-        more = elements.replace("end_header", "property list uchar float texcoord\nproperty short mark\n"
+        more = elements.replace("end_header",
+                                "property list uchar float texcoord\nproperty short mark\n"
                                 "end_header")
         text = [["%8.4f %8.4f %8.4f\n" % p for p in points], ["3 %4d %4d %4d\n" % f for f in faces]]
         soup = stl_bytes((points, faces))
@@ -252,7 +257,8 @@ class Tiles(ToolTest):
                 ("text.ply", f"ply\nformat ascii 1.0\n{elements}".encode(),
                  [[line.encode() for line in part] for part in text]),
                 ("in.ply", f"ply\nformat binary_little_endian 1.0\n{elements}".encode(),
-                 [[struct.pack("<3f", *p) for p in points], [struct.pack("<B3i", 3, *f) for f in faces]]),
+                 [[struct.pack("<3f", *p) for p in points],
+                  [struct.pack("<B3i", 3, *f) for f in faces]]),
                 ("polygons.ply", f"ply\nformat binary_little_endian 1.0\n{more}".encode(),
                  [[struct.pack("<3f", *p) for p in points],
                   list(polygon_rows(faces, random.Random(5)))]),
@@ -278,7 +284,8 @@ class Tiles(ToolTest):
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_of_faces_of_several_lengths_the_first_fault_is_said(self):
         points, faces = heap(40)
-        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\n"
+        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty "
+                f"float x\n"
                 f"property float y\nproperty float z\nelement face {len(faces)}\n"
                 "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
                 "property short mark\nend_header\n").encode()
@@ -360,7 +367,8 @@ class Tiles(ToolTest):
                                 (["in.stl", "-t", "0.1"], "-t"),
                                 (["in.stl", "--first"], "--first"),
                                 (["in.stl", "--repair", "-o", "out.stl"], "a mesh to write"),
-                                (["in.obj"], "neither a binary STL nor a PLY"), (["-"], "standard input"),
+                                (["in.obj"], "neither a binary STL nor a PLY"),
+                                (["-"], "standard input"),
                                 (["in.fifo"], "a pipe")):
             run = self.run_tool(*arguments, "--tile-faces", 10, status=2)
             self.assertIn(word + " needs the whole mesh in memory", run.err)

@@ -76,7 +76,8 @@ class Usage(ToolTest):
             for option in ("-r", "--html", "--pairs", "--log"):
                 err = self.refused("part.obj", "-o", one, option, other, "-f")
                 self.assertIn("two outputs", err)
-        self.assertIn("two outputs", self.refused("part.obj", "--html", "m.png", "--png", "./m.png"))
+        self.assertIn("two outputs",
+                      self.refused("part.obj", "--html", "m.png", "--png", "./m.png"))
         self.assertIn("two outputs", self.refused("part.obj", "--output-dir", "sub", "--suffix", "",
                                                   "-r", "link/part.ply"))
         self.assertEqual(self.listing(), before)

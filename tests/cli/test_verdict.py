@@ -178,7 +178,8 @@ class Verdict(ToolTest):
         self.run_tool(self.path("missing.obj"), "--exit-zero", status=3)
 
     def test_polygons_keep_the_face_numbers_of_the_file(self):
-        text = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 3 3 -1\nv 3 3 1\nv 4 3 1\nf 1 2 3 4\nf 5 6 7\n"
+        text = ("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 3 3 -1\nv 3 3 1\nv 4 3 1\n"
+                "f 1 2 3 4\nf 5 6 7\n")
         with open(self.path("quad.obj"), "w") as file:
             file.write(text)
         entry = self.report("quad.obj", status=1)["files"][0]

@@ -82,7 +82,8 @@ class Attributes(WeldTest):
 
     def test_drop_takes_all_columns_of_a_kind(self):
         rows = [(i, 0, 0, i % 256, 7, 255, 0, 0, 1, 0.5) for i in range(60)]
-        names = ["float x", "float y", "float z", "uchar red", "uchar green", "uchar blue", "float nx",
+        names = ["float x", "float y", "float z", "uchar red", "uchar green", "uchar blue",
+                 "float nx",
                  "float ny", "float nz", "float curvature"]
         self.write("in.ply", ply_text(names, rows))
         for other in ("pcd", "las"):
@@ -128,7 +129,8 @@ class Attributes(WeldTest):
 
     def test_tables_say_what_was_taken_and_keep_what_they_can(self):
         lines = ["%d,%d.25,%d.5,30,%s,%s,%d,0,255" %
-                 (i, 4100000 + i, 500000 + i, self.rng.choice(("tree", "", "7")), i if i % 7 else "",
+                 (i, 4100000 + i, 500000 + i, self.rng.choice(("tree", "", "7")), i if i % 7
+                  else "",
                   i % 256) for i in range(90)]
         self.write("in.csv", CSV + "\n".join(lines) + "\n")
         said = self.both("in.csv", "--ascii", out="out.ply")

@@ -322,7 +322,8 @@ class Large(WeldTest):
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_what_is_welded_in_memory_says_so_where_memory_is_limited(self):
-        corners = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(float(i % 97 + k) for k in range(9)),
+        corners = b"".join(struct.pack("<12fH", *(3 * [0.0]),
+                                       *(float(i % 97 + k) for k in range(9)),
                                        0) for i in range(100000))
         self.write("in.stl", 80 * b" " + struct.pack("<I", 100000) + corners)
         command = ["in.stl", "-o", "out.off", "-f"]
@@ -372,7 +373,8 @@ class Large(WeldTest):
         rng = random.Random(8)
         kinds = [(*(rng.random() for _ in range(3)), i % 7) if i % share else (0.5, 0.5, 0.5, i % 7)
                  for i in range(400000)]
-        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(kinds)}\nproperty double x\n"
+        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(kinds)}\nproperty "
+                f"double x\n"
                 "property double y\nproperty double z\nproperty uchar kind\nend_header\n")
         self.write("in.ply", head.encode() + b"".join(struct.pack("<dddB", *row) for row in kinds))
         for same, keep in (("kind=1", "first"), ("kind", "max:z")):
@@ -399,7 +401,7 @@ class Large(WeldTest):
         os.remove(self.path("out.ply"))
 
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
-    def test_memory_that_is_too_little_for_tiles_that_are_there_is_said_with_what_would_be_enough(self):
+    def test_too_little_memory_for_tiles_that_are_there_is_said_with_what_would_be_enough(self):
         rng = random.Random(8)
         self.binary("in.ply", [(rng.random(), rng.random(), rng.random()) for _ in range(500000)])
         for rule in ("first", "chain"):

@@ -60,7 +60,8 @@ class Meshes(WeldTest):
             entry = self.entry("in.ply", *options, status=0)
             self.assertEqual(entry["points"]["out"], kept, msg=options)
         entry = self.entry("in.ply", status=0)
-        self.assertEqual(entry["same"], [{"property": p, "tolerance": 0} for p in ("nx", "ny", "nz")])
+        self.assertEqual(entry["same"],
+                         [{"property": p, "tolerance": 0} for p in ("nx", "ny", "nz")])
         self.assertIn("with the same nx, ny, nz", self.run_tool("in.ply", "--check").text)
 
     def test_faces_that_collapse_are_dropped_and_counted_or_kept(self):
@@ -91,7 +92,8 @@ class Meshes(WeldTest):
         self.assertEqual(read_obj(self.read("out.obj"))[1], [(0, 1, 2, 3)])
 
     def test_a_polygon_that_pinches_comes_apart(self):
-        points = [(0, 0, 0), (1, 1, 0), (2, 1, 0), (0, 0.001, 0), (-1, 2, 0), (-1, 0, 0), (0, -3, 0)]
+        points = [(0, 0, 0), (1, 1, 0), (2, 1, 0), (0, 0.001, 0), (-1, 2, 0), (-1, 0, 0),
+                  (0, -3, 0)]
         write(self.path("in.obj"), (points, [(0, 1, 2, 3, 4, 5, 6)]))
         self.run_tool("in.obj", "-t", "0.01", "-o", "out.obj", status=0)
         self.assertEqual(read_obj(self.read("out.obj"))[1], [(0, 1, 2), (0, 3, 4, 5)])

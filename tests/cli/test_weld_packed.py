@@ -70,8 +70,11 @@ def by_fields(points):
 
 
 def head(count, packed, size):
-    return (f"VERSION .7\nFIELDS {FIELDS}\nSIZE 8 8 8 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH {count}\n"
-            f"HEIGHT 1\nPOINTS {count}\nDATA binary_compressed\n").encode() + struct.pack("<II", packed, size)
+    return (f"VERSION .7\nFIELDS {FIELDS}\nSIZE 8 8 8 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH "
+            f"{count}\n"
+            f"HEIGHT 1\nPOINTS {count}\nDATA binary_compressed\n").encode() + struct.pack("<II",
+                                                                                          packed,
+                                                                                          size)
 
 
 def pcd(points):
@@ -101,7 +104,8 @@ class Packed(WeldTest):
         self.rng = random.Random(9)
 
     def points(self, count):
-        return [(*(self.rng.random() for _ in range(3)), self.rng.randrange(4) / 4) for _ in range(count)]
+        return [(*(self.rng.random() for _ in range(3)), self.rng.randrange(4) / 4)
+                for _ in range(count)]
 
     def written(self, *names):
         names = names or ("out.pcd", "gone.pcd")
@@ -131,9 +135,11 @@ class Packed(WeldTest):
                   b"\0\0" * (zeros % 264 + 263))
         self.write("in.pcd", (
             f"# .PCD v0.7\nVERSION 0.7\nFIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\n"
-            f"COUNT 1 1 1 {width}\nWIDTH {count}\nHEIGHT 1\nPOINTS {count}\nDATA binary_compressed\n"
+            f"COUNT 1 1 1 {width}\nWIDTH {count}\nHEIGHT 1\nPOINTS {count}\nDATA "
+            f"binary_compressed\n"
         ).encode() + struct.pack("<II", len(packed), len(axes) + zeros) + packed)
-        run = self.run_tool("in.pcd", "-t", "0.01", "-o", "out.ply", "--tile-points", 2000, "--memory",
+        run = self.run_tool("in.pcd", "-t", "0.01", "-o", "out.ply", "--tile-points", 2000,
+                            "--memory",
                             "64M", "-f", status=0)
         self.assertIn(f"{count:,} points", run.text)
 
@@ -144,7 +150,8 @@ class Packed(WeldTest):
         given = [WELD, *names, "--join", "-t", "0.01", "-o", "out.pcd", "-f"]
         found = []
         for more in ([], ["--tile-points", "50"]):
-            run = subprocess.run([*given, *more], cwd=self.folder, capture_output=True, preexec_fn=lambda:
+            run = subprocess.run([*given, *more], cwd=self.folder, capture_output=True,
+                                 preexec_fn=lambda:
                                  resource.setrlimit(resource.RLIMIT_NOFILE, (40, 40)))
             self.assertEqual(run.returncode, 0, run.stderr)
             found.append(self.read_bytes("out.pcd"))
@@ -152,7 +159,8 @@ class Packed(WeldTest):
 
     @unittest.skipIf(NO_MPI, NO_MPI)
     def test_ranks_of_mpi_give_what_one_gives(self):
-        self.check_ranks((3,), ((["few.pcd", "in.pcd", "few.pcd", "--join"], ["-t", "0.01", "--same", "t"]),
+        self.check_ranks((3,), ((["few.pcd", "in.pcd", "few.pcd", "--join"],
+                                 ["-t", "0.01", "--same", "t"]),
                                 (["few.pcd"], ["-t", "2"])))
 
     @slow
@@ -199,28 +207,33 @@ class Packed(WeldTest):
         def near(rank, at, count):
             return (rank - 0.25) * count <= 4 * at <= (rank + 1.25) * count
         for rank, copy in enumerate(names):
-            known = (byte if near(rank, at, len(packed)) or near(rank, at + made[at], len(packed) + size)
+            known = (byte if near(rank, at, len(packed))
+                     or near(rank, at + made[at], len(packed) + size)
                      else 63 for at, byte in enumerate(packed))
             self.write(copy, whole[:-len(packed)] + bytes(known))
             self.run_tool(copy, *gives, status=3)  # of no use for one alone
         run = self.mpi_each([[copy, *gives, "-r", "-", "--tile-points", 900, "--work", "tiles"]
                              for copy in names])
         self.assertEqual(self.written(), expected)
-        self.assertEqual(json.loads(run.text)["files"][0]["sha256"], hashlib.sha256(whole).hexdigest())
+        self.assertEqual(json.loads(run.text)["files"][0]["sha256"],
+                         hashlib.sha256(whole).hexdigest())
         self.assertEqual(self.listing(), sorted(["in.pcd", *names]))
 
     @unittest.skipIf(NO_MPI or SANITIZED, "ranks of the tool itself, by MPI")
     def test_no_rank_reads_or_writes_much_more_than_its_share(self):
         count = 400000  # 11 MB of values
-        values = b"".join(struct.pack("<d", self.rng.random()) for _ in range(3 * count)) + bytes(4 * count)
+        values = b"".join(struct.pack("<d", self.rng.random())
+                          for _ in range(3 * count)) + bytes(4 * count)
         literals = [b"\x1f" + values[at:at + 32] for at in range(0, len(values), 32)]
         packed = b"".join(literals)
         self.write("in.pcd", head(count, len(packed), len(values)) + packed)
         mine = "%s \"$@\"; s=$?; cat /proc/$$/io > $OMPI_COMM_WORLD_RANK.io; exit $s" % WELD
-        subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "4", "sh", "-c", mine, "sh",
+        subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "4", "sh", "-c",
+                        mine, "sh",
                         "in.pcd", "-t", "0.001", "-o", "out.pcd", "--tile-points", "20000", "-j1"],
                        cwd=self.folder, check=True, capture_output=True, timeout=300)
-        ranks = [dict(line.split(": ") for line in self.read(f"{r}.io").splitlines()) for r in range(4)]
+        ranks = [dict(line.split(": ") for line in self.read(f"{r}.io").splitlines())
+                 for r in range(4)]
         for what in ("rchar", "wchar"):
             several = [int(r[what]) for r in ranks]
             with self.subTest(what=what, several=several):
@@ -253,7 +266,8 @@ class Packed(WeldTest):
         expected = self.written()
         work = ["in.pcd", "-t", "0.02", "--work", "tiles"]
         run = self.run_tool(*work, "--plan", "--tile-points", 2500, status=0)
-        left = lambda: [name for name in os.listdir(self.path("tiles")) if name.startswith("unpacked")]
+        left = lambda: [name for name in os.listdir(self.path("tiles"))
+                        if name.startswith("unpacked")]
         self.assertEqual(left(), [])
         for tile in range(int(run.text.split()[1])):
             self.run_tool(*work, "--tile", tile, status=0)
@@ -267,7 +281,8 @@ class Packed(WeldTest):
             self.write("in.pcd", whole[:at] + b"\xff" * 33 + whole[at + 33:])
             gives = ["in.pcd", "-t", "0.02", "-o", "out.pcd", "--tile-points", 900]
             said = f"in.pcd: byte {begin + 8}: the packed data are damaged"
-            self.assertIn(said, self.run_tool("in.pcd", "-t", "0.02", "-o", "out.pcd", status=3).err)
+            self.assertIn(said, self.run_tool("in.pcd", "-t", "0.02", "-o", "out.pcd",
+                                              status=3).err)
             self.assertIn(said, self.run_tool(*gives, status=3).err)
             for size in (2, 4) if not NO_MPI else ():
                 run = self.mpi(size, *gives, status=3)
@@ -278,7 +293,8 @@ class Packed(WeldTest):
         packed = b"\0a" + b"\xe0\xff\0" * 1000
         for count in (9434, 10000, 153391689):  # of 28 bytes: nearly as many as it holds, and 4 GB
             self.write("in.pcd", head(count, len(packed), 28 * count) + packed)
-            run = self.run_tool("in.pcd", "-t", "0.02", "-o", "out.pcd", "--tile-points", 900, status=3)
+            run = self.run_tool("in.pcd", "-t", "0.02", "-o", "out.pcd", "--tile-points", 900,
+                                status=3)
             self.assertIn("in.pcd: byte ", run.err)
             self.assertEqual(self.listing(), ["in.pcd"])
 

@@ -9,7 +9,8 @@ NUMBER = (int, float)
 HEAD = {"schema": str, "tool": str, "version": str, "command": list, "exit": int, "unit": str,
         "files": list, "seconds": dict, "threads": int, "peak_rss": int}
 FILE = {"input": str, "exit": int, "error": type(None), "format": str, "sha256": str,
-        "precision_in": str, "sources": list, "tiles": type(None), "points": dict, "faces": dict, "polygons": dict,
+        "precision_in": str, "sources": list, "tiles": type(None), "points": dict, "faces": dict,
+        "polygons": dict,
         "box": dict, "skipped": dict, "tolerance": dict, "rule": str, "keep": str, "order": str,
         "same": list, "displacement": dict, "nonmanifold_edges": dict, "left_alone": type(None),
         "output": (dict, type(None)), "map": type(None), "removed": type(None),
@@ -30,7 +31,8 @@ class Report(WeldTest):
         entry = report["files"][0]
         self.assert_keys(entry, FILE)
         count = dict.fromkeys
-        self.assert_keys(entry["points"], count(["in", "out", "removed", "distinct", "groups"], int))
+        self.assert_keys(entry["points"],
+                         count(["in", "out", "removed", "distinct", "groups"], int))
         self.assert_keys(entry["faces"],
                          count(["in", "out", "collapsed", "degenerate", "flipped"], int))
         self.assert_keys(entry["polygons"], count(["in", "out"], int))

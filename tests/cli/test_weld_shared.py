@@ -1,4 +1,5 @@
-"""tf-weld by many processes: --plan, --tile and --finish, and mpirun. The bytes are those of one."""
+"""tf-weld by many processes: --plan, --tile and --finish, and mpirun. The bytes are those of
+one."""
 
 from weld_support import *
 
@@ -170,7 +171,8 @@ class Shared(WeldTest):
                 err = run.communicate()[1].decode()
                 if run.returncode == 0:
                     written = self.written((out, gone))
-                    self.assertEqual(written, {out: expected["out.ply"], gone: expected["gone.ply"]})
+                    self.assertEqual(written, {out: expected["out.ply"],
+                                               gone: expected["gone.ply"]})
                 else:
                     refused += 1
                     self.assertEqual(run.returncode, 4, err)
@@ -270,7 +272,8 @@ class Shared(WeldTest):
             self.write(name, text)
             if name not in names:
                 continue
-            gives = [name, "-t", "0.02", "-o", "out.csv", "--removed", "gone.ply", "--map", "map.csv"]
+            gives = [name, "-t", "0.02", "-o", "out.csv", "--removed", "gone.ply", "--map",
+                     "map.csv"]
             outputs = ("out.csv", "gone.ply", "map.csv")
             report = self.entry(*gives, status=0)
             self.assertEqual(report["sha256"], hashlib.sha256(text.encode()).hexdigest())
@@ -315,7 +318,8 @@ class Shared(WeldTest):
             for faults in ((len(lines) // 2,), (len(lines) - 300, len(lines) - 40)):
                 cut = [line[:3] if n in faults else line for n, line in enumerate(lines)]
                 self.write(name, "\n".join(cut) + "\n")
-                one = self.run_tool(name, "-t", "0.01", "-o", "out.ply", "--tile-points", 300, status=3)
+                one = self.run_tool(name, "-t", "0.01", "-o", "out.ply", "--tile-points", 300,
+                                    status=3)
                 said = one.err.splitlines()[-1]
                 self.assertIn(f"{name}:{faults[0] + 1}: ", said)
                 run = self.mpi(4, name, "-t", "0.01", "-o", "out.ply", status=3)
@@ -333,7 +337,8 @@ class Shared(WeldTest):
                            "listed_mesh.ply"])
 
     def check_shares(self, chosen):
-        points = [(100.0 + 0.5 * (i % 97), 100.0 + 0.25 * (i // 97), 100.0, 0.5) for i in range(9000)]
+        points = [(100.0 + 0.5 * (i % 97), 100.0 + 0.25 * (i // 97), 100.0, 0.5)
+                  for i in range(9000)]
         corners = [(3, i, i + 1, i + 97) for i in range(8800)]
         rows = [b"%.4f %.4f %.4f %.4f\n" % p for p in points]
         axes = "".join(f"property double {name}\n" for name in ("x", "y", "z", "t"))
@@ -347,7 +352,8 @@ class Shared(WeldTest):
                 ("in.xyz", b"# by hand\n", rows),
                 ("in.csv", b"x,y,z,t\n", [row.replace(b" ", b",") for row in rows]),
                 ("in.pts", b"9000\n", rows),
-                ("in.pcd", b"VERSION .7\nFIELDS x y z t\nSIZE 8 8 8 8\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+                ("in.pcd",
+                 b"VERSION .7\nFIELDS x y z t\nSIZE 8 8 8 8\nTYPE F F F F\nCOUNT 1 1 1 1\n"
                  b"WIDTH 9000\nHEIGHT 1\nPOINTS 9000\nDATA ascii\n", rows),
                 ("in.ply", head("ascii"), rows),
                 ("binary.ply", head("binary_little_endian"), binary),
@@ -369,7 +375,8 @@ class Shared(WeldTest):
             for rank, copy in enumerate(names):
                 self.write(copy, for_rank(rank, 4, *parts))
             with self.subTest(name=name):
-                run = self.mpi_each([[copy, *gives, "-r", "-", "--tile-points", 900, "--work", "tiles"]
+                run = self.mpi_each([[copy, *gives, "-r", "-", "--tile-points", 900, "--work",
+                                      "tiles"]
                                      for copy in names])
                 self.assertEqual(self.written(), expected)
                 self.assertEqual(json.loads(run.text)["files"][0]["sha256"],
@@ -443,7 +450,8 @@ class Shared(WeldTest):
     def test_what_one_of_them_cannot_do_the_first_one_says(self):
         for rank in (0, 1, 2):
             options = [["--work", "tiles" if r != rank else "other/tiles"] for r in range(3)]
-            run = self.mpi_each([["in.ply", "-t", "0.1", "-o", "out.ply", *more] for more in options],
+            run = self.mpi_each([["in.ply", "-t", "0.1", "-o", "out.ply", *more]
+                                 for more in options],
                                 status=4)
             self.assertEqual(run.err.count("other/tiles: cannot be made"), 1, run.err)
             self.assertNotIn("out.ply", self.listing())
@@ -452,7 +460,8 @@ class Shared(WeldTest):
     def test_tools_that_share_nothing_say_so(self):
         self.write("cube.obj", obj_bytes(cube()))
         for tool in (PLACE, MEND):
-            done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "3", tool,
+            done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "3",
+                                   tool,
                                    "cube.obj"], cwd=self.folder, capture_output=True, timeout=300)
             self.assertEqual(done.returncode, 2)
             self.assertEqual(done.stderr.count(b"start it without mpirun"), 1, done.stderr)

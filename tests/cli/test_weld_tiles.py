@@ -5,7 +5,8 @@ from weld_support import *
 import random
 
 COLUMNS = "<dddBfqd"
-HEAD = ("ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty double x\nproperty double y\n"
+HEAD = ("ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty double x\nproperty "
+        "double y\n"
         "property double z\nproperty uchar kind\nproperty float shade\nproperty int64 stamp\n"
         "property double range\nend_header\n")
 NAN = float("nan")
@@ -27,7 +28,8 @@ def families(rng, count):
 def ply(points, rng):
     rows = b"".join(struct.pack(COLUMNS, *p, rng.randrange(3),
                                 NAN if rng.random() < 0.05 else rng.randrange(4) * 0.25,
-                                (1 << 60) + rng.randrange(3), rng.choice((0.0, -0.0, 1.5, -2.0, NAN)))
+                                (1 << 60) + rng.randrange(3),
+                                rng.choice((0.0, -0.0, 1.5, -2.0, NAN)))
                     for p in points)
     return (HEAD % len(points)).encode() + rows
 
@@ -44,7 +46,8 @@ class Tiles(WeldTest):
         super().setUp()
         self.rng = random.Random(4)
 
-    def check(self, *command, size, out="out.ply", also=("--removed", "gone.ply", "--map", "map.csv")):
+    def check(self, *command, size, out="out.ply",
+              also=("--removed", "gone.ply", "--map", "map.csv")):
         """Whether all that the command writes is the same in memory and in tiles."""
         found = []
         for tiled in ([], ["--tile-points", size]):
@@ -65,7 +68,8 @@ class Tiles(WeldTest):
         for name, points in families(self.rng, 700):
             self.write("in.ply", ply(points, self.rng))
             for rule, same, which in options[:len(options) // 7 + 4]:
-                tolerance, size = self.rng.choice((("0", 60), ("0.03", 90), ("0.1", 50), ("3%", 300)))
+                tolerance, size = self.rng.choice((("0", 60), ("0.03", 90), ("0.1", 50),
+                                                   ("3%", 300)))
                 with self.subTest(family=name, rule=rule, same=same, which=which, t=tolerance):
                     self.check("in.ply", "-t", tolerance, "--rule", rule, *same, *which, size=size)
             options = options[len(options) // 7:] + options[:len(options) // 7]
@@ -82,7 +86,8 @@ class Tiles(WeldTest):
             "last.ply": ("float float float", [(0, 0, 0), *((quarter(), quarter(), 0)
                                                             for _ in range(900)), (0.1, 0.1, 0.1)]),
             "first.ply": ("float float float", [(0.1, 0.1, 0.1), *((quarter(), quarter(), 0)
-                                                                   for _ in range(900)), (0, 0, 0)]),
+                                                                   for _ in range(900)),
+                                                (0, 0, 0)]),
         }
         for name, (types, rows) in clouds.items():
             self.write(name, ply_text([f"{t} {a}" for t, a in zip(types.split(), "xyz")], rows))
@@ -150,7 +155,8 @@ class Tiles(WeldTest):
             entry = self.check("a.las", "b.las", "--join", "-t", "0.05", *which, "--las-scale",
                                "0.02", size=70, out="out.las", also=("--removed", "gone.laz"))
             self.assertIn("las-grid", [w["code"] for w in entry["warnings"]])
-        self.check("a.las", "b.las", "--join", "-t", "0.05", size=70, also=("--removed", "gone.csv"))
+        self.check("a.las", "b.las", "--join", "-t", "0.05", size=70,
+                   also=("--removed", "gone.csv"))
 
     def to_las(self, name, *which, size=70, removed="gone.ply"):
         return self.check(name, "-t", "0.05", *which, size=size, out="out.las",
@@ -177,7 +183,8 @@ class Tiles(WeldTest):
 
     def test_las_of_floats_and_texts_is_that_of_memory(self):
         for digits in (1, 3, 9):  # steps of floats are floats, or not
-            points = [tuple(round(x, digits) for x in p) for p in list(families(self.rng, 500))[0][1]]
+            points = [tuple(round(x, digits) for x in p)
+                      for p in list(families(self.rng, 500))[0][1]]
             points += [(p[0] + 3, 0.5, 1.0) for p in points[:20]]
             rows = [(*p, i % 3, i % 7) for i, p in enumerate(points)]
             self.write("in.ply", ply_text(["float x", "float y", "float z", "uchar return_number",

@@ -1,4 +1,5 @@
-"""Meshes in PLY and STL that tf-weld welds in tiles on the disk: the bytes, maps and reports that memory gives."""
+"""Meshes in PLY and STL that tf-weld welds in tiles on the disk: the bytes, maps and reports that
+memory gives."""
 
 from weld_support import *
 
@@ -100,15 +101,18 @@ def triangles(encoding, points, faces, edges):
 
 
 def stl(points, faces, bits=0):
-    rows = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(x for p in f for x in points[p]), bits * i % 7)
+    rows = b"".join(struct.pack("<12fH", *(3 * [0.0]), *(x for p in f for x in points[p]),
+                                bits * i % 7)
                     for i, f in enumerate(faces))
     return 80 * b" " + struct.pack("<I", len(faces)) + rows
 
 
 OPTIONS = ([], ["--across", "normal,color"], ["--across", "normal", "--same", "kind"],
            ["--rule", "chain", "--across", "color,normal"], ["--keep", "last"],
-           ["--keep", "mean", "--across", "normal,color"], ["--keep", "max:range", "--across", "color"],
-           ["--order", "range", "--across", "normal,color"], ["--keep-degenerate", "--across", "normal,color"],
+           ["--keep", "mean", "--across", "normal,color"],
+           ["--keep", "max:range", "--across", "color"],
+           ["--order", "range", "--across", "normal,color"],
+           ["--keep-degenerate", "--across", "normal,color"],
            ["--same", "z=0.01", "--rule", "chain"])
 
 
@@ -117,7 +121,8 @@ class TilesOfMeshes(WeldTest):
         super().setUp()
         self.rng = random.Random(21)
 
-    def check(self, *command, size, out="out.ply", also=("--removed", "gone.ply", "--map", "map.csv")):
+    def check(self, *command, size, out="out.ply",
+              also=("--removed", "gone.ply", "--map", "map.csv")):
         """Whether all that the command writes is the same in memory and in tiles."""
         found = []
         for tiled in ([], ["--tile-points", size]):
@@ -143,7 +148,8 @@ class TilesOfMeshes(WeldTest):
             self.write("in.ply", mesh(self.rng, encoding, points, faces))
             self.rng.shuffle(options)
             for which in options[:6]:
-                tolerance, size = self.rng.choice((("0", 40), ("0.02", 60), ("0.15", 30), ("5%", 200)))
+                tolerance, size = self.rng.choice((("0", 40), ("0.02", 60), ("0.15", 30),
+                                                   ("5%", 200)))
                 with self.subTest(family=name, encoding=encoding, which=which, t=tolerance):
                     entry = self.check("in.ply", "-t", tolerance, *which, size=size)
                     collapsed += entry["faces"]["collapsed"]
@@ -155,7 +161,8 @@ class TilesOfMeshes(WeldTest):
         across = ["--across", "normal,color"]
         for encoding in ORDERS:
             self.write("in.ply", mesh(self.rng, encoding, points, faces))
-            self.check("in.ply", "-t", "0.01", *across, "--order", "max:range", out="out.obj", size=50)
+            self.check("in.ply", "-t", "0.01", *across, "--order", "max:range", out="out.obj",
+                       size=50)
             for which in (["--ascii"], ["--binary"], ["--label", "group"]):
                 also = ("--map", "map.bin") if "--label" in which else ("--removed", "gone.csv")
                 self.check("in.ply", "-t", "0.01", *across, *which, size=50, also=also)
@@ -164,13 +171,16 @@ class TilesOfMeshes(WeldTest):
         points, faces = grid(9, self.rng)
         points[4] = (NAN, 0.0, 0.0)
         points[15] = (-0.0, *points[15][1:])
-        faces = [f[:3] for f in faces] + [(7, 7, 8), (8, 9, 8), (4, 4, 5)] + [f[:3] for f in faces[:9]]
+        faces = [f[:3] for f in faces] + [(7, 7, 8), (8, 9, 8),
+                                          (4, 4, 5)] + [f[:3] for f in faces[:9]]
         where, corners = soup(points, faces, self.rng)
         where[where.index((0.0, 0.0, 0.0))] = (-0.0, 0.0, -0.0)
         for bits in (0, 1):
             self.write("in.stl", stl(where, corners, bits))
-            for which in (["-t", "0"], ["-t", "0.05", "--rule", "chain"], ["-t", "0", "--order", "z"],
-                          ["-t", "0", "--keep-degenerate"], ["-t", "3%", "--rule", "chain", "--same", "x"],
+            for which in (["-t", "0"], ["-t", "0.05", "--rule", "chain"],
+                          ["-t", "0", "--order", "z"],
+                          ["-t", "0", "--keep-degenerate"],
+                          ["-t", "3%", "--rule", "chain", "--same", "x"],
                           ["-t", "9", "--rule", "chain"]):
                 for out in ("out.ply", "out.obj"):
                     entry = self.check("in.stl", *which, size=60, out=out)
@@ -328,12 +338,14 @@ class TilesOfMeshes(WeldTest):
                 ((3,), small, ["-t", "0.02", "--keep", "max:range", *gone], "out.ply"),
                 ((3,), small, ["-t", "0.02", "--order", "range", "--label", "group", "--map",
                                "map.csv"], "out.ply"),
-                ((4,), small, ["-t", "0.15", "--order", "x", "--keep-degenerate", *gone], "out.obj"),
+                ((4,), small, ["-t", "0.15", "--order", "x", "--keep-degenerate", *gone],
+                 "out.obj"),
                 ((7,), "few.ply", ["-t", "9", *gone], "out.ply"),
                 ((2, 4, 7), "alike.ply", ["-t", "0.02", *gone], "out.ply"),
                 ((3,), "alike.ply", ["-t", "0.02", "--keep", "mean", "--ascii"], "out.ply"),
                 ((4,), "alike.ply", ["-t", "0.15", "--rule", "chain", *gone], "out.obj"),
-                ((3,), "alike.ply", ["-t", "0.02", "--label", "group", "--map", "map.csv"], "out.ply"),
+                ((3,), "alike.ply", ["-t", "0.02", "--label", "group", "--map", "map.csv"],
+                 "out.ply"),
                 ((4,), "ends.ply", ["-t", "0.02", *gone], "out.ply"),
                 ((2, 4), "in.stl", ["--removed", "gone.csv"], "out.ply"),
                 ((3,), "in.stl", ["-t", "0.1", "--rule", "chain", *gone], "out.obj")):
@@ -349,7 +361,8 @@ class TilesOfMeshes(WeldTest):
                     entry["tiles"] = report["tiles"] = 0
                     self.assertEqual(str(entry), str(report))  # NaN differs from itself
                     self.assertEqual(self.listing(), inputs)
-        command = [small, "-t", "0.02", "-o", "-", "--output-format", "ply", "--removed", "gone.ply",
+        command = [small, "-t", "0.02", "-o", "-", "--output-format", "ply", "--removed",
+                   "gone.ply",
                    "--tile-points", 60]
         alone = self.run_tool(*command, status=0).out
         expected = self.written("gone.ply")
@@ -374,7 +387,8 @@ class TilesOfMeshes(WeldTest):
                 (3, "in.ply", ["--keep-manifold", "-o", "out.ply", "--tile-points", 9], 2,
                  "--keep-manifold needs the whole mesh"),
                 (2, "in.stl", ["-t", "0.1", "-o", "out.ply"], 2, "needs the whole mesh"),
-                (2, "cube.obj", ["-o", "out.ply", "--tile-points", 9], 3, "welded by one, in memory")):
+                (2, "cube.obj", ["-o", "out.ply", "--tile-points", 9], 3,
+                 "welded by one, in memory")):
             run = self.mpi(size, name, *options, status=status)
             self.assertEqual(run.err.count(words), 1, msg=run.err)
             self.assertEqual(self.listing(), inputs)
@@ -399,7 +413,8 @@ class TilesOfMeshes(WeldTest):
     def test_a_rank_that_is_killed_ends_the_run_and_any_number_goes_on(self):
         points, faces = soup(*grid(9, self.rng), self.rng, 0.002)
         self.write("in.ply", mesh(self.rng, "binary_little_endian", points, faces))
-        self.write("alike.ply", triangles("binary_little_endian", points, [f[:3] for f in faces], []))
+        self.write("alike.ply", triangles("binary_little_endian", points, [f[:3] for f in faces],
+                                          []))
         for size, which, each in ((2, ["in.ply", "--across", "normal,color"], 1),
                                   (3, ["in.ply", "--keep", "mean"], 1), (4, ["alike.ply"], 4)):
             command = ["-t", "0.02", *which, "--tile-points", 150, "-o", "out.ply",
@@ -420,7 +435,8 @@ class TilesOfMeshes(WeldTest):
     def test_a_broken_file_is_said_to_be_broken_and_nothing_else(self):
         head = b"ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float x\n"
         self.write("head.ply", head + b"property \0\0\n" + bytes(3 << 20))
-        self.write("cut.ply", head + b"property float y\nproperty float z\nend_header\n" + bytes(50))
+        self.write("cut.ply", head + b"property float y\nproperty float z\nend_header\n"
+                   + bytes(50))
         self.write("in.csv", "x,y,z\n" + "1,2,3\n" * 300000 + "1,2\n" + "1,2,3\n" * 300)
         for name, words in (("head.ply", "head.ply:5: "), ("cut.ply", "cut.ply: byte "),
                             ("in.csv", "in.csv:300002: ")):
@@ -445,11 +461,14 @@ class TilesOfMeshes(WeldTest):
             for out in ("out.ply", "out.obj"):
                 ranks = []
                 for size in (1, 4):
-                    subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", str(size), "sh",
-                                    "-c", mine, "sh", name, "-t", "0.001", "--rule", "chain", "-o", out, "-f",
+                    subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n",
+                                    str(size), "sh",
+                                    "-c", mine, "sh", name, "-t", "0.001", "--rule", "chain", "-o",
+                                    out, "-f",
                                     "--tile-points", "8000", "-j1"],
                                    cwd=self.folder, check=True, capture_output=True, timeout=300)
-                    ranks.append([dict(line.split(": ") for line in self.read(f"{r}.io").splitlines())
+                    ranks.append([dict(line.split(": ")
+                                       for line in self.read(f"{r}.io").splitlines())
                                   for r in range(size)])
                 for what in ("rchar", "wchar"):
                     one, *several = (int(r[what]) for some in ranks for r in some)
@@ -460,13 +479,15 @@ class TilesOfMeshes(WeldTest):
     @unittest.skipIf(SANITIZED, "shadow memory is no memory of the tool")
     def test_meshes_larger_than_the_memory_stay_within_it(self):
         n = 600
-        with open(self.path("in.ply"), "wb") as file:  # this process stays small: others begin as it
+        # this process stays small: others begin as it
+        with open(self.path("in.ply"), "wb") as file:
             file.write(b"ply\nformat binary_little_endian 1.0\nelement vertex %d\n"
                        b"property float x\nproperty float y\nproperty float z\nelement face %d\n"
                        b"property list uchar int vertex_indices\nend_header\n" % (4 * n * n, n * n))
             for i in range(n):
                 for j in range(n):
-                    file.write(struct.pack("<12f", i, j, 0, i + 1, j, 0, i + 1, j + 1, 0, i, j + 1, 0))
+                    file.write(struct.pack("<12f", i, j, 0, i + 1, j, 0, i + 1, j + 1, 0, i, j + 1,
+                                           0))
             for f in range(n * n):
                 file.write(struct.pack("<B4i", 4, *range(4 * f, 4 * f + 4)))
         self.run_tool("in.ply", "-o", "memory.ply", status=0)
@@ -491,7 +512,8 @@ class TilesOfMeshes(WeldTest):
                         self.run_tool(*command, "-o", "out.ply", "-f", "--tile-points", 3000,
                                       status=run.status)
                         continue
-                    entry = self.entry(*command, "-o", "out.ply", "-f", "--tile-points", 3000, status=0)
+                    entry = self.entry(*command, "-o", "out.ply", "-f", "--tile-points", 3000,
+                                       status=0)
                     tiled += entry["tiles"] is not None
                     self.assertEqual(self.read_bytes("out.ply"), self.read_bytes("memory.ply"))
         self.assertGreater(tiled, 5)

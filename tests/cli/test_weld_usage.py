@@ -119,7 +119,8 @@ class Usage(WeldTest):
                                   env=os.environ | {"OMPI_COMM_WORLD_SIZE": "2"}, timeout=60)
             said = done.stderr.decode()
             self.assertEqual((done.returncode, len(said.splitlines())), (5, 1), msg=said)
-            self.assertTrue(said.startswith("error: started by mpirun, but without treeform-noo.so: "))
+            self.assertTrue(said.startswith("error: started by mpirun, but without "
+                                            "treeform-noo.so: "))
             for words in ("the Debian package libopenmpi-dev", "--target treeform_mpi"):
                 self.assertIn(words, said)
             self.assertNotIn("cannot open", said)

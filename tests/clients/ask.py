@@ -17,10 +17,12 @@ FIELDS = ("model", "made_by", "faces", "volume", "admesh", "prusa-slicer", "open
           "tf-repair --check")
 
 TOPOLOGY = """<!DOCTYPE FilterScript><FilterScript>
-<filter name="Merge Close Vertices"><Param name="Threshold" type="RichAbsPerc" value="0" min="0" max="1"/></filter>
+<filter name="Merge Close Vertices">
+  <Param name="Threshold" type="RichAbsPerc" value="0" min="0" max="1"/></filter>
 <filter name="Compute Topological Measures"/></FilterScript>"""
 MENDING = """<!DOCTYPE FilterScript><FilterScript>
-<filter name="Merge Close Vertices"><Param name="Threshold" type="RichAbsPerc" value="0" min="0" max="1"/></filter>
+<filter name="Merge Close Vertices">
+  <Param name="Threshold" type="RichAbsPerc" value="0" min="0" max="1"/></filter>
 <filter name="Remove Duplicate Faces"/><filter name="Remove Zero Area Faces"/>
 <filter name="Re-Orient all faces coherentely"/>
 <filter name="Close Holes"><Param name="MaxHoleSize" type="RichInt" value="1000"/>

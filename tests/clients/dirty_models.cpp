@@ -1,6 +1,6 @@
 /// \file
-/// dirty_models CLEAN FOLDER: every kind of dirt of tests/support/dirt.hpp, put on a clean solid, as
-/// FOLDER/KIND.stl; for run.sh, which asks other programs to mend them, too.
+/// dirty_models CLEAN FOLDER: every kind of dirt of tests/support/dirt.hpp, put on a clean solid,
+/// as FOLDER/KIND.stl; for run.sh, which asks other programs to mend them, too.
 
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/write.hpp>

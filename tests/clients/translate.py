@@ -3,8 +3,8 @@
 Each model that a line of LIST names goes through tf-weld, which merges nothing but equal points, to
 each format and back to PLY. What differs from the model's own PLY, corner by corner and column by
 column, has to be in the words of the tools; likewise names of parts, by way of OBJ. table.csv in
-FOLDER has, for each extension, how many files treeform, assimp and MeshLab read; refused.txt has the
-words for those that treeform does not read, and who else does."""
+FOLDER has, for each extension, how many files treeform, assimp and MeshLab read; refused.txt has
+the words for those that treeform does not read, and who else does."""
 
 import collections
 import concurrent.futures

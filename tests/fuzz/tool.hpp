@@ -7,8 +7,8 @@
 namespace treeform::fuzz {
 
 /// What @out.EXT holds where it is written: a file that can be read; faces that have nothing but
-/// corners and edges in common, once equal corners are one; such faces without an open edge; parts of
-/// such faces each.
+/// corners and edges in common, once equal corners are one; such faces without an open edge; parts
+/// of such faces each.
 enum class kept_promise { read, clean, solid, solids };
 
 /// What is said of a run, as words with one blank between them. A word that begins with @ is a file

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """check_docs.py [SOURCE | --self-test]: docstrings of public headers are as they were written.
 
-A tag (\\pre, \\throws, ...) starts its line, and what goes on in the next lines is indented, until an
-empty line, the next tag or the end of the comment. Nor are there lines of a word or two within a
+A tag (\\pre, \\throws, ...) starts its line, and what goes on in the next lines is indented, until
+an empty line, the next tag or the end of the comment. Nor are there lines of a word or two within a
 paragraph: they are what clang-format leaves of a line that has become too long."""
 
 import pathlib
@@ -76,7 +76,8 @@ GARBLED = [
     "/// \\throws io_error when a point as written, or some square of a distance\n"
     "/// in about the\n"
     "///         diagonals of the mesh, is beyond the range of doubles",
-    "/// The mesh of a file, as it is stored, with all of its\n/// points\n/// and all of its faces.",
+    "/// The mesh of a file, as it is stored, with all of its\n/// points\n/// and all of its "
+    "faces.",
     r"/// \pre    \throws as for the other",
     "/// \\throws\n///         io_error",
     r"///    \cost O(V)",

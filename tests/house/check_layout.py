@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""check_layout.py [SOURCE | --self-test]: what CONTRIBUTING.md says of where things lie, and how large.
+"""check_layout.py [SOURCE | --self-test]: what CONTRIBUTING.md says of where things lie, and how
+large.
 
 Prints a line for each file that breaks a rule, with the rule, and fails if there is one. Reads the
 sources as clang-format leaves them."""
@@ -59,8 +60,9 @@ HOME_OF_PACKAGE = {
     r"openssl/": "tools/common/sha256.cpp",
     r"(CGAL/|gmp|mpfr|lib3mf|Model/COM)": "tests/",
 }
-TOP = {"libtree", "libmesh", "tools", "tests", "data", "CMakeLists.txt", "CMakePresets.json", "README.md",
-       "LICENSE", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "compile_commands.json"}
+TOP = {"libtree", "libmesh", "tools", "tests", "data", "CMakeLists.txt", "CMakePresets.json",
+       "README.md", "LICENSE", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md",
+       "compile_commands.json"}
 READS_FILES = ("stream", "carry")  # besides tools and tests, only these rooms know of `io`
 
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
@@ -116,7 +118,8 @@ def check_headers(root):
         if (count := len(lines_of(path))) > HEADER_LINES:
             yield path, count, f"a public header of more than {HEADER_LINES} lines"
     if len(headers) > PUBLIC_HEADERS:
-        yield root / "libmesh/include", 0, f"{len(headers)} public headers, {PUBLIC_HEADERS} at most"
+        yield (root / "libmesh/include", 0,
+               f"{len(headers)} public headers, {PUBLIC_HEADERS} at most")
 
 
 # What bindings may include of tools/, beside what is in their own folder.
@@ -193,7 +196,8 @@ def check_listed(root):
 # ---- floors ----
 
 def room_includes(root):
-    """(path, line, name included, room of the file, room of the name) in libmesh; None: of no room."""
+    """(path, line, name included, room of the file, room of the name) in libmesh; None: of no
+    room."""
     room_of = {path.stem: path.parent.name for path in files(root, "libmesh", ".cpp")}
     room_of |= ROOM_OF_HEADER
 
@@ -292,11 +296,34 @@ def check_lengths(root):
                 yield path, line, f"a function of {length} lines, {FUNCTION_LINES} at most"
 
 
+# ---- columns ----
+
+COLUMNS = 100
+# Generators whose tables are lines of code, and a table of commands: this set only shrinks.
+LONGER = {"tests/cli/output_hashes.py", "tools/bindings/c_language.py",
+          "tools/bindings/c_surface.py", "tools/bindings/c_write.py",
+          "tools/bindings/python_language.py", "tools/bindings/python_surface.py",
+          "tools/bindings/python_write.py"}
+
+
+def check_columns(root):
+    """No line is longer, comments included."""
+    for folder in ("libtree", "libmesh", "tools", "tests"):
+        for path in files(root, folder, ".cpp", ".hpp", ".h", ".c", ".py", ".pyi"):
+            if path.relative_to(root).as_posix() in LONGER:
+                continue
+            for number, line in enumerate(lines_of(path), 1):
+                if len(line) > COLUMNS:
+                    yield path, number, f"{len(line)} columns, {COLUMNS} at most"
+
+
 # ---- members ----
 
-CLASS_HEAD = re.compile(r"\b(?:class|struct)\s+(?:[A-Z_]+\s+)?([\w:]+)(?:\s+final)?(?:\s*<[^;{}]*>)?"
+CLASS_HEAD = re.compile(r"\b(?:class|struct)\s+(?:[A-Z_]+\s+)?([\w:]+)(?:\s+final)?"
+                        r"(?:\s*<[^;{}]*>)?"
                         r"(?:\s*:[^:;{}][^;{}]*)?\s*$")
-NO_MEMBER = re.compile(r"\s*(using|typedef|friend|static|enum|class|struct|union|template|extern)\b")
+NO_MEMBER = re.compile(r"\s*(using|typedef|friend|static|enum|class|struct|union|template"
+                       r"|extern)\b")
 ANGLES = re.compile(r"<[^<>]*>")
 
 
@@ -320,7 +347,8 @@ def class_members(text):
         if char == "{":
             match = CLASS_HEAD.search(head)
             opened.append({"name": match and match[1], "line": line, "count": 0,
-                           "head": "" if match or "(" in head else head})  # of `int i{1};` it goes on
+                           # of `int i{1};` it goes on
+                           "head": "" if match or "(" in head else head})
             head = ""
         elif char == "}" and opened:
             closed = opened.pop()
@@ -363,8 +391,8 @@ def check_pages(root):
 
 
 CHECKS = [check_top, check_door, check_headers, check_whole_door, check_bindings, check_lists,
-          check_listed, check_floors, check_packages, check_silence, check_lengths, check_members,
-          check_pages]
+          check_listed, check_floors, check_packages, check_silence, check_lengths, check_columns,
+          check_members, check_pages]
 
 
 def faults(root):
@@ -384,6 +412,7 @@ WRONG = {  # each file with what is to be said of it
     "libmesh/io/read.cpp": ("int f() {\n" + "    g();\n" * 59 + "}\n", ["of 61 lines"]),
     "libmesh/boolean/b.hpp": ("\n" * 501, ["more than 500"]),
     "libmesh/lost/c.cpp": ("", ["on no floor"]),
+    "libmesh/lost/wide.hpp": ("// " + "w" * 98 + "\n", ["101 columns"]),
     "libmesh/weld/talks.cpp": ('#include <Eigen/Dense>\nint f() { return std::printf("a"); }\n',
                                ["only libmesh/place/", "call printf"]),
     "libmesh/weld/CMakeLists.txt": ("target_sources(t PRIVATE\n reads.cpp\n a.cpp)\n",

@@ -20,7 +20,8 @@ def drawing(root):
         if room and target and room != target:
             used.setdefault(room, set()).add(target)
     floors = check_layout.FLOORS
-    order = [room for floor in reversed(floors) for room in floor]  # of includes: from the bottom up
+    # of includes: from the bottom up
+    order = [room for floor in reversed(floors) for room in floor]
     lines = ["floor  room        includes"]
     for number, floor in enumerate(floors):
         for room in floor:

@@ -45,7 +45,8 @@ def headers_of(build):
 def key_of(entry, headers, tool):
     """What the findings depend on."""
     made_from = [f"{path} {digest_of(path)}" for path in headers if path.exists()]
-    text = "\n".join([tool, *ARGUMENTS, digest_of(ROOT / ".clang-tidy"), entry["command"], *made_from])
+    text = "\n".join([tool, *ARGUMENTS, digest_of(ROOT / ".clang-tidy"), entry["command"],
+                      *made_from])
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -3,15 +3,16 @@
 
 steps.py run STEP FOLDER COMMAND...   runs the command, which builds or tests in FOLDER, and notes
                                       what it took in build/steps.jsonl
-steps.py slowest FOLDER               what a build folder took by kind, and its slowest 20 objects and
+steps.py slowest FOLDER               what a build folder took by kind, and its slowest 20 objects
+and
                                       tests
 steps.py report [--write]             the steps as a table, and which of them have grown by a fifth
                                       over the table in CONTRIBUTING.md, which --write replaces
 steps.py yardstick                    CPU seconds of compiling one file
 
 CPU time is that of all processes. Machines differ, so that it is compared as a multiple of what one
-file of the project takes to compile. A step whose objects came from a compiler cache is not compared,
-except for the number of its objects. Status 1: a step has grown."""
+file of the project takes to compile. A step whose objects came from a compiler cache is not
+compared, except for the number of its objects. Status 1: a step has grown."""
 
 import json
 import os
@@ -101,7 +102,8 @@ def slowest(folder):
     for seconds, output, _ in edges(folder).values():
         count, sum_of = kinds.get(kind_of(output), (0, 0))
         kinds[kind_of(output)] = count + 1, sum_of + seconds
-    print(f"\nwhat was made in {folder}, and the seconds that it took, of which several run at a time")
+    print(f"\nwhat was made in {folder}, and the seconds that it took, of which several run at a "
+          f"time")
     for kind, (count, seconds) in sorted(kinds.items(), key=lambda one: -one[1][1]):
         print(f"{seconds:8.1f}  {count:4}  {kind}")
     for what, rows in ("objects", [made[:2] for made in edges(folder).values()
@@ -163,7 +165,8 @@ def report(write):
         print("grown by a fifth or more:", line)
     if write:
         rows = [f"| {step} | {' | '.join(map(str, row))} |" for step, row in known.items()]
-        text = re.sub(re.escape(HEADING[0]) + r"\n(\|.*\n)*", "\n".join(HEADING + rows) + "\n", text)
+        text = re.sub(re.escape(HEADING[0]) + r"\n(\|.*\n)*", "\n".join(HEADING + rows) + "\n",
+                      text)
         TABLE.write_text(UNIT.sub(f"takes {unit:.2f} s of CPU", text))
     return bool(grown)
 

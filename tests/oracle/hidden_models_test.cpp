@@ -1,6 +1,6 @@
 /// \file
-/// Chains of real models in fixed random positions: what is left out as hidden changes no solid, and
-/// neither do threads or preparation a byte. Surfaces are compared before rounding, as rational
+/// Chains of real models in fixed random positions: what is left out as hidden changes no solid,
+/// and neither do threads or preparation a byte. Surfaces are compared before rounding, as rational
 /// numbers. Without TREEFORM_MODELS_DIR nothing is checked.
 ///
 /// Each closed model of TRUTH.csv with at most TREEFORM_STRESS_FACES faces (default 5000) begins

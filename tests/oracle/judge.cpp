@@ -4,10 +4,10 @@
 ///
 ///   file,faces,volume,area,bad_edges,bad_vertices,meeting
 ///
-/// `bad_edges` have not exactly two faces that run along them in opposite directions, `bad_vertices`
-/// more than one fan of faces. `meeting` counts pairs of faces that have more in common than
-/// corners and edges, and degenerate faces; with many, the search stops at 10,000. A file that
-/// cannot be read has "unreadable" in the place of numbers.
+/// `bad_edges` have not exactly two faces that run along them in opposite directions,
+/// `bad_vertices` more than one fan of faces. `meeting` counts pairs of faces that have more in
+/// common than corners and edges, and degenerate faces; with many, the search stops at 10,000. A
+/// file that cannot be read has "unreadable" in the place of numbers.
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/read.hpp>
@@ -116,7 +116,8 @@ bool meet(const surface& s, corners f, corners g) {
         return kernel::Triangle_3(at(face, 0), at(face, 1), at(face, 2));
     };
     if (shared == 0) return CGAL::do_intersect(triangle(f), triangle(g));
-    // From the common corner, what is common is left through the side opposite of it in one of them.
+    // From the common corner, what is common is left through the side opposite of it in one of
+    // them.
     if (shared == 1)
         return CGAL::do_intersect(kernel::Segment_3(at(f, 1), at(f, 2)), triangle(g)) ||
                CGAL::do_intersect(kernel::Segment_3(at(g, 1), at(g, 2)), triangle(f));

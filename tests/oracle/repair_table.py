@@ -4,9 +4,9 @@
 
 What each mode of --repair, and tf-repair, make of the dirty models of MODELS_DIR (selfint,
 nonmanifold, open, degenerate, duplicates), as PLY in doubles and as binary STL: exit status, faces,
-volume, and what JUDGE (tests/oracle/judge.cpp) says of the file written. -o writes the table as CSV;
---compare fails where anything but the seconds differs from a table. A run may take 60 seconds and
-8 GB.
+volume, and what JUDGE (tests/oracle/judge.cpp) says of the file written. -o writes the table as
+CSV; --compare fails where anything but the seconds differs from a table. A run may take 60 seconds
+and 8 GB.
 
 Whatever the table says, it fails where tf-repair calls a solid what JUDGE does not, and where a
 model that should become one does not, or where a wrap is none."""
@@ -53,7 +53,8 @@ def row_of(options, name, mode, extension, folder):
                else [options.tool, f"--repair={mode}"])
     started = time.monotonic()
     done = subprocess.run(
-        [*command, options.models / name, "-o", out, "--force", "--timeout", "60", "--memory", "8G"],
+        [*command, options.models / name, "-o", out, "--force", "--timeout", "60", "--memory",
+         "8G"],
         capture_output=True, text=True)
     row = {"file": name, "mode": mode, "format": extension, "status": str(done.returncode),
            "seconds": f"{time.monotonic() - started:.1f}"}

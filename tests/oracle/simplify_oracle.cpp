@@ -1,6 +1,6 @@
 /// \file
-/// Real models and stressed ones with fewer faces, looked at by CGAL: solids still bound one, no faces
-/// meet, and no sample of either surface is further from the other than was said.
+/// Real models and stressed ones with fewer faces, looked at by CGAL: solids still bound one, no
+/// faces meet, and no sample of either surface is further from the other than was said.
 ///
 /// TREEFORM_STRESS_COUNT is the number of hilly surfaces (default 6).
 

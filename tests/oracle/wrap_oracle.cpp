@@ -1,6 +1,6 @@
 /// \file
-/// Wraps against CGAL's (`alpha_wrap_3`): both are of the same size and offset, and so enclose about
-/// as much. What CGAL finds in ours: nothing that meets, nothing open.
+/// Wraps against CGAL's (`alpha_wrap_3`): both are of the same size and offset, and so enclose
+/// about as much. What CGAL finds in ours: nothing that meets, nothing open.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/offset.hpp>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The vcpkg port and the Conan recipe, as far as that can be told without either: both are run with
-stand-ins for what vcpkg and Conan give them, the options that they set configure this tree, and every
-package that this tree looks for is one that they name."""
+stand-ins for what vcpkg and Conan give them, the options that they set configure this tree, and
+every package that this tree looks for is one that they name."""
 
 import json
 import os
@@ -40,7 +40,8 @@ FUNCTIONS = ["vcpkg_check_features", "vcpkg_cmake_configure", "vcpkg_cmake_insta
 
 def version():
     text = (TREE / "libtree/include/treeform/tree/version.hpp").read_text()
-    return ".".join(re.findall(r"^#define TREEFORM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", text, re.M))
+    return ".".join(re.findall(r"^#define TREEFORM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", text,
+                               re.M))
 
 
 def looked_for(folders):
@@ -127,7 +128,8 @@ include("{PORT}/portfile.cmake")
         for linkage, features in (("static", []), ("dynamic", ["tools"])):
             calls = self.run_port(linkage, features)
             names = [call[0] for call in calls]
-            self.assertEqual(names, [name for name in FUNCTIONS if name != "vcpkg_copy_tools" or features])
+            self.assertEqual(names, [name for name in FUNCTIONS if name != "vcpkg_copy_tools"
+                                     or features])
             arguments = calls[1]
             self.assertEqual(pathlib.Path(arguments[arguments.index("SOURCE_PATH") + 1]), TREE)
             options = arguments[arguments.index("OPTIONS") + 1:]
@@ -140,7 +142,8 @@ include("{PORT}/portfile.cmake")
             self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_the_tools_are_those_of_the_tree(self):
-        call = next(call for call in self.run_port("static", ["tools"]) if call[0] == "vcpkg_copy_tools")
+        call = next(call for call in self.run_port("static", ["tools"])
+                    if call[0] == "vcpkg_copy_tools")
         tools = sorted(path.parent.name for path in (TREE / "tools").glob("*/main.cpp"))
         self.assertEqual(call[call.index("TOOL_NAMES") + 1:call.index("AUTO_CLEAN")], tools)
 
@@ -208,7 +211,8 @@ def stand_ins(made):
         "conan.tools.cmake": {"CMake": remember("CMake"), "CMakeDeps": remember("CMakeDeps"),
                               "CMakeToolchain": remember("CMakeToolchain"),
                               "cmake_layout": lambda recipe: None},
-        "conan.tools.files": {"copy": lambda recipe, pattern, *rest, **named: copied.append(pattern),
+        "conan.tools.files": {"copy": lambda recipe, pattern, *rest,
+                              **named: copied.append(pattern),
                               "load": lambda recipe, path: pathlib.Path(path).read_text(),
                               "rmdir": lambda recipe, path: None}}
     for name, content in modules.items():
@@ -233,7 +237,8 @@ class Conan(unittest.TestCase):
                 vars(self).pop(name, None)
         made.options = Options(**{**made.default_options, **options})
         made.set_version()
-        for step in ("export_sources", "configure", "validate", "requirements", "layout", "generate",
+        for step in ("export_sources", "configure", "validate", "requirements", "layout",
+                     "generate",
                      "build", "package", "package_info"):
             getattr(made, step)()
         return made
@@ -249,7 +254,8 @@ class Conan(unittest.TestCase):
             self.assertEqual({one.split("/")[0] for one in recipe.required}, expected)
             # Conan refuses a recipe whose components leave out a package that it requires.
             components = recipe.cpp_info.components.values()
-            used = {need.split("::")[0] for one in components for need in one.requires if "::" in need}
+            used = {need.split("::")[0] for one in components for need in one.requires
+                    if "::" in need}
             self.assertEqual(used, expected)
 
     def test_the_options_configure_this_tree(self):
@@ -259,13 +265,15 @@ class Conan(unittest.TestCase):
             for name in values:
                 if name.startswith("TREEFORM_"):
                     self.assertIn(name, options_of_tree())
-            done = configure([f"-D{name}={'ON' if value else 'OFF'}" for name, value in values.items()]
+            done = configure([f"-D{name}={'ON' if value else 'OFF'}" for name,
+                              value in values.items()]
                              + [f"-DBUILD_SHARED_LIBS={options.get('shared', False)}"])
             self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_component_is_a_library_of_the_tree(self):
         text = "".join((TREE / name).read_text() for name in
-                       ("libtree/CMakeLists.txt", "libmesh/CMakeLists.txt", "tools/c/CMakeLists.txt"))
+                       ("libtree/CMakeLists.txt", "libmesh/CMakeLists.txt",
+                        "tools/c/CMakeLists.txt"))
         libraries = set(re.findall(r"^add_library\((treeform_\w+)\b", text, re.M))
         recipe = self.recipe(shared=True)
         self.assertEqual({name for one in recipe.cpp_info.components.values() for name in one.libs},
@@ -281,7 +289,8 @@ class Conan(unittest.TestCase):
         self.assertIn("TreeformTest", self.load(CONAN / "test_package/conanfile.py"))
         done = subprocess.run([os.environ.get("CXX", "g++"), "-std=c++20", "-fsyntax-only", "-Wall",
                                "-Werror", f"-I{TREE}/libtree/include", f"-I{TREE}/libmesh/include",
-                               str(CONAN / "test_package/main.cpp")], capture_output=True, text=True)
+                               str(CONAN / "test_package/main.cpp")], capture_output=True,
+                              text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
 
 

@@ -1,5 +1,5 @@
-"""What the tests of packages share: runs the test cases of a script and closes with how many passed,
-failed and were skipped, as the scripts in bash do."""
+"""What the tests of packages share: runs the test cases of a script and closes with how many
+passed, failed and were skipped, as the scripts in bash do."""
 
 import sys
 import unittest

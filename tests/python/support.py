@@ -103,12 +103,14 @@ def soup(seed, faces, size=8):
 # ---- brute force ----
 
 def point_triangle_distance(p, a, b, c):
-    """Distances of points (n, 3) from one triangle, by the nearest of its plane's point and edges."""
+    """Distances of points (n, 3) from one triangle, by the nearest of its plane's point and
+    edges."""
     normal = np.cross(b - a, c - a)
     best = np.full(len(p), np.inf)
     for s, t in ((a, b), (b, c), (c, a)):
         along = t - s
-        share = np.clip((p - s) @ along / (along @ along), 0, 1) if along @ along else np.zeros(len(p))
+        share = np.clip((p - s) @ along / (along @ along), 0,
+                        1) if along @ along else np.zeros(len(p))
         best = np.minimum(best, np.linalg.norm(p - (s + share[:, None] * along), axis=1))
     if normal @ normal:
         inside = np.ones(len(p), bool)

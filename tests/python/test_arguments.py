@@ -61,7 +61,8 @@ ELSEWHERE = {"BoxTree", "PointTree", "Attributes", "Mesh", "StreamSearch", "Stre
 BROKEN = CUBE.vertices.copy()
 BROKEN[3] = np.nan
 BAD = {
-    "mesh": ["cube", 3, None, {}, (CUBE.vertices, CUBE.faces + 0.5), (CUBE.vertices[:, :2], CUBE.faces),
+    "mesh": ["cube", 3, None, {}, (CUBE.vertices, CUBE.faces + 0.5),
+             (CUBE.vertices[:, :2], CUBE.faces),
              (CUBE.vertices, CUBE.faces[:, :2]), (np.array([["a"] * 3]), CUBE.faces),
              (CUBE.vertices + 1j, CUBE.faces), (CUBE.vertices, CUBE.faces.astype(int) - 1)],
     "points": ["abc", None, 3, POINTS[:, :2], POINTS[0], np.array([[1, 2, None]]), POINTS + 1j,
@@ -72,11 +73,14 @@ BAD = {
     "str": [3, None, ["a"]], "bool": ["x", np.zeros(3)],
     "several": [3, 1.5],
     "found": ["x", 3, None], "feature": ["x", 3, None]}
-KINDS = {"mesh": "mesh", "moving": "mesh", "onto": "mesh", "fixed": "mesh", "a": "mesh", "b": "mesh",
+KINDS = {"mesh": "mesh", "moving": "mesh", "onto": "mesh", "fixed": "mesh", "a": "mesh",
+         "b": "mesh",
          "sheet": "mesh", "mesh_or_points": "mesh", "points": "points", "origins": "points",
          "directions": "points", "placed": "points", "min": "vector", "max": "vector",
-         "direction": "vector", "at": "vector", "normal": "vector", "axis": "vector", "origin": "vector", "motion": "vector",
-         "move_a": "matrix", "matrix": "matrix", "meshes": "several", "move_b": "matrix", "start": "matrix", "parts": "several",
+         "direction": "vector", "at": "vector", "normal": "vector", "axis": "vector",
+         "origin": "vector", "motion": "vector",
+         "move_a": "matrix", "matrix": "matrix", "meshes": "several", "move_b": "matrix",
+         "start": "matrix", "parts": "several",
          "ignored": "several", "kinds": "several", "steps": "several", "across": "several",
          "same": "several", "communicator": "several", "found": "found", "of_moving": "feature",
          "of_fixed": "feature"}
@@ -113,7 +117,8 @@ def test_what_makes_no_sense_is_named(name):
                 pytest.fail(f"{parameter.name}={value!r} is taken")
             text = str(caught.value)
             assert "incompatible" not in text and "treeform::" not in text, parameter.name
-            assert re.search(rf"\b({parameter.name}|mesh|vertices|faces|points|face|query|not finite"
+            assert re.search(rf"\b({parameter.name}|mesh|vertices|faces|points|face|query|not "
+                             rf"finite"
                              rf"|none of|there (is|are) no)\b", text), (parameter.name, text)
     assert tried
 

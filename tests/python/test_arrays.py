@@ -1,4 +1,5 @@
-"""What is taken for a mesh or for points, without a copy where it fits; what is refused, and how."""
+"""What is taken for a mesh or for points, without a copy where it fits; what is refused, and
+how."""
 
 import numpy as np
 import pytest
@@ -26,7 +27,8 @@ def test_results_own_their_memory_and_can_be_written_to():
 
 @pytest.mark.parametrize("mesh", [
     CUBE, tf.Mesh(POINTS, FACES), tf.Mesh(POINTS.tolist(), FACES.tolist()), tf.Mesh(POINTS, []),
-    tf.union(CUBE).mesh, tf.Mesh([], [])], ids=["read", "arrays", "lists", "cloud", "made", "empty"])
+    tf.union(CUBE).mesh, tf.Mesh([], [])],
+                         ids=["read", "arrays", "lists", "cloud", "made", "empty"])
 def test_arrays_of_a_mesh_cannot_be_written_to_even_by_force(mesh):
     for array in (mesh.vertices, mesh.faces, mesh.vertices[:], *mesh):
         with pytest.raises(ValueError, match="read-only"):
@@ -231,15 +233,18 @@ V, F = CUBE.vertices, CUBE.faces
 @pytest.mark.parametrize("verb, message", [
     (lambda: tf.Mesh(V, F, {"q": 1}), "attributes: Attributes are needed, not dict"),
     (lambda: tf.weld(V, "x"), "tolerance: a number is needed, not 'x'"),
-    (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1), "memory: a whole number, not negative, is needed"),
-    (lambda: tf.weld_stream("a.ply", "b.ply", memory=0.5), "memory: a whole number, not negative, is needed"),
+    (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1),
+     "memory: a whole number, not negative, is needed"),
+    (lambda: tf.weld_stream("a.ply", "b.ply", memory=0.5),
+     "memory: a whole number, not negative, is needed"),
     (lambda: tf.threads(-1), "most: -1 is less than 0"),
     (lambda: tf.write("a\0b.ply", CUBE), "path: .* has a zero in it"),
     (lambda: tf.read("a\0b.ply"), "path: .* has a zero in it"),
     (lambda: tf.raycast(CUBE, V, V + 1, t_min="a"), "t_min: a number is needed, not 'a'"),
     (lambda: tf.closest_point(CUBE, V, radius="a"), "radius: a number is needed, not 'a'"),
     (lambda: tf.PointTree(V).query_pairs("a"), "r: a number is needed, not 'a'"),
-    (lambda: tf.self_intersections(CUBE, limit=-1), "limit: a whole number, not negative, is needed"),
+    (lambda: tf.self_intersections(CUBE, limit=-1),
+     "limit: a whole number, not negative, is needed"),
     (lambda: tf.repair(CUBE, gap="a"), "gap: a number is needed, not 'a'"),
     (lambda: tf.union(CUBE, simplify="a"), "simplify: True or False is needed, not 'a'"),
     (lambda: tf.union(CUBE, precision=3), "precision: a word is needed, not 3"),

@@ -144,7 +144,8 @@ def test_parts_clash_where_their_poses_put_them():
     mirror[0, 3] = 1.5
     one, = tf.clash([CUBE, CUBE], poses=[np.eye(4), mirror]).pairs
     assert one.how == "penetrating" and one.volume == 0.5
-    assert tf.clash([CUBE, [[0.5, 0.5, 5.0]]], poses=[np.eye(4), matrices([[0, 0, -4.5]])[0]]).clashes
+    assert tf.clash([CUBE, [[0.5, 0.5, 5.0]]],
+                    poses=[np.eye(4), matrices([[0, 0, -4.5]])[0]]).clashes
     for wrong in (np.eye(4), poses[:2], poses[:, :3], np.full((3, 4, 4), np.nan), "x"):
         with pytest.raises(ValueError, match="poses"):
             tf.clash([CUBE, CUBE, CUBE], poses=wrong)

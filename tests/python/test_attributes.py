@@ -185,7 +185,8 @@ def test_welded_polygons_keep_theirs(tmp_path):
     rows = [f"4 {' '.join(map(str, quad))} {10 * i}" for i, quad in enumerate(quads)]
     # All of it twice: the second cube's corners become those of the first.
     rows += [f"4 {' '.join(str(v + 8) for v in quad)} {10 * i + 1}" for i, quad in enumerate(quads)]
-    header = ["ply", "format ascii 1.0", "element vertex 16", *(f"property double {c}" for c in "xyz"),
+    header = ["ply", "format ascii 1.0", "element vertex 16",
+              *(f"property double {c}" for c in "xyz"),
               "property int tag", "element face 12", "property list uchar int vertex_indices",
               "property int material", "end_header"]
     (tmp_path / "cubes.ply").write_text("\n".join(header + 2 * lines + rows) + "\n")

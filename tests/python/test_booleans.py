@@ -194,7 +194,8 @@ def test_a_list_may_stand_among_operands():
     assert tf.difference(plate, cutters[:1], cutters[1:]).mesh.volume == 2.5
     assert tf.difference(plate, cutters).face_source[:, 0].max() == 3
     assert tf.difference(plate, []).mesh.volume == 4
-    assert tf.union([plate], cutters, cutters[0]).mesh.volume == tf.union(plate, *cutters).mesh.volume
+    assert tf.union([plate], cutters, cutters[0]).mesh.volume == tf.union(plate,
+                                                                          *cutters).mesh.volume
     assert tf.intersection(plate, cutters[:1]).mesh.volume == 0.5
     assert tf.symmetric_difference(plate, cutters[:1]).mesh.volume == 3.5 + 4
     sheet = ([[-1, 0.5, 0.5], [9, 0.5, 0.5], [-1, 0.75, 0.5]], [[0, 1, 2]])

@@ -18,7 +18,8 @@ def test_a_section_has_closed_loops_that_lie_in_each_other():
     outer, hole = layers.loops(0)
     assert (outer.depth, hole.depth, hole.parent, outer.parent) == (0, 1, 0, None)
     assert outer.closed and outer.oriented and hole.area == -0.25 and hole.length == 2.0
-    assert layers.loops(-1) == [] and len(layers.loops(1)[0].points) == len(layers.loops(1)[0].faces)
+    loop = layers.loops(1)[0]
+    assert layers.loops(-1) == [] and len(loop.points) == len(loop.faces)
     assert set(layers.in_space(1, layers.loops(1)[0].points)[:, 2]) == {0.4}
     with pytest.raises(IndexError):
         layers.loops(3)
@@ -81,13 +82,19 @@ def test_pieces_fit_and_keep_attributes():
         assert (red[own] == piece.face_source[own]).all() and (red[~own] == 0).all()
 
 
+def test_pieces_say_whether_faces_met():
+    assert tf.cut(SPHERES).resolved and not tf.cut(CUBE, at=(0, 0, 0.5)).resolved
+    assert tf.cut_to_fit(CUBE, (0.5, 2, 2)).certificate
+
+
 def test_parts():
     both = tf.concatenate([CUBE, moved(CUBE, 3, 0, 0), moved(SHEET, 9, 0, 0)])
     assert len(both.vertices) == 19 and tf.concatenate([]).faces.shape == (0, 3)
     parts = tf.components(both)
     assert [part.volume for part in parts] == [1.0, pytest.approx(1.0), 0.0]
     assert (parts[1].mesh.vertices == both.vertices[parts[1].vertex_source]).all()
-    assert len(tf.components(both, min_volume=0.5)) == 2 and len(tf.components(both, largest=1)) == 1
+    assert len(tf.components(both, min_volume=0.5)) == 2 and len(tf.components(both,
+                                                                               largest=1)) == 1
     mask = np.zeros(25, bool)
     mask[24] = True
     assert tf.submesh(both, mask).mesh.area == tf.submesh(both, [24]).area == 0.5

@@ -25,7 +25,8 @@ def test_what_is_written_is_read(tmp_path, format):
 
 
 def test_doubles_survive(tmp_path):
-    points = np.random.default_rng(1).standard_normal((300, 3)) * 10.0 ** np.arange(-150, 150)[:, None]
+    points = np.random.default_rng(1).standard_normal((300, 3)) * 10.0 ** np.arange(-150, 150)[:,
+                                                                                               None]
     mesh = tf.Mesh(points, np.arange(300).reshape(-1, 3))
     for name in ("m.ply", "m.obj", "m.off", "m.3mf"):
         tf.write(tmp_path / name, mesh, precision="float64")
@@ -195,7 +196,8 @@ def test_several_meshes_are_parts(tmp_path):
         again = tf.read(path)
         assert [(p[0], p[3]) for p in again.attributes.parts] == [("base", 0), ("lid", 12)]
         assert again.volume == 2 and len(again.faces) == 24
-    assert "does not hold them" in tf.write(tmp_path / "m.ply", (m for m in (CUBE, lid))).warnings[0]
+    assert "does not hold them" in tf.write(tmp_path / "m.ply",
+                                            (m for m in (CUBE, lid))).warnings[0]
     assert len(tf.read(tmp_path / "m.ply").faces) == 24
     with pytest.raises(ValueError, match="mesh: there is none in the list"):
         tf.write(tmp_path / "m.3mf", [])
@@ -206,7 +208,8 @@ def test_several_meshes_are_parts(tmp_path):
 def test_what_is_certified_and_has_columns_is_not_rounded_either(tmp_path):
     extra = tf.Attributes()
     extra.set_face("label", np.arange(12))
-    made = tf.union(tf.Mesh(CUBE.vertices, CUBE.faces, extra), (CUBE.vertices / 3 + 0.9, CUBE.faces))
+    made = tf.union(tf.Mesh(CUBE.vertices, CUBE.faces, extra),
+                    (CUBE.vertices / 3 + 0.9, CUBE.faces))
     assert made.mesh.attributes is not None
     for mesh in (made, [made, CUBE]):
         with pytest.raises(tf.FileError, match="round=True"):

@@ -122,5 +122,6 @@ def test_two_meshes_that_are_moved():
     half = np.eye(4)
     half[:3, 3] = 0.5
     moved_b = tf.mesh_intersections(CUBE, CUBE, move_b=half)
-    assert np.array_equal(moved_b.pairs, tf.mesh_intersections(CUBE, moved(CUBE, 0.5, 0.5, 0.5)).pairs)
+    assert np.array_equal(moved_b.pairs,
+                          tf.mesh_intersections(CUBE, moved(CUBE, 0.5, 0.5, 0.5)).pairs)
     assert tf.mesh_intersections(CUBE, box([1, 0, 0], [2, 1, 1])).counts["crossing"] == 0

@@ -170,8 +170,8 @@ def test_what_progress_raises_comes_through():
     "boxes.query([[0] * 3] * 3000, [[1] * 3] * 3000)", "same.query_ball([0] * 3, 1)",
     "same.query_ball_point([0] * 3, 1)", "same.query([0] * 3, 10_000_000)"])
 def test_ctrl_c_stops_the_work(verb):
-    """The work would take many seconds; the process sends itself the signal soon after it has begun.
-    A job that does not notice is left alone, and the next one runs beside it."""
+    """The work would take many seconds; the process sends itself the signal soon after it has
+    begun. A job that does not notice is left alone, and the next one runs beside it."""
     program = f"""
 import os, signal, sys, threading
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it

@@ -1,5 +1,5 @@
-"""Meshes of trimesh, Open3D, PyVista, VTK and meshio: taken, and made by name. Where a library is not
-installed, what stands in for it has the same names."""
+"""Meshes of trimesh, Open3D, PyVista, VTK and meshio: taken, and made by name. Where a library is
+not installed, what stands in for it has the same names."""
 
 import sys
 import types

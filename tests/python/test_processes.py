@@ -100,12 +100,14 @@ def test_a_team_welds_a_cloud(tmp_path, cloud):
     made = in_communicator(3, Weld(cloud, tmp_path / "thin.ply", points_per_tile=2000))
     assert made[0].tiles > 5 and made[0].kept == whole.kept < 20_000
     assert (tmp_path / "thin.ply").read_bytes() == (tmp_path / "whole.ply").read_bytes()
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["cloud.ply", "thin.ply", "whole.ply"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["cloud.ply", "thin.ply",
+                                                                "whole.ply"]
 
 
 def test_where_one_fails_all_do(tmp_path, cloud):
     paths = [cloud, tmp_path / "none.ply"]
-    first, second = in_communicator(2, Weld(paths, tmp_path / "thin.ply", folder=tmp_path / "tiles"))
+    first, second = in_communicator(2, Weld(paths, tmp_path / "thin.ply",
+                                            folder=tmp_path / "tiles"))
     assert first[0] == "Error" and "process 1: " in first[1] and "none.ply" in first[1]
     assert second[0] == "FileError" and "none.ply" in second[1]
     assert not (tmp_path / "thin.ply").exists()

@@ -161,7 +161,8 @@ def test_what_is_not_finite_or_no_face_is_a_defect():
     unused = tf.find_solid_defects((np.vstack([CUBE.vertices, nan, inf]), CUBE.faces))
     assert unused and unused.nonfinite_vertices == 2 and unused.unusable_faces == 0
     assert "2 vertices that are not finite" in unused.message
-    used = tf.find_solid_defects((np.vstack([CUBE.vertices, nan]), np.vstack([CUBE.faces, [0, 1, 8]])))
+    used = tf.find_solid_defects((np.vstack([CUBE.vertices, nan]),
+                                  np.vstack([CUBE.faces, [0, 1, 8]])))
     assert used.unusable_faces == 1 and used.open_edges == used.degenerate == 0
     beyond = tf.find_solid_defects((CUBE.vertices, np.vstack([CUBE.faces, [0, 1, 99]])))
     assert beyond and beyond.unusable_faces == 1 and beyond.nonfinite_vertices == 0

@@ -100,7 +100,8 @@ def test_boxes_that_overlap(seed, count, dimensions):
         assert np.array_equal(ids[begin[q]:begin[q + 1]], np.flatnonzero(meet[q]))
         assert np.array_equal(tree.query(low[q], high[q]), np.flatnonzero(meet[q]))
     x = cloud(seed + 2, 8, dimensions)
-    away = np.linalg.norm(np.maximum(np.maximum(low[None] - x[:, None], x[:, None] - high[None]), 0),
+    away = np.linalg.norm(np.maximum(np.maximum(low[None] - x[:, None], x[:, None] - high[None]),
+                                     0),
                           axis=2)
     d, i = tree.nearest(x, k=3)
     assert d.shape == (8, 3)
@@ -240,7 +241,8 @@ def test_what_is_wrong_is_named_by_its_number():
                  lambda: tf.raycast_any(CUBE, points, none), lambda: tree.query(wrong),
                  lambda: tree.query_ball_point(wrong, 0.01), lambda: boxes.query(wrong, wrong),
                  lambda: boxes.nearest(wrong), lambda: tf.PointTree(wrong),
-                 lambda: tf.intersects(CUBE, CUBE, move_a=moves), lambda: tf.BoxTree(wrong, wrong), lambda: tf.deviation(wrong, CUBE)):
+                 lambda: tf.intersects(CUBE, CUBE, move_a=moves), lambda: tf.BoxTree(wrong, wrong),
+                 lambda: tf.deviation(wrong, CUBE)):
         with pytest.raises(ValueError, match=r"\b15000\b"):
             call()
 

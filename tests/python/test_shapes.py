@@ -47,6 +47,22 @@ def test_fewer_faces_stay_within_the_distance():
     assert len(tf.simplify(SPHERES, 0.5, target_faces=600).mesh.faces) >= 598
 
 
+def test_borders_of_groups_and_values_stay():
+    grid = [(x, y, 0) for x in range(9) for y in range(9)]
+    faces = [f for p in range(80) if p % 9 < 8 and p < 72
+             for f in ((p, p + 9, p + 10), (p, p + 10, p + 1))]
+    groups = [int(f[0] >= 36) for f in faces]
+    assert len(tf.simplify((grid, faces), 0.001).mesh.faces) == 2
+    made = tf.simplify((grid, faces), 0.001, face_groups=groups)
+    assert sorted(np.take(groups, made.face_source)) == [0, 0, 1, 1]
+    values = tf.Attributes()
+    values.set_face("side", np.array(groups))
+    made = tf.simplify(tf.Mesh(grid, faces, values), 0.001)
+    assert sorted(made.mesh.attributes.face["side"]) == [0, 0, 1, 1]
+    with pytest.raises(ValueError, match="face_groups needs one for each face"):
+        tf.simplify((grid, faces), 0.001, face_groups=[1])
+
+
 def test_walls_and_boxes_are_measured():
     assert tf.wall_thickness(CUBE).of_face.tolist() == [1.0] * 12
     assert tf.wall_thickness(CUBE, by="sphere").least <= 1.0

@@ -83,7 +83,8 @@ for work in (lambda: tf.plot(cube, path={str(path)!r}), lambda: cube.show().writ
 
 
 def test_views_are_of_different_sides_and_stand_side_by_side():
-    wedge = tf.Mesh([[0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    wedge = tf.Mesh([[0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1]],
+                    [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
     views = ("iso", "top", "bottom", "front", "back", "left", "right")
     assert len({small(wedge, view=view) for view in views}) == 7
     assert small(wedge, view="all") == small(wedge, view=["iso", "top", "front", "right"])
@@ -189,7 +190,8 @@ def test_threads_change_no_byte_and_the_tool_draws_the_same_surface(tmp_path):
     with tf.threads(1):
         alone = tf.plot(ball, values=ball.vertices[:, 0], view="all")
     assert alone == tf.plot(ball, values=ball.vertices[:, 0], view="all")
-    run_tool("tf-selfintersect", "data/sphere.ply", "--png", tmp_path / "p.png", "--png-size", "300x200")
+    run_tool("tf-selfintersect", "data/sphere.ply", "--png", tmp_path / "p.png", "--png-size",
+             "300x200")
     ours = pixels(tf.plot(tf.read("data/sphere.ply"), size=(300, 200)))
     theirs = pixels((tmp_path / "p.png").read_bytes())
     assert ((ours != 255).any(axis=2) == (theirs != 255).any(axis=2)).mean() > 0.999

@@ -179,9 +179,11 @@ def test_searches_of_files_are_those_of_the_tool(tmp_path):
     found = tf.self_intersections_of_file(tmp_path / "soup.ply", faces_per_tile=100)
     with open(tmp_path / "pairs.csv", newline="") as file:
         theirs = [(int(a), int(b), kind) for a, b, kind, _ in list(csv.reader(file))[1:]]
-    own = [(a, b, tf.KINDS[kind]) for (a, b), kind in zip(found.pairs_in_file.tolist(), found.kinds)]
+    own = [(a, b, tf.KINDS[kind]) for (a, b),
+           kind in zip(found.pairs_in_file.tolist(), found.kinds)]
     assert own == theirs and found.tiles > 3 and found.dropped == 1
-    assert {kind for _, _, kind in own} >= {"crossing", "touching", "pierce", "overlap", "degenerate"}
+    assert {kind for _, _, kind in own} >= {"crossing", "touching", "pierce", "overlap",
+                                            "degenerate"}
     assert max(b for _, b, _ in own) == 400
     assert found.counts == {kind: report["pairs"].get(kind, 0) for kind in tf.KINDS}
 
@@ -201,7 +203,8 @@ def test_robots_are_those_of_the_tool(folder):
         "<joint name='bend' type='revolute'><parent link='arm'/><child link='tip'/>"
         "<origin xyz='0.5 0 1'/><axis xyz='0 1 0'/></joint></robot>")
     robot = tf.read_urdf(folder / "robot.urdf")
-    assert robot.links == ["base", "none", "arm", "tip"] and robot.link_of_part.tolist() == [0, 2, 3]
+    assert robot.links == ["base", "none", "arm",
+                           "tip"] and robot.link_of_part.tolist() == [0, 2, 3]
     assert robot.joints[1] == ("lift", "prismatic", "none", "arm", (0.0, 2.0))
     assert robot.adjacent.tolist() == [[0, 1], [1, 2]]
     assert robot.approximated == ["link tip: a sphere is 5120 triangles around it"]

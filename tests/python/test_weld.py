@@ -128,7 +128,8 @@ def test_a_mesh_in_tiles_is_that_of_the_whole(tmp_path):
         assert np.array_equal(made.faces, whole.faces)
         assert np.array_equal(made.vertices, whole.vertices)
         assert done.statistics["triangles"] == done.faces
-        for what in ("collapsed", "degenerate", "nonmanifold_before", "nonmanifold_after", "flipped"):
+        for what in ("collapsed", "degenerate", "nonmanifold_before", "nonmanifold_after",
+                     "flipped"):
             assert done.statistics[what] == whole.statistics[what], what
         assert done.statistics["collapsed"] > 0
 

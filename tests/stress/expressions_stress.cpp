@@ -1,6 +1,6 @@
 /// \file
-/// Random expressions of crowds of solids, with their volumes in rationals: touching, on each other,
-/// inside out, hidden in each other, as operands and as parts of one.
+/// Random expressions of crowds of solids, with their volumes in rationals: touching, on each
+/// other, inside out, hidden in each other, as operands and as parts of one.
 ///
 /// TREEFORM_STRESS_COUNT sets the expressions of each kind (default 30), TREEFORM_STRESS_SEED the
 /// seed.

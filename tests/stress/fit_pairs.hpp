@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Pairs of real clouds and meshes to fit, whose truth is known: each side thinned unevenly, cropped
-/// and noised by a seed, and one of them moved by 10 degrees and a tenth of the size.
+/// Pairs of real clouds and meshes to fit, whose truth is known: each side thinned unevenly,
+/// cropped and noised by a seed, and one of them moved by 10 degrees and a tenth of the size.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
@@ -22,7 +22,8 @@ struct fit_pair {
     tf::mesh fixed{};  ///< a cloud if it has no faces
     tf::transform<3> truth{};
     double right = 0.0;  ///< how far from the truth is right: root mean square of the moving points
-    /// Or, if this is finite, how far the place of the scanner may be off, and `turn` by what angle.
+    /// Or, if this is finite, how far the place of the scanner may be off, and `turn` by what
+    /// angle.
     tf::point3 scanner{};
     double turn = std::numeric_limits<double>::infinity();
 

@@ -7,8 +7,8 @@
 /// means equal as solids, for all coordinates, however differently they are cut into triangles.
 ///
 /// Then what `boolean` itself returns is compared with them in the same way, where rounding moved
-/// nothing: on lattices that is the rule. Where it moved something, the rounded solid is another one;
-/// how far off it may be is what expressions_stress asks.
+/// nothing: on lattices that is the rule. Where it moved something, the rounded solid is another
+/// one; how far off it may be is what expressions_stress asks.
 ///
 /// TREEFORM_STRESS_COUNT sets the expressions of each kind (default 40), TREEFORM_STRESS_SEED the
 /// seed.
@@ -48,8 +48,8 @@ using test::together;
 
 constexpr double room_side = 8.0;
 
-/// Two points, and a closed line that runs around between them, twice or as it likes: one piece that
-/// may meet itself, and wind around space several times or the other way round.
+/// Two points, and a closed line that runs around between them, twice or as it likes: one piece
+/// that may meet itself, and wind around space several times or the other way round.
 tf::mesh random_bipyramid(test::random& source, double size) {
     tf::mesh solid;
     const auto corners = static_cast<std::uint32_t>(4 + source.below(4));
@@ -67,8 +67,8 @@ tf::mesh random_bipyramid(test::random& source, double size) {
     return solid;
 }
 
-/// Each face cut in four, `levels` times: space is divided by boxes of faces, and those of few large
-/// faces leave no room between them.
+/// Each face cut in four, `levels` times: space is divided by boxes of faces, and those of few
+/// large faces leave no room between them.
 tf::mesh in_small_faces(tf::mesh mesh, int levels) {
     for (int level = 0; level < levels; ++level) {
         tf::mesh next;

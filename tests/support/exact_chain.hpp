@@ -2,8 +2,8 @@
 /// \file
 /// Whether two surfaces bound the same solid, exactly, however each of them is cut into triangles.
 ///
-/// A bounded solid is told by its boundary, the sum of its oriented faces. In a plane, such a sum is
-/// told by the sum of the oriented edges around it, since no bounded part of a plane is without
+/// A bounded solid is told by its boundary, the sum of its oriented faces. In a plane, such a sum
+/// is told by the sum of the oriented edges around it, since no bounded part of a plane is without
 /// edges. On a line, that in turn is told by the sum of its ends. So two surfaces are the same if
 /// and only if, for each plane and each line in it, their ends add up to the same points as often.
 /// Planes, lines and points are compared as rational numbers; nothing is rounded.

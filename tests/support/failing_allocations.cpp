@@ -1,5 +1,6 @@
-// To be preloaded, or linked (`fail_allocations`): allocations fail from the TREEFORM_FAIL_AT-th on, counted from 1, or that one alone
-// where TREEFORM_FAIL_ONCE is set. At the end, their number goes to the file TREEFORM_COUNT_TO.
+// To be preloaded, or linked (`fail_allocations`): allocations fail from the TREEFORM_FAIL_AT-th
+// on, counted from 1, or that one alone where TREEFORM_FAIL_ONCE is set. At the end, their number
+// goes to the file TREEFORM_COUNT_TO.
 
 #include <dlfcn.h>
 #include <fcntl.h>

@@ -15,8 +15,8 @@
 
 namespace test {
 
-/// A result in floats is certified, rightly, and has the volume of the one in doubles, as far as its
-/// points have moved. Where that one is not certified, its volume says nothing.
+/// A result in floats is certified, rightly, and has the volume of the one in doubles, as far as
+/// its points have moved. Where that one is not certified, its volume says nothing.
 template <class Result>
 void check_floats(const Result& doubles, const Result& floats) {
     CHECK(floats.certificate.status == tf::status::ok);

@@ -155,8 +155,8 @@ struct left_to_borders {
     }
 };
 
-/// What tiles [first, last) leave to others: by one pass, or by one over what two passes leave, each
-/// over a half of them, and so on; each of them a run of slices of the numbers at a time.
+/// What tiles [first, last) leave to others: by one pass, or by one over what two passes leave,
+/// each over a half of them, and so on; each of them a run of slices of the numbers at a time.
 struct passes {
     weld_rule rule;
     double tolerance;

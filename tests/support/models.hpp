@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// The folders of real models and clouds that some tests read. The environment says where they are;
-/// where it says nothing, the build does. A variable that is set to nothing means that there are none.
+/// where it says nothing, the build does. A variable that is set to nothing means that there are
+/// none.
 
 #include <support/skip.hpp>
 #include <support/truth.hpp>

@@ -16,7 +16,8 @@
 
 namespace test {
 
-/// Calls `visit(mesh)` for each file with a row in TRUTH.csv, no larger than `most` bytes, that has faces.
+/// Calls `visit(mesh)` for each file with a row in TRUTH.csv, no larger than `most` bytes, that has
+/// faces.
 template <class Visit>
 void for_each_model(std::uintmax_t most, const Visit& visit) {
     for (const std::string& file : files_with_truth(models_folder())) {

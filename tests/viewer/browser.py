@@ -29,7 +29,8 @@ class Browser:
             os.dup2(103, 3), os.dup2(104, 4)
 
         self.process = subprocess.Popen(
-            [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
+            [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
+             "--use-gl=angle",
              "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars",
              "--force-device-scale-factor=1", "--force-prefers-reduced-motion", "--no-first-run",
              f"--window-size={width},{height}", f"--user-data-dir={self.profile}",
@@ -88,7 +89,8 @@ class Browser:
 
     def run(self, script):
         """The value of an expression in the page, awaited."""
-        done = self.call("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
+        done = self.call("Runtime.evaluate", expression=script, returnByValue=True,
+                         awaitPromise=True)
         if "exceptionDetails" in done:
             details = done["exceptionDetails"]
             raise RuntimeError(details.get("exception", {}).get("description", details["text"]))
@@ -110,7 +112,8 @@ class Browser:
         outer, self.session = self.session, None
         end = time.monotonic() + 60
         while True:
-            frames = [t for t in self.call("Target.getTargets")["targetInfos"] if t["type"] == "iframe"]
+            frames = [t for t in self.call("Target.getTargets")["targetInfos"]
+                      if t["type"] == "iframe"]
             if frames:
                 break
             if time.monotonic() > end:
@@ -151,7 +154,8 @@ class Browser:
         at = {"button": "left", "buttons": 1, "modifiers": modifiers}
         self.call("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, clickCount=1, **at)
         for share in (0.5, 1):
-            self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x + dx * share, y=y + dy * share,
+            self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x + dx * share, y=y
+                      + dy * share,
                       **at)
         self.call("Input.dispatchMouseEvent", type="mouseReleased", x=x + dx, y=y + dy, **at)
         self.settle()

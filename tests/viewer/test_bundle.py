@@ -18,7 +18,8 @@ KNOWN = "0.17.0"  # of Debian 12; others may write it another way
 
 def version():
     found = shutil.which("esbuild")
-    return subprocess.run([found, "--version"], capture_output=True, text=True).stdout.strip() if found else ""
+    return subprocess.run([found, "--version"], capture_output=True,
+                          text=True).stdout.strip() if found else ""
 
 
 class Bundle(unittest.TestCase):
@@ -33,7 +34,8 @@ class Bundle(unittest.TestCase):
     def test_the_bundle_names_its_license_and_no_address(self):
         text = (VIEWER / "viewer.min.js").read_text()
         self.assertIn("Apache-2.0", text.splitlines()[0] + text.splitlines()[-1] + text[:200])
-        for word in ("http:", "https:", "import(", "fetch(", "XMLHttpRequest", "WebSocket", "eval("):
+        for word in ("http:", "https:", "import(", "fetch(", "XMLHttpRequest", "WebSocket",
+                     "eval("):
             self.assertNotIn(word, text)
 
     def test_modules_are_short(self):

@@ -41,14 +41,15 @@ PAGES = {
     "touch": (PLACE, ["slide", "{high}", "--fixed", CUBE, "-n"]),
     "measure": (PLACE, ["measure", "{high}", "--fixed", CUBE]),
     "band": (PLACE, ["measure", SPHERE, "--fixed", CUBE, "--tolerance-band=-0.1,0.2"]),
-    "arrange": (PLACE, ["arrange", "{high}", CUBE, "--count", CUBE + ":6", "--size", "5,5", "--spacing",
+    "arrange": (PLACE, ["arrange", "{high}", CUBE, "--count", CUBE + ":6", "--size", "5,5",
+                        "--spacing",
                         "0.2", "-n"]),
     "clash": (PLACE, ["clash", SPHERES, CUBE, "{high}", "--clearance", "3.9"]),
     "no_place": (PLACE, ["slide", SPHERE, "--fixed", CUBE, "-n"]),
 }
 
-# What all tests of pixels use. `only` shows these classes; `drawn` counts pixels that are opaque, of
-# these the ones of a class's color in some light, and all that are not empty.
+# What all tests of pixels use. `only` shows these classes; `drawn` counts pixels that are opaque,
+# of these the ones of a class's color in some light, and all that are not empty.
 HELPERS = """
 window.only = (kinds) => {
     document.querySelectorAll('[data-class]').forEach((input) => {
@@ -67,7 +68,8 @@ window.drawn = (kind) => {
         if (a < 255) continue;
         ++opaque;
         const s = Math.min(Math.max((r * c[0] + g * c[1] + b * c[2]) / cc, 0.25), 1.02);
-        if (Math.max(Math.abs(r - s * c[0]), Math.abs(g - s * c[1]), Math.abs(b - s * c[2])) < 9) ++own;
+        const off = [r - s * c[0], g - s * c[1], b - s * c[2]];
+        if (Math.max(...off.map(Math.abs)) < 9) ++own;
     }
     return { opaque, own, any };
 };
@@ -80,7 +82,8 @@ window.sum = () => {
 window.project = (point) => {
     const view = document.querySelector('canvas'), p = viewer.scene.toView(point);
     const m = viewer.camera.matrix(view.clientWidth / view.clientHeight);
-    const [x, y, , w] = [0, 1, 2, 3].map((i) => m[i] * p[0] + m[4 + i] * p[1] + m[8 + i] * p[2] + m[12 + i]);
+    const [x, y, , w] = [0, 1, 2, 3].map(
+        (i) => m[i] * p[0] + m[4 + i] * p[1] + m[8 + i] * p[2] + m[12 + i]);
     return [(x / w + 1) / 2 * view.clientWidth, (1 - y / w) / 2 * view.clientHeight];
 };
 window.small = () => {
@@ -162,7 +165,8 @@ class PageTest(ToolTest):
         return self.browser.run(script)
 
     def variants(self):
-        return self.run_js("[...document.querySelectorAll('[data-variant]')].map(b => b.dataset.variant)")
+        return self.run_js("[...document.querySelectorAll('[data-variant]')].map(b => "
+                           "b.dataset.variant)")
 
     def press_button(self, data, value):
         self.run_js(f"document.querySelector('[data-{data}=\"{value}\"]').click()")
@@ -178,7 +182,8 @@ class Pages(PageTest):
                 kinds = self.run_js("[...document.querySelectorAll('[data-class]')]"
                                     ".map(i => Number(i.dataset.class))")
                 self.assertGreater(len(kinds), 1)
-                ghosts = self.run_js("viewer.scene.meshes.filter(m => m.ghost).map(m => m.kinds[0])")
+                ghosts = self.run_js("viewer.scene.meshes.filter(m => m.ghost).map(m => "
+                                     "m.kinds[0])")
                 for kind in kinds:
                     best = {"own": 0, "opaque": 0, "any": 0}
                     for variant in self.variants()[:2] or [None]:
@@ -203,7 +208,8 @@ class Pages(PageTest):
             with self.subTest(page=name):
                 self.show(name)
                 self.run_js(f"only([{kind}])")
-                self.assertLess(self.run_js(f"drawn({kind})")["own"], self.run_js("drawn(null)")["opaque"] / 2)
+                self.assertLess(self.run_js(f"drawn({kind})")["own"],
+                                self.run_js("drawn(null)")["opaque"] / 2)
                 self.run_js("document.querySelector('[data-map]').click()")
                 found = self.run_js(f"drawn({kind})")
                 self.assertGreater(found["own"], 0.9 * found["opaque"])
@@ -212,8 +218,8 @@ class Pages(PageTest):
         for name, mapped in (("weld_cloud", "dropped"), ("measure", "high.ply")):
             self.show(name)
             kind = self.run_js(f"viewer.scene.classes.findIndex((c) => c.name === '{mapped}')")
-            swatch = f"getComputedStyle(document.querySelector('[data-class=\"{kind}\"]').parentNode" \
-                     ".querySelector('.swatch')).backgroundImage"
+            swatch = f"getComputedStyle(document.querySelector('[data-class=\"{kind}\"]')" \
+                     ".parentNode.querySelector('.swatch')).backgroundImage"
             self.assertIn("gradient", self.run_js(swatch))
             self.run_js("document.querySelector('[data-map]').click()")
             self.assertEqual(self.run_js(swatch), "none")
@@ -221,8 +227,8 @@ class Pages(PageTest):
     def test_the_band_is_green_until_it_is_switched_off(self):
         self.show("band")
         self.run_js("only([0])")
-        green = "(viewer.draw(), viewer.pixels().reduce((n, v, i, p) => n + (i % 4 === 0 && p[i + 3] === 255 " \
-                "&& p[i + 1] > 1.3 * v && p[i + 1] > 1.3 * p[i + 2]), 0))"
+        green = "(viewer.draw(), viewer.pixels().reduce((n, v, i, p) => n + (i % 4 === 0 " \
+                "&& p[i + 3] === 255 && p[i + 1] > 1.3 * v && p[i + 1] > 1.3 * p[i + 2]), 0))"
         on = self.run_js(green)
         self.run_js("document.querySelector('[data-band]').click()")
         self.assertGreater(on, 500)
@@ -231,16 +237,19 @@ class Pages(PageTest):
     def test_a_pixel_is_green_where_the_value_that_is_picked_is_in_the_band(self):
         self.show("band")
         self.run_js("only([0])")
-        self.run_js("Object.assign(viewer.camera, { turn: 3 * Math.PI / 4, tilt: 0.6155 })")  # at the cube
+        # at the cube
+        self.run_js("Object.assign(viewer.camera, { turn: 3 * Math.PI / 4, tilt: 0.6155 })")
         rows = self.run_js("""(() => {
             const view = document.querySelector('canvas'), found = [];
-            const face = (x, y) => (viewer.pick(x, y), document.querySelector('.picked').dataset.number);
+            const face = (x, y) =>
+                (viewer.pick(x, y), document.querySelector('.picked').dataset.number);
             for (let i = 0; i < 225; ++i) {
                 const x = Math.floor(view.width * (0.3 + 0.4 * (i % 15) / 15)) + 0.5;
                 const y = Math.floor(view.height * (0.15 + 0.7 * Math.floor(i / 15) / 15)) + 0.5;
                 const around = [face(x - 1, y), face(x + 1, y), face(x, y - 1), face(x, y + 1)];
                 if (around.some((n) => n !== face(x, y))) continue;  // a pixel of one face alone
-                const value = /signed distance ([-0-9.e]+)/.exec(document.querySelector('.picked').textContent);
+                const value = /signed distance ([-0-9.e]+)/.exec(
+                    document.querySelector('.picked').textContent);
                 const at = 4 * (Math.floor(x) + view.width * (view.height - 1 - Math.floor(y)));
                 if (value) found.push([Number(value[1]), at]);
             }
@@ -276,7 +285,8 @@ def distance_of_plane(point, corners):
     u, v = ([c - a for a, c in zip(corners[0], corner)] for corner in corners[1:])
     normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
     size = sum(n * n for n in normal) ** 0.5
-    return abs(sum(n * (p - a) for n, p, a in zip(normal, point, corners[0]))) / size if size else 0.0
+    return abs(sum(n * (p - a) for n, p,
+                   a in zip(normal, point, corners[0]))) / size if size else 0.0
 
 
 class Numbers(PageTest):
@@ -297,7 +307,8 @@ class Numbers(PageTest):
         files = {"two_spheres.stl": SPHERES, "cube.stl": CUBE, "dirty.stl": DIRTY}
         for name, pattern, least in (
                 ("selfintersect", r"face (?P<face>\d+)(?: \(.*\))?" + at, 90),
-                ("boolean", r"face \d+ of the result \(from (?P<file>\S+), in face (?P<face>\d+)\)" + at, 90),
+                ("boolean", r"face \d+ of the result \(from (?P<file>\S+), in face (?P<face>\d+)\)"
+                 + at, 90),
                 ("repair", r"face \d+ of the result \(.*in face (?P<face>\d+)\)" + at, 45),
                 ("repair_check", r"face (?P<face>\d+)(?: \(.*\))?" + at, 45),
                 ("touch", r"face (?P<face>\d+) of (?P<file>cube\.stl)(?: \(.*\))?" + at, 9)):
@@ -306,7 +317,8 @@ class Numbers(PageTest):
                 self.press_button("view", "front")
                 own = "two_spheres.stl" if name == "selfintersect" else "dirty.stl"
                 seen = set()
-                for picked in filter(None, (re.match(pattern, text) for text in self.picked_texts(40))):
+                for picked in filter(None, (re.match(pattern, text)
+                                            for text in self.picked_texts(40))):
                     file = files[picked.groupdict().get("file") or own]
                     corners = triangles_of_stl(file)[int(picked["face"])]
                     point = [float(v) for v in picked.groups()[-3:]]
@@ -365,12 +377,14 @@ class Numbers(PageTest):
         self.assertEqual(self.run_js("viewer.scene.dots.reduce((n, d) => n + d.count, 0)"), 642)
         for row in (0, 7, 100):
             text = self.run_js(f"""(() => {{
-                const dots = viewer.scene.dots[1], p = dots.positions.subarray(3 * {row}, 3 * {row} + 3);
+                const dots = viewer.scene.dots[1];
+                const p = dots.positions.subarray(3 * {row}, 3 * {row} + 3);
                 viewer.camera.turn = Math.atan2(p[0], -p[1]);
                 viewer.camera.tilt = Math.asin(p[2] / Math.hypot(...p));
                 viewer.draw();
                 viewer.pick(...project(viewer.scene.toFile([...p])));
-                return [document.querySelector('.picked').textContent, dots.numbers[{row}], dots.groups[{row}]];
+                return [document.querySelector('.picked').textContent, dots.numbers[{row}],
+                        dots.groups[{row}]];
             }})()""")
             self.assertIn(f"point {text[1]} (dropped, now point {text[2]}, moved by 0.1", text[0])
 
@@ -386,12 +400,15 @@ class Numbers(PageTest):
                 return document.querySelector('.picked').textContent;
             }})()""")
             self.assertRegex(text, rf"^open edge {edge} \(open edges, length 0\.\d+\) at ")
-        self.assertIn("0", self.run_js("[...document.querySelectorAll('.tags span')].map(t => t.textContent)"))
+        self.assertIn("0",
+                      self.run_js("[...document.querySelectorAll('.tags span')].map(t => "
+                                  "t.textContent)"))
 
     def test_lengths_stand_beside_their_lines_and_arrows(self):
         tags = "[...document.querySelectorAll('.tags span')].map(t => t.textContent)"
         travel = self.show("slide")["files"][0]["travel"]
-        self.assertTrue(any(abs(float(t) - travel) < 1e-4 for t in self.run_js(tags)), self.run_js(tags))
+        self.assertTrue(any(abs(float(t) - travel) < 1e-4 for t in self.run_js(tags)),
+                        self.run_js(tags))
         distance = self.show("measure")["files"][0]["distance"]
         self.assertTrue(any(abs(float(t) - distance) < 1e-5 for t in self.run_js(tags)))
         self.show("arrange")
@@ -414,7 +431,8 @@ class Numbers(PageTest):
         bars = self.run_js("[...document.querySelectorAll('.histogram title')]"
                            ".map(t => Number(t.textContent.split(': ')[1].replaceAll(',', '')))")
         self.assertEqual(sum(bars), 642)
-        self.assertEqual(self.run_js("document.querySelector('text.mark').textContent"), "tolerance 0.15")
+        self.assertEqual(self.run_js("document.querySelector('text.mark').textContent"),
+                         "tolerance 0.15")
 
     def test_tables_have_the_numbers_of_the_report(self):
         report = self.show("boolean")
@@ -422,7 +440,8 @@ class Numbers(PageTest):
         for source in report["files"][0]["inputs"]:
             self.assertIn(f"{source['volume']:.7g}", cells)
         steps = self.show("repair")["files"][0]["repair"]["steps"]
-        cells = self.run_js("[...document.querySelectorAll('tr')].map(r => [...r.cells].map(c => c.textContent))")
+        cells = self.run_js("[...document.querySelectorAll('tr')].map(r => [...r.cells].map(c => "
+                            "c.textContent))")
         self.assertIn(["orient", "flipped", str(steps["orient"]["flipped"])], cells)
         self.assertIn(["fill", "holes", str(steps["fill"]["holes"])], cells)
 
@@ -457,7 +476,8 @@ class Frames(PageTest):
     def test_a_page_in_a_sandbox_is_drawn_as_notebooks_have_it(self):
         page = pathlib.Path(self.make("selfintersect")).read_text()
         host = self.path("host.html")
-        pathlib.Path(host).write_text('<iframe sandbox="allow-scripts" style="width: 100%; height: 560px" '
+        pathlib.Path(host).write_text('<iframe sandbox="allow-scripts" style="width: 100%; height: '
+                                      '560px" '
                                       f'srcdoc="{html.escape(page)}"></iframe>')
         self.browser.open(host)
         with self.browser.in_frame():
@@ -511,7 +531,8 @@ class Controls(PageTest):
 
     def test_the_mouse_turns_shifts_zooms_and_picks(self):
         self.show("selfintersect")
-        x, y = self.run_js("(() => { const r = document.querySelector('canvas').getBoundingClientRect();"
+        x, y = self.run_js("(() => { const r = "
+                           "document.querySelector('canvas').getBoundingClientRect();"
                            "return [r.left + r.width * 0.4, r.top + r.height * 0.55]; })()")
         camera = "({ ...viewer.camera, whole: 0 })"
         first = self.run_js(camera)
@@ -529,7 +550,8 @@ class Controls(PageTest):
         self.run_js("document.querySelector('[data-home]').click()")
         self.browser.settle()
         self.browser.click(x, y)
-        self.assertRegex(self.run_js("document.querySelector('.picked').textContent"), r"^face \d+ ")
+        self.assertRegex(self.run_js("document.querySelector('.picked').textContent"),
+                         r"^face \d+ ")
         self.quiet()
 
     def test_before_after_and_wipe_show_the_same_places(self):
@@ -540,7 +562,8 @@ class Controls(PageTest):
             sums[name] = self.run_js("sum()")
         self.assertEqual(len(set(sums.values())), 4)
         for at, name in ((0, "after"), (1, "before")):
-            self.run_js(f"(() => {{ const s = document.querySelector('[data-wipe]'); s.value = {at};"
+            self.run_js(f"(() => {{ const s = document.querySelector('[data-wipe]'); "
+                        f"s.value = {at}; "
                         "s.dispatchEvent(new Event('input', { bubbles: true })); })()")
             self.assertEqual(self.run_js("sum()"), sums[name])
 
@@ -549,7 +572,8 @@ class Controls(PageTest):
         self.run_js("only([0])")
         whole = self.run_js("drawn(null)")["opaque"]
         for axis in "123":
-            self.run_js(f"(() => {{ const s = document.querySelector('[data-section]'); s.value = {axis};"
+            self.run_js(f"(() => {{ const s = document.querySelector('[data-section]'); "
+                        f"s.value = {axis}; "
                         "s.dispatchEvent(new Event('change', { bubbles: true })); })()")
             shares = []
             for depth in (-1, 0, 1):
@@ -589,7 +613,8 @@ class Controls(PageTest):
             self.show(name)
             self.run_js("(() => { const s = document.querySelector('[data-section]'); s.value = 1;"
                         "s.dispatchEvent(new Event('change', { bubbles: true })); })()")
-            for at, kind in enumerate(self.run_js("[...document.querySelectorAll('#view [type=checkbox]')]"
+            for at, kind in enumerate(self.run_js("[...document.querySelectorAll('#view "
+                                                  "[type=checkbox]')]"
                                                   ".map(i => Object.keys(i.dataset)[0])")):
                 state = "[sum(), document.querySelector('.tags').textContent].join()"
                 press = f"document.querySelectorAll('#view [type=checkbox]')[{at}].click()"
@@ -610,7 +635,10 @@ class Controls(PageTest):
                 self.show(name)
                 count = self.run_js("""(() => {
                     let used = 0;
-                    for (const button of document.querySelectorAll('#view button')) { button.click(); ++used; }
+                    for (const button of document.querySelectorAll('#view button')) {
+                        button.click();
+                        ++used;
+                    }
                     for (const input of document.querySelectorAll('#view input, #view select')) {
                         if (input.type === 'checkbox') { input.click(); input.click(); }
                         else if (input.tagName === 'SELECT') { input.selectedIndex = 2; }
@@ -619,7 +647,8 @@ class Controls(PageTest):
                         input.dispatchEvent(new Event('change', { bubbles: true }));
                         ++used;
                     }
-                    document.querySelectorAll('tr[data-row]').forEach((row) => { row.click(); ++used; });
+                    document.querySelectorAll('tr[data-row]').forEach(
+                        (row) => { row.click(); ++used; });
                     viewer.draw();
                     return used;
                 })()""")
@@ -666,7 +695,8 @@ class Framing(PageTest):
             self.open(self.path("page.html"))
             self.assertGreater(self.run_js("drawn(null)")["opaque"], 20_000)
             self.run_js("viewer.pick(...project(viewer.scene.toFile([0, 0, 0])))")
-            self.assertRegex(self.run_js("document.querySelector('.picked').textContent"), r"^face \d+ ")
+            self.assertRegex(self.run_js("document.querySelector('.picked').textContent"),
+                             r"^face \d+ ")
             self.quiet()
 
     def test_much_context_is_thinned_out_and_findings_never(self):

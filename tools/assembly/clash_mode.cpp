@@ -2,6 +2,7 @@
 #include "tools/assembly/contact_entries.hpp"
 #include "tools/assembly/measured.hpp"
 #include "tools/common/console.hpp"
+#include "tools/common/made/report_fields.hpp"
 #include "tools/common/mesh_output.hpp"
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/write.hpp>

@@ -43,10 +43,6 @@ json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,
             {"name", body ? name_entry(*body) : json(nullptr)}};
 }
 
-json effort_entry(const tf::search_effort& effort) {
-    return {{"pairs", effort.pairs}, {"bound", effort.bound}, {"cut", effort.cut}};
-}
-
 std::string cut_in_words(const tf::search_effort& effort) {
     if (effort.cut == 0) return {};
     return "; the search ended after " + counted(effort.pairs, "pair", "pairs") +

@@ -18,8 +18,6 @@ void enter_nearest(json& entry, const tf::body_set& moving, const tf::body_set& 
 [[nodiscard]] json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,
                                  const tf::placement_contact& c);
 
-[[nodiscard]] json effort_entry(const tf::search_effort& effort);
-
 /// "; the search ended after 12,345 pairs of faces: a shorter way may exist", where it was cut.
 [[nodiscard]] std::string cut_in_words(const tf::search_effort& effort);
 

@@ -2,6 +2,7 @@
 
 #include "tools/assembly/contact_entries.hpp"
 #include "tools/common/console.hpp"
+#include "tools/common/made/report_fields.hpp"
 #include "tools/common/output_file.hpp"
 #include "tools/common/parse_value.hpp"
 #include <treeform/mesh/measure.hpp>
@@ -38,45 +39,29 @@ void enter_points(job& work, const tf::body_set& moving, const tf::body_set& fix
     const tf::points_view points = moving.shapes[0].view().points;
     const tf::side_counts counts = known ? *known : tf::count_sides(points, fixed.shapes);
     work.call_ended();
-    work.entry["points"] = {
-        {"inside", counts.inside}, {"on", counts.on}, {"outside", counts.outside}};
+    work.entry["points"] = sides_entry(counts);
     work.out.result(work.name + ": " + grouped(counts.inside) + " of " +
                     counted(points.size(), "point", "points") + " inside, " + grouped(counts.on) +
                     " on the surface");
 }
 
-json directed_entry(const tf::directed_distance& one) {
-    return {{"sampled", one.sampled}, {"at_most", one.at_most}};
-}
-
 json deviation_entry(const tf::deviation_result& r, const deviation_settings& settings) {
     json band = nullptr;
-    if (settings.band)
-        band = {{"low", (*settings.band)[0]},
-                {"high", (*settings.band)[1]},
-                {"below", r.band->below},
-                {"within", r.band->within},
-                {"above", r.band->above}};
-    return {
-        {"signed", r.is_signed},
-        {"points", r.distances.size()},
-        {"mean", r.mean},
-        {"mean_absolute", r.mean_absolute},
-        {"rms", r.rms},
-        {"p50", r.p50},
-        {"p95", r.p95},
-        {"p99", r.p99},
-        {"max", r.max},
-        {"lowest", r.lowest},
-        {"highest", r.highest},
-        {"hausdorff",
-         {{"there", directed_entry(r.there)},
-          {"back", r.back ? directed_entry(*r.back) : json(nullptr)}}},
-        {"histogram",
-         {{"low", r.histogram.low}, {"high", r.histogram.high}, {"counts", r.histogram.counts}}},
-        {"tolerance_band", band},
-        {"distances_file", or_null(!settings.distances.empty(), settings.distances.string())},
-        {"color_scale", nullptr}};
+    if (settings.band) {
+        band = {{"low", (*settings.band)[0]}, {"high", (*settings.band)[1]}};
+        band.update(band_entry(*r.band));
+    }
+    json entry = {{"signed", r.is_signed}, {"points", r.distances.size()}};
+    entry.update(deviations_entry(r));
+    entry.update(
+        {{"hausdorff",
+          {{"there", directed_entry(r.there)},
+           {"back", r.back ? directed_entry(*r.back) : json(nullptr)}}},
+         {"histogram", histogram_entry(r.histogram)},
+         {"tolerance_band", band},
+         {"distances_file", or_null(!settings.distances.empty(), settings.distances.string())},
+         {"color_scale", nullptr}});
+    return entry;
 }
 
 /// The whole band, or what 99 % of the points are within, to the same length both ways.

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""generate.py [--check | --self-test]: makes the parts of the C library and of the Python package
-that follow from the headers of C++. With --check it changes nothing, and fails where a file is not
-what it would make.
-"""
+"""generate.py [--check | --self-test]: makes the parts of the C library, of the Python package and
+of the tools' reports that follow from the headers of C++. With --check it changes nothing, and
+fails where a file is not what it would make. """
 
 from __future__ import annotations
 
@@ -17,6 +16,7 @@ import python_language
 import python_surface
 import python_verbs
 import python_write
+import report_write
 from c_language import Language
 from c_write import _BLOCK, INCLUDE, MADE, Writer, formatted, names_of
 from headers import ROOT, Enum, Field, Struct, read_all
@@ -53,7 +53,8 @@ def all_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pathli
                  *(one.cpp for one in python_surface.RESULTS)]:
         if name in structs and structs[name].unclear:
             raise ValueError(f"{name} of {structs[name].header}: what is {structs[name].unclear}?")
-    return c_files(structs, enums) | python_files(structs, enums)
+    return c_files(structs, enums) | python_files(structs, enums) | report_write.Writer(
+        structs, enums).files()
 
 
 def self_test() -> None:
@@ -61,6 +62,7 @@ def self_test() -> None:
     structs, enums = read_all()
     structs["boolean_statistics"].fields.append(Field("unheard", "uint64_t", "0", "of nothing"))
     structs["repair_options"].fields.append(Field("unseen", "double", "2.5", "a length"))
+    structs["search_effort"].fields.append(Field("unread", "uint64_t", "0", "of no one"))
     made = {path.relative_to(ROOT).as_posix(): text
             for path, text in all_files(structs, enums).items()}
     for path, words in {
@@ -70,7 +72,9 @@ def self_test() -> None:
                                         "how.unseen = o.unseen;", "to.unseen = from.unseen;"],
             "tools/python/src/made/results.cpp": ['made["unheard"] = from.unheard;'],
             "tools/python/src/made/options.cpp": ['visit("unseen", how.unseen);'],
-            "tools/python/treeform/_core.pyi": ["unseen: float = ..."]}.items():
+            "tools/python/treeform/_core.pyi": ["unseen: float = ..."],
+            "tools/common/made/report_fields.cpp": ['{"unread", from.unread}'],
+            "tools/REPORTS.md": ["`effort.unread` | count | of no one |"]}.items():
         text = " ".join(made[path].split())
         for word in words:
             assert " ".join(word.split()) in text, (path, word)
@@ -89,7 +93,8 @@ def main() -> int:
         self_test()
         return 0
     made = all_files(*read_all())
-    there = {path for folder in (MADE, python_write.MADE) for path in folder.glob("*.[ch]pp")}
+    there = {path for folder in (MADE, python_write.MADE, report_write.MADE)
+             for path in folder.glob("*.[ch]pp")}
     wrong = 0
     for path in sorted(there | set(made)):
         before, text = path.read_text() if path.exists() else "", made.get(path, "")

@@ -58,8 +58,8 @@ _START = re.compile(r"^(?:struct|class)(?: TREEFORM_API| \[\[nodiscard\]\])* (\w
 _ENUM = re.compile(r"^enum class (\w+) : [\w:]+ \{(.*)$")
 
 
-_NO_FIELD = re.compile(r"(static|friend|using|public|private|protected|template|explicit|constexpr|enum"
-                       r"|struct|class|union)\b|\[\[|~|$")
+_NO_FIELD = re.compile(r"(static|friend|using|public|private|protected|template|explicit|constexpr"
+                       r"|enum|struct|class|union)\b|\[\[|~|$")
 
 
 def plain(type: str) -> str:

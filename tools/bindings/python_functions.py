@@ -10,8 +10,8 @@ from headers import FOLDERS, ROOT, Field
 from python_language import ARGUMENTS, Function, Language, call_text, camel, wrapped
 
 #: What exceptions of C++ are in Python.
-_ERRORS = {r"std::(invalid_argument|length_error)": "ValueError", r"\b(io|stream)_error": "FileError",
-           "std::overflow_error": "OverflowError"}
+_ERRORS = {r"std::(invalid_argument|length_error)": "ValueError",
+           r"\b(io|stream)_error": "FileError", "std::overflow_error": "OverflowError"}
 #: Types of options in Python, where the default of C++ is none of Python's.
 _OPTIONAL = {"vector<named_column>": "Columns | None",
              "optional<array<double,3>>": "Sequence[float] | None",
@@ -120,7 +120,8 @@ class FunctionWriter:
         for before, after in one.words.items():
             body = body.replace(f"`{before}`", f"`{after}`")
         said = [one.doc] if one.doc else [
-            self.said(" ".join(part.split()), names, one.name) for part in re.split(r"\n\n|\n(?=- )", body)]
+            self.said(" ".join(part.split()), names, one.name)
+            for part in re.split(r"\n\n|\n(?=- )", body)]
         raises: list[str] = []
         cost = ""
         for tag in tags:
@@ -155,7 +156,8 @@ class FunctionWriter:
             return annotation, "np.inf"
         if type in self.language.enums:
             return "str", f'"{default.rpartition("::")[2]}"'
-        return annotation, default.replace("'", "_").replace("true", "True").replace("false", "False")
+        return annotation, {"true": "True", "false": "False"}.get(
+            default, default.replace("'", "_"))
 
     def text(self, one: Function, example: str) -> str:
         """The function, for a file of the package."""
@@ -219,7 +221,8 @@ class FunctionWriter:
             lines += ([""] if i == 0 else []) + wrapped(f"{name}: {notes[name]}", 8, "", 4)
         raised = [_OPEN.get(one.check, "") + _NOT_CERTIFIED] if one.check else []
         raised += raises
-        for part in filter(None, [raised and f"Raises {'; '.join(raised)}", cost and f"Cost: {cost}"]):
+        for part in filter(None, [raised and f"Raises {'; '.join(raised)}",
+                                  cost and f"Cost: {cost}"]):
             lines += ["", *wrapped(part if part.endswith(".") else part + ".", 4, "")]
         if not example:
             raise ValueError(f"{one.name}: an example is missing in its docstring")
@@ -234,7 +237,8 @@ class FunctionWriter:
             return text + f"    return {front}{one.body}{back}\n"
         values.append("progress=progress")
         if not one.missing:
-            return text + call_text(f"    return {front}_core.{one.name}(", values, f"){back}") + "\n"
+            return text + call_text(f"    return {front}_core.{one.name}(", values,
+                                    f"){back}") + "\n"
         text += call_text(f"    made = _core.{one.name}(", values, ")") + "\n    if made is None:\n"
         return text + (f'        raise ValueError("{one.name}: {one.missing}")\n'
                        f"    return {front}made{back}\n")
@@ -251,6 +255,7 @@ class FunctionWriter:
         """Of a file; examples are those that there are."""
         made = []
         for name in names:
-            found = re.search(rf'^def {name}\(.*?^    """.*?^(    >>> .*?)^    """', before, re.M | re.S)
+            found = re.search(rf'^def {name}\(.*?^    """.*?^(    >>> .*?)^    """', before,
+                              re.M | re.S)
             made.append(self.text(functions[name], found[1] if found else ""))
         return "\n\n".join(made)

@@ -57,17 +57,17 @@ class Result:
 
 @dataclass
 class Function:
-    """A function of the extension, `cut(mesh: Mesh, ..., options: cut_options) -> list[CutPiece]`, and
-    the call of C++. That of the package has its name and arguments: defaults are said there, options
-    are arguments by name, but for those in brackets, and behind `*` all are by name."""
+    """A function of the extension, `cut(mesh: Mesh, ..., options: cut_options) -> CutPieces`, and
+    the call of C++. That of the package has its name and arguments: defaults are said there,
+    options are arguments by name, but for those in brackets, and behind `*` all are by name."""
 
     declared: str
     call: str = ""  #: "": it is in `src/*.cpp`
     context: str = ""  #: an argument whose attributes results get, or that moves
     kind: str = "by_elements"  #: `job_kind`
     # of the package
-    #: What is raised where its certificate is not ok: of a "solid", of "solids" that may be open; of a
-    #: "mesh" or "meshes" that may be.
+    #: What is raised where its certificate is not ok: of a "solid" or "solids", NotSolidError where
+    #: one is open, too; of a "mesh" or "meshes", NotCertifiedError alone.
     check: str = ""
     missing: str = ""  #: what raises ValueError in place of None
     made: str = ""  #: what the package returns, and how, where it is something else
@@ -76,7 +76,7 @@ class Function:
     given: str = ""  #: options that the package makes of other arguments, `size=size_of(size)`
     leave: str = ""  #: options that it does not have
     words: dict[str, str] = field(default_factory=dict)  #: names of C++ that it has others for
-    cpp: str = ""  #: "of", or "of in header": whose docstring it has; "": of the call, the same name
+    cpp: str = ""  #: "of", or "of in header": whose docstring it has; "": of the call, or its name
     doc: str = ""  #: in place of what C++ says, where that is of no use
     also: str = ""  #: beside it
     docs: dict[str, str] = field(default_factory=dict)  #: of arguments
@@ -108,7 +108,8 @@ class Function:
 
 
 _LIST = '[{} for one in _arrays.several({{0}}, "{{0}}")]'
-#: Types of arguments: in C++, in the stub, how a call gets them; in the package, and what it hands over.
+#: Types of arguments: in C++, in the stub, how a call gets them; in the package, and what it hands
+#: over.
 ARGUMENTS = {
     "Mesh": ("const held_mesh&", "HeldMesh", "{}.ref()", "MeshLike", "held({})"),
     "Body": ("const held_mesh&", "HeldMesh", "{}.ref()", "Body", "held_body({})"),
@@ -130,6 +131,8 @@ ARGUMENTS = {
                 '_arrays.floats({0}, "{0}")'),
     "Levels": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike",
                'np.atleast_1d(_arrays.floats({0}, "{0}"))'),
+    "Groups": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})", "ArrayLike | None",
+               '_arrays.labels({0}, "{0}")'),
     "PairIds": ("const ids_array&", "Ids", "{}", "", ""),
     "Kinds": ("const array_of<std::uint8_t>&", "Bytes", "{}", "", ""),
     "Words": ("const std::vector<std::string>&", "list[str]", "{}", "", ""),

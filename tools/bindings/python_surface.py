@@ -41,7 +41,8 @@ def column(name: str, annotation: str, doc: str, rows: str, value: str) -> Attri
 RESULTS = [
     # _results
     Result("certificate", "Certificate", "_results", leave="meeting_at",
-           doc="What was checked about the coordinates of a result, with exact predicates. True where "
+           doc="What was checked about the coordinates of a result, with exact predicates. True "
+               "where "
                "everything that the operation promises holds.",
            custom={
                "status": [Attribute("status", "str", "'ok', or how the operation ended.",
@@ -105,7 +106,8 @@ RESULTS = [
            docs={"statistics": "Counts of what was done."},
            custom={"vanished_components": [], "statistics": [Attribute(
                "statistics", "dict[str, Any]", "Counts of what was done.",
-               'with(counters(from.statistics), "vanished_components", from.vanished_components)')]}),
+               'with(counters(from.statistics), "vanished_components", '
+               "from.vanished_components)")]}),
     Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
            doc="A mended mesh.", inherited="mesh certificate", names={"statistics": "steps"},
            docs={"steps": "What each step has done: faces flipped, holes filled, ..."},
@@ -120,7 +122,8 @@ RESULTS = [
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) numbers of the points, outward."},
            custom={"sides": [
-               column("first_face", "Ids", "(S,) the first face of each flat side; its faces follow "
+               column("first_face", "Ids", "(S,) the first face of each flat side; its faces "
+                                           "follow "
                       "one another.", "sides", "one.first_face"),
                column("areas", "Floats", "(S,) the area of each side.", "sides", "one.area"),
                column("normals", "Floats", "(S, 3) the outward normal of each side, of length 1.",
@@ -161,7 +164,8 @@ RESULTS = [
                    Attribute("mesh", "Mesh", "Only the faces that meet others, in the order of the "
                              "file.", "mesh_object(std::move(from.part.mesh), py::none(), "
                              "py::none())"),
-                   Attribute("dropped", "int", "Triangles with a coordinate that is not finite, left "
+                   Attribute("dropped", "int", "Triangles with a coordinate that is not finite, "
+                                               "left "
                              "out.", "py::cast(from.part.dropped)")],
                "found": [
                    column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
@@ -198,15 +202,18 @@ RESULTS = [
                          "py::cast(from.survey.non_finite)"),
                Attribute("tiles", "int", "Parts that space was cut into.",
                          "py::cast(from.survey.tiles)"),
-               Attribute("continued", "bool", "Whether the run went on from what an earlier one had "
+               Attribute("continued", "bool", "Whether the run went on from what an earlier one "
+                                              "had "
                          "left.", "py::cast(from.survey.continued)")],
                "+": [
-                   Attribute("max_displacement", "float", "The furthest that a point moved, at most; "
+                   Attribute("max_displacement", "float", "The furthest that a point moved, at "
+                                                          "most; "
                              "also to a step of LAS.",
                              "py::cast(from.counts.max_displacement + from.survey.las_moved)"),
                    Attribute("faces", "int", "Of a mesh, faces that are left.",
                              "py::cast(from.counts.faces)"),
-                   Attribute("statistics", "dict[str, int]", "Of a mesh, what became of its faces, as "
+                   Attribute("statistics", "dict[str, int]", "Of a mesh, what became of its "
+                                                             "faces, as "
                              "in `WeldResult.statistics`.", "counters(from.counts)"),
                    Attribute("warnings", "list[str]", "What a person should know.",
                              "warnings_of(from)")]},
@@ -222,7 +229,8 @@ RESULTS = [
                                    "from.sides->on, from.sides->outside)) : py::none()")],
                "there": [Attribute("there", "tuple[float, float]",
                                    "(over the points of the first, a bound that no point of its "
-                                   "surface exceeds); of the distances from the first to the second.",
+                                   "surface exceeds); of the distances from the first to the "
+                                   "second.",
                                    "py::make_tuple(from.there.sampled, from.there.at_most)")],
                "back": [Attribute("back", "tuple[float, float] | None",
                                   "The same from the second to the first; the larger one is the "
@@ -275,7 +283,8 @@ RESULTS = [
                      Attribute("tolerance", "float", "Of `turn`: the gap beyond the clearance that "
                                "counts as contact.", "py::cast(0.0)", "0.0"),
                      Attribute("offset", "float", "Of `mate_features`: how far the center of the "
-                               "moving feature ended from the fixed one.", "py::cast(0.0)", "0.0")]}),
+                               "moving feature ended from the fixed one.", "py::cast(0.0)",
+                               "0.0")]}),
     Result("impact", "Impact", "_placement", "NamedTuple",
            leave="exact contact_count pairs_tested predicates",
            doc="The first contact of two meshes in motion.",
@@ -341,7 +350,8 @@ RESULTS = [
                       "std::array{one.a, one.b}"),
                      ("how", "NDArray[np.uint8]", "(n,) uint8: how they lie, a place in "
                       "`RELATIONS`.", "static_cast<std::uint8_t>(one.how)"),
-                     ("distance", "Floats", "(n,) of those that are closer than the clearance; else "
+                     ("distance", "Floats", "(n,) of those that are closer than the clearance; "
+                                            "else "
                       "0.", "one.distance"))]]}),
     Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
            doc="How all parts lie to each other.",
@@ -365,10 +375,11 @@ OPTIONS = {
     "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
-    "offset_options": "", "simplify_options": "face_groups", "thickness_options": "",
+    "offset_options": "", "simplify_options": "face_groups corner_groups", "thickness_options": "",
     "feature_options": "", "self_intersection_options": "component_of_face between within",
     "mesh_intersection_options": "", "stream_search_options": "box communicator",
-    "weld_options": "label may_merge search", "weld_stream_options": "communicator shared las_scale las_offset",
+    "weld_options": "label may_merge search", "weld_stream_options": "communicator shared "
+                                                                     "las_scale las_offset",
     "slide_options": "close_in limit vertices", "drop_options": "limit vertices",
     "mate_options": "limit vertices", "separate_options": "normals face_pairs limit vertices",
     "turn_options": "max_steps limit vertices", "feature_mate_options": "limit vertices",

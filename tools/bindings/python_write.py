@@ -15,7 +15,8 @@ PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
 #: Modules whose results are in `places.cpp`.
 PLACES = ("_assembly", "_nearness", "_placement")
-BLOCK = re.compile(r"^# made of (results|options|functions|names|imports)[^\n]*:\n((?:#   [^\n]+\n)*).*?^# end\n",
+BLOCK = re.compile(r"^# made of (results|options|functions|names|imports)[^\n]*:\n"
+                   r"((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
 
 
@@ -37,7 +38,8 @@ class Writer:
         head = found.group(0)[:found.end(2) - found.start()]
         if kind == "options":
             return head + "".join(self.language.option_stub(name, leave)
-                                  for name, leave in self.options.items()).rstrip("\n") + "\n# end\n"
+                                  for name, leave in self.options.items()
+                                  ).rstrip("\n") + "\n# end\n"
         if kind == "imports":
             modules = sorted({(one.module, one.name) for one in self.language.results.values()})
             return head + "".join(f"from .{module} import {name}\n"
@@ -57,6 +59,14 @@ class Writer:
                 if before else []
             classes.append(self.language.class_text(of, order))
         return head + "\n\n".join(classes) + "# end\n"
+
+    def _calls(self, start: str, what: str, calls: list[Function]) -> str:
+        text = start + "namespace {\n\n"
+        text += "\n".join(self.language.function_code(one) for one in calls)
+        return text + f"\n}}  // namespace\n\nvoid add_{what}(py::module_& module) {{\n" + "".join(
+            f'add_job(module, "{one.name}", &{one.name}'
+            f"{'' if one.kind == 'by_elements' else ', job_kind::' + one.kind});\n"
+            for one in calls) + "}\n\n}  // namespace binding\n"
 
     def sources(self) -> dict[pathlib.Path, str]:
         enums = sorted(name for name in self.language.enums)
@@ -90,15 +100,12 @@ class Writer:
         results += "\n" + "\n".join(self.language.counters_code(name, leave)
                                     for name, leave in self.counters.items())
         results += "\n}  // namespace binding\n"
-        functions = start + "namespace {\n\n"
-        functions += "\n".join(self.language.function_code(one) for one in self.functions if one.call)
-        functions += "\n}  // namespace\n\nvoid add_functions(py::module_& module) {\n" + "".join(
-            f'add_job(module, "{one.name}", &{one.name}'
-            f"{'' if one.kind == 'by_elements' else ', job_kind::' + one.kind});\n"
-            for one in self.functions if one.call)
-        functions += "}\n\n}  // namespace binding\n"
+        calls = [one for one in self.functions if one.call]
+        functions = self._calls(start, "functions", [one for one in calls if not one.context])
+        operations = self._calls(start, "operations", [one for one in calls if one.context])
         made = {"words.hpp": words, "made.hpp": head, "options.cpp": options,
                 "results.cpp": results, "places.cpp": of_places,
-                "functions.cpp": functions, "states.hpp": states}
+                "functions.cpp": functions, "operations.cpp": operations,
+                "states.hpp": states}
         return {MADE / name: formatted(text, f"tools/python/src/made/{name}")
                 for name, text in made.items()}

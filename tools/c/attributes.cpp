@@ -59,6 +59,21 @@ glue::carry_inputs::carry_inputs(const treeform_carry_source* inputs, std::size_
     }
 }
 
+template <class Find>
+static treeform_code give_groups(const treeform_carry_source* inputs, size_t count,
+                                 treeform_indices** groups, const Find& find) {
+    return glue::guard([&] {
+        glue::start(groups);
+        auto made = glue::make<treeform_indices>();
+        const glue::carry_inputs files(inputs, count);
+        const auto& found =
+            made->keep(find(tf::carry_sources({files.sources().begin(), files.sources().end()})));
+        made->value.values = found.data();
+        made->value.count = found.size();
+        glue::give(std::move(made), groups);
+    });
+}
+
 treeform_code treeform_carry(treeform_file* file, const treeform_carry_source* inputs, size_t count,
                              const treeform_element* face_source,
                              const treeform_element* vertex_source,
@@ -81,31 +96,37 @@ treeform_code treeform_carry(treeform_file* file, const treeform_carry_source* i
 }
 
 treeform_code treeform_carry_one(treeform_file* file, const treeform_carry_source* input,
-                                 const uint32_t* face_source, const uint32_t* vertex_source) {
+                                 const uint32_t* face_source, const uint32_t* vertex_source,
+                                 const uint32_t* face_of_new_vertex,
+                                 const uint32_t* corner_source) {
     return glue::guard([&] {
         tf::mesh_file& to = glue::need(file, "file").content;
         const glue::carry_inputs files(input, 1);
         const tf::carry_source from = files.sources()[0];
+        const std::size_t points = to.mesh.points.size(), faces = to.mesh.faces.size();
+        std::span<const std::uint32_t> of_new, corners;
+        if (face_of_new_vertex != nullptr)
+            of_new = numbers(face_of_new_vertex, points, "face_of_new_vertex", faces_of(from));
+        if (corner_source != nullptr)
+            corners = numbers(corner_source, 3 * faces, "corner_source", 3 * faces_of(from));
         tf::carry_sources(from).carry(
-            to, numbers(face_source, to.mesh.faces.size(), "face_source", faces_of(from)),
-            numbers(vertex_source, to.mesh.points.size(), "vertex_source",
-                    from.file->mesh.points.size()));
+            to, numbers(face_source, faces, "face_source", faces_of(from)),
+            numbers(vertex_source, points, "vertex_source", from.file->mesh.points.size()), of_new,
+            corners);
     });
 }
 
 treeform_code treeform_face_groups(const treeform_carry_source* inputs, size_t count,
                                    int32_t by_values, int32_t by_input, treeform_indices** groups) {
-    return glue::guard([&] {
-        glue::start(groups);
-        auto made = glue::make<treeform_indices>();
-        const glue::carry_inputs files(inputs, count);
-        const auto& found =
-            made->keep(tf::carry_sources({files.sources().begin(), files.sources().end()})
-                           .face_groups(by_values != 0, by_input != 0));
-        made->value.values = found.data();
-        made->value.count = found.size();
-        glue::give(std::move(made), groups);
+    return give_groups(inputs, count, groups, [&](const tf::carry_sources& all) {
+        return all.face_groups(by_values != 0, by_input != 0);
     });
+}
+
+treeform_code treeform_corner_groups(const treeform_carry_source* input,
+                                     treeform_indices** groups) {
+    return give_groups(input, 1, groups,
+                       [](const tf::carry_sources& all) { return all.corner_groups(); });
 }
 
 treeform_code treeform_add_source_columns(treeform_file* file, const char* name,

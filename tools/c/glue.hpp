@@ -429,8 +429,8 @@ template <class Ask>
     return a.one_use && b.one_use ? ask(a.prepared->view(), b.prepared->view())
                                   : ask(*a.prepared, *b.prepared);
 }
-/// `ask(mesh, begin, end)` for pieces of `count` questions; a piece that is not all of them finds the
-/// indexes that the first one has built.
+/// `ask(mesh, begin, end)` for pieces of `count` questions; a piece that is not all of them finds
+/// the indexes that the first one has built.
 template <class Ask>
 void asked_in_pieces(const treeform_mesh* mesh, std::size_t count, const Ask& ask) {
     if (thread_progress())

@@ -27,8 +27,8 @@ class usable_input {
     std::size_t dropped_ = 0;
 };
 
-/// Inputs as `carry_sources` takes them: with the faces that the operation saw. A file all of whose faces it
-/// saw is not copied.
+/// Inputs as `carry_sources` takes them: with the faces that the operation saw. A file all of whose
+/// faces it saw is not copied.
 class carry_inputs {
   public:
     carry_inputs(const treeform_carry_source* inputs, std::size_t count);

@@ -2,6 +2,7 @@
 
 #include "tools/common/console.hpp"
 #include "tools/common/exit_status.hpp"
+#include "tools/common/made/report_fields.hpp"
 #include "tools/common/parse_value.hpp"
 
 #include <algorithm>
@@ -98,25 +99,9 @@ std::span<const char* const> align_option_names() {
 }
 
 json align_entry(const tf::align_result& r) {
-    json freedoms = json::array();
-    for (const tf::align_freedom& one : r.freedoms)
-        freedoms.push_back(
-            {{"turn", one.turn}, {"shift", one.shift}, {"stiffness", one.stiffness}});
-    return {{"rms", r.rms},
-            {"rms_at_start", r.rms_at_start},
-            {"overlap", r.overlap},
-            {"inliers", r.inliers},
-            {"correlation", r.correlation},
-            {"uncertainty", r.uncertainty},
-            {"scale", r.scale},
-            {"converged", r.converged},
-            {"end", tf::name_of(r.end)},
-            {"iterations", r.iterations},
-            {"start", r.start},
-            {"pivot", r.pivot},
-            {"pivot_moved", r.pivot_moved},
-            {"freedoms", freedoms},
-            {"undetermined", r.undetermined()}};
+    json entry = fit_entry(r);
+    entry["undetermined"] = r.undetermined();
+    return entry;
 }
 
 std::string align_sentence(const tf::align_result& r) {

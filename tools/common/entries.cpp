@@ -1,6 +1,7 @@
 #include "tools/common/entries.hpp"
 
 #include "tools/common/console.hpp"
+#include "tools/common/made/report_fields.hpp"
 #include <treeform/tf.hpp>
 
 namespace tools {
@@ -45,27 +46,11 @@ json loss_entry(const tf::certificate& known) {
 }
 
 json steps_entry(const tf::repair_statistics& did, const tf::repair_options& steps) {
-    return {{"join", or_null(steps.join, json{{"tetrahedra", did.tetrahedra},
-                                              {"degenerate", did.degenerate},
-                                              {"repeated", did.repeated},
-                                              {"closed_edges", did.closed_edges},
-                                              {"split_edges", did.split_edges},
-                                              {"gap", did.gap},
-                                              {"widest", did.widest}})},
-            {"orient", or_null(steps.orient, json{{"flipped", did.flipped},
-                                                  {"turned", did.turned},
-                                                  {"strays", did.strays}})},
-            {"fill",
-             or_null(steps.fill && !steps.sheet,
-                     json{{"holes", did.holes}, {"edges", did.hole_edges}, {"faces", did.filled}})},
-            {"resolve", or_null(steps.resolve, json{{"pairs", did.pairs},
-                                                    {"removed", did.removed},
-                                                    {"separated_points", did.split_vertices},
-                                                    {"labeled_cells", did.labeled_cells},
-                                                    {"dropped_area", did.dropped_area},
-                                                    {"turned_area", did.turned_area}})},
-            {"detach",
-             or_null(steps.detach, json{{"moved", did.detached}, {"touching", did.touching}})}};
+    return {{"join", or_null(steps.join, join_entry(did))},
+            {"orient", or_null(steps.orient, orient_entry(did))},
+            {"fill", or_null(steps.fill && !steps.sheet, fill_entry(did))},
+            {"resolve", or_null(steps.resolve, cut_entry(did))},
+            {"detach", or_null(steps.detach, detach_entry(did))}};
 }
 
 std::string repair_summary(const tf::repair_statistics& did) {

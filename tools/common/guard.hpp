@@ -20,9 +20,10 @@ struct limits {
 /// Watches from a thread of its own. When SIGINT, SIGTERM or SIGHUP arrives or a limit is passed,
 /// `check` throws and the tool ends with `stopped`. If it has not ended within a second (where
 /// mpirun would kill it by then, sooner), or at a second signal, the guard removes the unfinished
-/// files and ends the process with `stopped`. Memory is also bounded by the system (RLIMIT_DATA), so
-/// an allocation beyond the limit fails with std::bad_alloc rather than pass it unseen. The system
-/// counts what is reserved, too: stacks of threads, which are hardly used, are allowed on top of it.
+/// files and ends the process with `stopped`. Memory is also bounded by the system (RLIMIT_DATA),
+/// so an allocation beyond the limit fails with std::bad_alloc rather than pass it unseen. The
+/// system counts what is reserved, too: stacks of threads, which are hardly used, are allowed on
+/// top of it.
 ///
 /// Make one before any other thread; threads made later inherit the blocked signals.
 class guard {

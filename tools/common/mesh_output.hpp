@@ -15,8 +15,8 @@
 
 namespace tools {
 
-/// Looks at outputs before the work, so that it is not lost in the end: `always`, and unless it is a
-/// dry run `also` and the mesh. Empty paths pass. \throws failure
+/// Looks at outputs before the work, so that it is not lost in the end: `always`, and unless it is
+/// a dry run `also` and the mesh. Empty paths pass. \throws failure
 void check_outputs(const job& work, std::initializer_list<std::filesystem::path> always,
                    std::initializer_list<std::filesystem::path> also = {});
 

@@ -30,8 +30,8 @@ std::string verdict(const json& entry) {
     return status == 1 ? "found, or not done" : entry["error"]["code"].get<std::string>();
 }
 
-/// Columns of a terminal, by the code points of UTF-8: an ideograph takes two, an accent that is put
-/// on the letter before it none.
+/// Columns of a terminal, by the code points of UTF-8: an ideograph takes two, an accent that is
+/// put on the letter before it none.
 std::size_t shown_width(const std::string& text) {
     static constexpr std::array<std::array<char32_t, 2>, 8> wide{{{0x1100, 0x115f},
                                                                   {0x2e80, 0xa4cf},

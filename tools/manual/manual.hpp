@@ -24,8 +24,8 @@ struct offered_option {
     [[nodiscard]] bool takes_folder() const { return text.value == "DIR"; }
 };
 
-/// All options that are listed, those of modes with command lines of their own, too. One that differs
-/// between them is there several times.
+/// All options that are listed, those of modes with command lines of their own, too. One that
+/// differs between them is there several times.
 [[nodiscard]] std::vector<offered_option> options_of(const command_text& command);
 
 /// Names of all modes.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""sbom.py OUT --version V --commit C [--static BUILD] [--headers BUILD]... ARTIFACT...: writes what a
-release is made of, as SPDX 2.3 in JSON.
+"""sbom.py OUT --version V --commit C [--static BUILD] [--headers BUILD]... ARTIFACT...: writes what
+a release is made of, as SPDX 2.3 in JSON.
 
 Files: each ARTIFACT, with its checksums. Packages: treeform, and each package of Debian of which a
 library is linked or a header compiled into an ARTIFACT: what the programs and libraries inside .deb
@@ -43,7 +43,8 @@ LICENSES = {
     "zlib": "Zlib",
 }
 SPDX_OF_DEBIAN = {"Apache-2.0": "Apache-2.0", "BSD-3-clause": "BSD-3-Clause", "BSL-1.0": "BSL-1.0",
-                  "Expat": "MIT", "MIT": "MIT", "Zlib": "Zlib", "zlib": "Zlib", "GPL-2+": "GPL-2.0-or-later",
+                  "Expat": "MIT", "MIT": "MIT", "Zlib": "Zlib", "zlib": "Zlib",
+                  "GPL-2+": "GPL-2.0-or-later",
                   "GPL-3+": "GPL-3.0-or-later", "LGPL-2.1+": "LGPL-2.1-or-later",
                   "LGPL-3+": "LGPL-3.0-or-later", "MPL-2.0": "MPL-2.0"}
 
@@ -63,7 +64,8 @@ def packages_of(paths):
             wanted[name] = path
     names = sorted(wanted)
     for start in range(0, len(names), 500):
-        done = subprocess.run(["dpkg-query", "-S", *names[start:start + 500]], capture_output=True, text=True)
+        done = subprocess.run(["dpkg-query", "-S", *names[start:start + 500]], capture_output=True,
+                              text=True)
         for line in done.stdout.splitlines():
             owners, _, name = line.partition(": ")
             if name in wanted and not owners.startswith("diversion"):
@@ -95,7 +97,8 @@ def unpacked(artifact, folder):
         run("dpkg-deb", "-x", str(artifact), folder)
     else:
         zipfile.ZipFile(artifact).extractall(folder)
-    return [path for path in pathlib.Path(folder).rglob("*") if path.is_file() and not path.is_symlink()]
+    return [path for path in pathlib.Path(folder).rglob("*") if path.is_file()
+            and not path.is_symlink()]
 
 
 def plain(name):
@@ -125,7 +128,8 @@ def linked_into(build):
     """Archives that the tools of a static build are linked with: ours are left out, and what a
     compiler names without being asked is put in. Highway's is made of the source of its package."""
     archives, highway = set(), False
-    programs = [line.split(":")[0] for line in run("ninja", "-C", str(build), "-t", "targets", "all").splitlines()
+    programs = [line.split(":")[0]
+                for line in run("ninja", "-C", str(build), "-t", "targets", "all").splitlines()
                 if "CXX_EXECUTABLE_LINKER" in line]
     for program in programs:
         for name in re.findall(r"\S+\.a\b", commands_of(build, program)):
@@ -186,8 +190,10 @@ class Bill:
         key = "debian-" + re.sub(r"[^A-Za-z0-9.-]", lambda match: f"-{ord(match[0])}-", name)
         if key not in self.packages:
             version, arch, source, source_version = run(
-                "dpkg-query", "-W", "-f=${Version}\\n${Architecture}\\n${source:Package}\\n${source:Version}\\n",
+                "dpkg-query", "-W",
+                "-f=${Version}\\n${Architecture}\\n${source:Package}\\n${source:Version}\\n",
                 name).splitlines()[:4]
+            encoded = version.replace("+", "%2B").replace(":", "%3A")
             self.add_package(key, {
                 "name": name, "versionInfo": version, "licenseDeclared": license_of(source, name),
                 "supplier": "Organization: Debian",
@@ -195,7 +201,7 @@ class Bill:
                 "externalRefs": [{
                     "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
                     "referenceLocator": f"pkg:deb/debian/{name.replace('+', '%2B')}"
-                                        f"@{version.replace('+', '%2B').replace(':', '%3A')}?arch={arch}"}]})
+                                        f"@{encoded}?arch={arch}"}]})
             self.relate("treeform", "DEPENDS_ON", key)
         return key
 
@@ -205,7 +211,8 @@ class Bill:
         kind = "ARCHIVE" if path.suffix in (".deb", ".gz", ".whl") else "OTHER"
         self.files.append({
             "SPDXID": f"SPDXRef-{key}", "fileName": f"./{path.name}", "fileTypes": [kind],
-            "checksums": [{"algorithm": name.upper(), "checksumValue": hashlib.new(name, content).hexdigest()}
+            "checksums": [{"algorithm": name.upper(),
+                           "checksumValue": hashlib.new(name, content).hexdigest()}
                           for name in ("sha1", "sha256")],
             "licenseConcluded": "NOASSERTION", "copyrightText": "NOASSERTION"})
         self.relate(key, "GENERATED_FROM", "treeform")
@@ -226,12 +233,14 @@ class Bill:
             "name": f"treeform-{self.version}",
             "documentNamespace": f"https://spdx.org/spdxdocs/treeform-{self.version}-{digest[:32]}",
             "creationInfo": {"created": created.strftime("%Y-%m-%dT%H:%M:%SZ"),
-                             "creators": ["Organization: treeform developers", "Tool: treeform-sbom"]},
+                             "creators": ["Organization: treeform developers",
+                                          "Tool: treeform-sbom"]},
             **content}, indent=2) + "\n"
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--version", required=True)
     parser.add_argument("--commit", required=True)
@@ -258,7 +267,8 @@ def main():
         elif options.static and artifact.name.endswith("-linux.tar.gz"):
             archives, highway = linked_into(options.static)
             owners = packages_of(archives)
-            unknown += [f"{artifact.name}: {name} is of no package" for name in archives - set(owners)]
+            unknown += [f"{artifact.name}: {name} is of no package"
+                        for name in archives - set(owners)]
             for owner in set(owners.values()) | ({"libhwy-dev"} if highway else set()):
                 bill.relate(key, "STATIC_LINK", bill.add_debian(owner))
     # What is made of headers alone is in what was compiled.

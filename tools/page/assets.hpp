@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The style sheet and the script of pages: the build makes their texts from tools/viewer/viewer.css
-/// and viewer.min.js.
+/// The style sheet and the script of pages: the build makes their texts from
+/// tools/viewer/viewer.css and viewer.min.js.
 
 #include <string_view>
 

@@ -8,8 +8,8 @@ namespace tools {
 namespace {
 
 /// A letter is paths with spaces between them; a path is points of two hexadecimal digits, x and y.
-/// Lines stand at y = 3, small letters reach 9 and capitals 12. Of a path after "~", the points pull
-/// at a curve, which is closed where they are.
+/// Lines stand at y = 3, small letters reach 9 and capitals 12. Of a path after "~", the points
+/// pull at a curve, which is closed where they are.
 constexpr std::array<const char*, 95> glyphs{
     "",                                      // space
     "0c06 0304",                             // !

@@ -73,8 +73,8 @@ struct depth_plane {
     return (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
 }
 
-/// Calls `put(sample, z)` for the samples in the triangle, its edges included. Both faces at an edge
-/// compute the same numbers for it, so there is no gap between them.
+/// Calls `put(sample, z)` for the samples in the triangle, its edges included. Both faces at an
+/// edge compute the same numbers for it, so there is no gap between them.
 template <class Put>
 void for_samples(const std::array<sample_point, 3>& t, const sample_grid& grid, const Put& put);
 

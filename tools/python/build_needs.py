@@ -1,4 +1,5 @@
-"""Whether everything is there that building takes: said before anything is compiled, with what to do."""
+"""Whether everything is there that building takes: said before anything is compiled, with what to
+do."""
 
 import importlib.util
 import os
@@ -17,7 +18,8 @@ HEADERS = {"libtbb-dev": "<tbb/parallel_for.h>", "libhwy-dev": "<hwy/highway.h>"
            "libassimp-dev": "<assimp/Importer.hpp>", "nlohmann-json3-dev": "<nlohmann/json.hpp>",
            "libpugixml-dev": "<pugixml.hpp>", "libminizip-dev": "<minizip/unzip.h>",
            "zlib1g-dev": "<zlib.h>"}
-ELSEWHERE = ("CMAKE_ARGS", "CMAKE_PREFIX_PATH", "CONDA_PREFIX")  # headers may be where CMake is told
+# headers may be where CMake is told
+ELSEWHERE = ("CMAKE_ARGS", "CMAKE_PREFIX_PATH", "CONDA_PREFIX")
 
 
 def compiler_and_headers():
@@ -65,7 +67,8 @@ def check(folder):
     packages, lacks = [*programs(), *compiler_and_headers()], of_python()
     if not packages and not lacks:
         return
-    of_debian = {"pybind11": "python3-pybind11", "wheel": "python3-wheel", "Python.h": "python3-dev",
+    of_debian = {"pybind11": "python3-pybind11", "wheel": "python3-wheel",
+                 "Python.h": "python3-dev",
                  "numpy": "python3-numpy"}
     said = ["treeform cannot be built yet."]
     if lacks:
@@ -74,7 +77,8 @@ def check(folder):
         said.append(f"Not installed: {', '.join(packages)}.")
     of_other = {"python3-setuptools", "python3-venv"} if lacks else set()
     names = sorted({*packages, *(of_debian[name] for name in lacks)} | of_other)
-    said += ["On Debian 12, as root:", f"    apt-get install {' '.join(n.split()[0] for n in names)}"]
+    said += ["On Debian 12, as root:",
+             f"    apt-get install {' '.join(n.split()[0] for n in names)}"]
     if lacks:
         said += ["With Debian's Python, which has them then, in an environment of its own:",
                  "    /usr/bin/python3 -m venv --system-site-packages venv",

@@ -1,4 +1,5 @@
-"""The licenses of what is put beside the extension and of what is compiled into it, as Debian has them."""
+"""The licenses of what is put beside the extension and of what is compiled into it, as Debian has
+them."""
 
 import importlib.metadata
 import pathlib
@@ -13,7 +14,8 @@ COMMON = re.compile(r"/usr/share/common-licenses/([\w.-]*\w)")
 
 
 def copyright_of(path):
-    """Where the package that `path` is of says under what license it is; None if no package has it."""
+    """Where the package that `path` is of says under what license it is; None if no package has
+    it."""
     path = pathlib.Path(path)
     real = path.resolve()
     # Of a folder that is a link to another one, packages may name either.
@@ -39,8 +41,8 @@ def of_distribution(name):
 
 
 def collect(libraries, folder):
-    """Writes the license of each of `libraries`, paths by name, as NAME.txt into `folder`; with those
-    that are compiled in, and texts that are only named in them. Says which are not found."""
+    """Writes the license of each of `libraries`, paths by name, as NAME.txt into `folder`; with
+    those that are compiled in, and texts that are only named in them. Says which are not found."""
     folder.mkdir(parents=True, exist_ok=True)
     found = {name: copyright_of(path) for name, path in (libraries | COMPILED_IN).items()}
     import pybind11

@@ -1,6 +1,6 @@
 """Builds the extension by CMake, from the tree around this folder or from the sources that a source
-distribution carries in native/; puts the libraries that it needs beside it, where patchelf is there,
-with their licenses.
+distribution carries in native/; puts the libraries that it needs beside it, where patchelf is
+there, with their licenses.
 
 Where the tree has been built (build/release, by tools/quickstart.sh or tests/run.sh), only the
 extension is compiled. Options for CMake: the environment variable CMAKE_ARGS, such as
@@ -80,7 +80,8 @@ def is_on(value):
 
 
 def built_tree():
-    """The folder of the tree where the libraries are, as they are wanted here; None if there is none."""
+    """The folder of the tree where the libraries are, as they are wanted here; None if there is
+    none."""
     build = TREE / "build/release"
     told = cache_of(build)
     asked_for = any(os.environ.get(name) for name in ("CMAKE_ARGS", "CXX", "CXXFLAGS", "LDFLAGS"))
@@ -96,7 +97,8 @@ def built_tree():
 
 def configure(build, *options):
     subprocess.run(["cmake", "-S", str(TREE), "-B", str(build), *options,
-                    "-DTREEFORM_BUILD_PYTHON=ON", f"-DTREEFORM_PYTHON={sys.executable}"], check=True)
+                    "-DTREEFORM_BUILD_PYTHON=ON", f"-DTREEFORM_PYTHON={sys.executable}"],
+                   check=True)
 
 
 def compile_extension(build):

@@ -37,8 +37,8 @@ bool y_is_up_in(const json& entry) {
     });
 }
 
-/// Paths of the job that have folders, and what to say instead: the name of the file, where no other
-/// one has it. Long ones come first.
+/// Paths of the job that have folders, and what to say instead: the name of the file, where no
+/// other one has it. Long ones come first.
 std::vector<std::array<std::string, 2>> file_names_of(const job& work) {
     std::map<std::string, std::set<std::string>> paths_of;
     for (const auto* list : {&work.options.inputs, &work.options.also_read})

@@ -34,8 +34,8 @@ struct meetings {
 };
 [[nodiscard]] meetings meetings_of(job& work, const std::vector<solid>& solids);
 
-/// Page and picture, where they are asked for: the result by the inputs that its faces come from, or the
-/// inputs alone and where they are open.
+/// Page and picture, where they are asked for: the result by the inputs that its faces come from,
+/// or the inputs alone and where they are open.
 void write_page(job& work, const std::vector<solid>& solids, const std::string& verdict, bool good,
                 const tf::boolean_result* made = nullptr);
 

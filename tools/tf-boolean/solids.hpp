@@ -38,7 +38,8 @@ struct solid {
 }
 
 /// Reads and moves all inputs, takes the parts that the formula names, or the objects of an input
-/// that stands alone, and mends what is to be mended; enters all that in the report. \throws failure
+/// that stands alone, and mends what is to be mended; enters all that in the report. \throws
+/// failure
 [[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
 
 [[nodiscard]] std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids);

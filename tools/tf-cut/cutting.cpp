@@ -77,15 +77,7 @@ std::string volume_in_words(const std::optional<double>& volume) {
 
 /// "the mesh is between heights 0 and 1", along the normal.
 std::string heights_in_words(const cut_settings& s, const usable_input& input) {
-    const tf::point3 n = s.plane.frame().normal, at = s.plane.at;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const auto& corners : input.file.mesh.faces)
-        for (const std::uint32_t corner : corners) {
-            const tf::point3& p = input.file.mesh.points[corner];
-            const double height = n.x * (p.x - at.x) + n.y * (p.y - at.y) + n.z * (p.z - at.z);
-            low = std::min(low, height);
-            high = std::max(high, height);
-        }
+    const auto [low, high] = range_of(input, heights_of(s, input));
     return "the mesh is between heights " + brief(low) + " and " + brief(high);
 }
 
@@ -113,6 +105,20 @@ void warn_of_missing(job& work, const cut_settings& s, const usable_input& input
 std::optional<double> volume_of(const tf::mesh& mesh) {
     if (tf::find_open_edge(tf::join_equal_points(mesh))) return {};
     return tf::signed_volume(mesh);
+}
+
+cut_off cut_off_of(tf::mesh&& mesh, std::vector<std::uint32_t>&& face_source,
+                   std::vector<std::uint32_t>&& vertex_source, tf::certificate&& known) {
+    cut_off made;
+    made.face_source = std::move(face_source);
+    made.vertex_source = std::move(vertex_source);
+    made.face_source.resize(mesh.faces.size(), tf::operand_element::none);
+    made.vertex_source.resize(mesh.points.size(), tf::operand_element::none);
+    made.volume = volume_of(mesh);
+    made.area = tf::surface_area(mesh);
+    made.mesh = std::move(mesh);
+    made.certificate = std::move(known);
+    return made;
 }
 
 std::string unit_of(const job& work, const tf::mesh_file& file) {

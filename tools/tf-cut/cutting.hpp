@@ -118,11 +118,23 @@ struct cut_off {
     std::vector<std::uint32_t> face_source{};
     std::vector<std::uint32_t> vertex_source{};
     std::vector<std::uint32_t> face_of_new_vertex{};  ///< of `simplify`
+    std::vector<std::uint32_t> corner_source{};       ///< likewise
     std::vector<std::uint32_t> cap{};                 ///< as `cut_piece::cap`; empty of parts
     std::optional<double> volume{};                   ///< none of an open surface
     double area = 0.0;
     tf::certificate certificate{};
 };
+
+/// With its volume and area; of what is not from the input, sources are empty.
+[[nodiscard]] cut_off cut_off_of(tf::mesh&& mesh, std::vector<std::uint32_t>&& face_source,
+                                 std::vector<std::uint32_t>&& vertex_source,
+                                 tf::certificate&& known);
+
+/// Of each vertex, along the normal above the plane.
+[[nodiscard]] std::vector<double> heights_of(const cut_settings& s, const usable_input& input);
+/// The least and greatest value of a corner.
+[[nodiscard]] std::array<double, 2> range_of(const usable_input& input,
+                                             const std::vector<double>& values);
 
 /// Keys of a report for which nothing has been done yet.
 void enter_blank_report(job& work, const cut_settings& s, const usable_input& input);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace tools {
@@ -39,12 +40,7 @@ vertex_values values_of(job& work, const cut_settings& s, const usable_input& in
     const std::vector<tf::point3>& points = input.file.mesh.points;
     vertex_values values;
     if (s.lines.value == "distance") return distances_of(work, s, input);
-    if (s.lines.value == "height") {
-        const tf::point3 n = s.plane.frame().normal, at = s.plane.at;
-        for (const tf::point3& p : points)
-            values.of.push_back(n.x * (p.x - at.x) + n.y * (p.y - at.y) + n.z * (p.z - at.z));
-        return values;
-    }
+    if (s.lines.value == "height") return {heights_of(s, input)};
     const tf::element* vertices = input.file.attributes.find("vertex");
     const tf::column* column = vertices == nullptr ? nullptr : vertices->find(s.lines.value);
     if (column == nullptr || column->role != tf::column_role::data || column->list_length ||
@@ -60,16 +56,6 @@ vertex_values values_of(job& work, const cut_settings& s, const usable_input& in
     return values;
 }
 
-/// The least and greatest value of a corner.
-std::array<double, 2> range_of(const usable_input& input, const std::vector<double>& values) {
-    std::array range{std::numeric_limits<double>::infinity(),
-                     -std::numeric_limits<double>::infinity()};
-    for (const tf::face& f : input.file.mesh.faces)
-        for (const std::uint32_t v : f)
-            range = {std::min(range[0], values[v]), std::max(range[1], values[v])};
-    return range;
-}
-
 /// As given, or so many, equally far apart within the range.
 std::vector<double> levels_of(const cut_settings& s, const std::array<double, 2>& range) {
     std::vector<double> levels = s.lines.levels;
@@ -79,27 +65,29 @@ std::vector<double> levels_of(const cut_settings& s, const std::array<double, 2>
     return levels;
 }
 
-drawn_lines drawn(const tf::section_result& section) {
+/// Adds the sides of a line; `at` says where each of its points is.
+template <class At>
+void add_sides(drawn_lines& lines, std::size_t count, bool closed, const At& at) {
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < count; ++i)
+        lines.sides.push_back({at(i), at((i + 1) % count)});
+}
+
+drawn_lines drawn(const tf::section_result& made) {
     drawn_lines lines{"loops"};
-    for (const tf::section_layer& layer : section.layers)
-        for (std::uint32_t l = 0; l < layer.loop_count; ++l) {
-            const tf::section_loop& loop = section.loops[layer.first_loop + l];
-            for (std::size_t i = 0; i + (loop.closed ? 0 : 1) < loop.point_count; ++i) {
-                const std::size_t next = (i + 1) % loop.point_count;
-                lines.sides.push_back(
-                    {section.in_space(layer, section.points[loop.first_point + i]),
-                     section.in_space(layer, section.points[loop.first_point + next])});
-            }
-        }
+    for (const tf::section_layer& layer : made.layers)
+        for (const tf::section_loop& loop :
+             std::span(made.loops).subspan(layer.first_loop, layer.loop_count))
+            add_sides(lines, loop.point_count, loop.closed, [&](std::size_t i) {
+                return made.in_space(layer, made.points[loop.first_point + i]);
+            });
     return lines;
 }
 
 drawn_lines drawn(const tf::isolines_result& made) {
     drawn_lines lines{"isolines"};
     for (const tf::isoline& line : made.lines)
-        for (std::size_t i = 0; i + (line.closed ? 0 : 1) < line.point_count; ++i)
-            lines.sides.push_back({made.points[line.first_point + i],
-                                   made.points[line.first_point + (i + 1) % line.point_count]});
+        add_sides(lines, line.point_count, line.closed,
+                  [&](std::size_t i) { return made.points[line.first_point + i]; });
     return lines;
 }
 
@@ -173,6 +161,23 @@ void say_isolines(job& work, const cut_settings& s, const vertex_values& values,
 }
 
 }  // namespace
+
+std::vector<double> heights_of(const cut_settings& s, const usable_input& input) {
+    const tf::point3 n = s.plane.frame().normal, at = s.plane.at;
+    std::vector<double> heights;
+    for (const tf::point3& p : input.file.mesh.points)
+        heights.push_back(n.x * (p.x - at.x) + n.y * (p.y - at.y) + n.z * (p.z - at.z));
+    return heights;
+}
+
+std::array<double, 2> range_of(const usable_input& input, const std::vector<double>& values) {
+    std::array range{std::numeric_limits<double>::infinity(),
+                     -std::numeric_limits<double>::infinity()};
+    for (const tf::face& f : input.file.mesh.faces)
+        for (const std::uint32_t v : f)
+            range = {std::min(range[0], values[v]), std::max(range[1], values[v])};
+    return range;
+}
 
 std::string lines_format(const std::filesystem::path& path) {
     return path == "-" ? "json" : extension_of(path);

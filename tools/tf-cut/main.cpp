@@ -31,15 +31,10 @@ std::vector<cut_off> parts_of(const usable_input& input, const cut_settings& s) 
     tf::components_options options{.min_volume = s.parts.min_volume};
     if (s.parts.largest > 0) options.largest = s.parts.largest;
     std::vector<cut_off> parts;
-    for (tf::mesh_part& part : tf::components(input.file.mesh, options)) {
-        cut_off& one = parts.emplace_back();
-        one.mesh = std::move(part.mesh);
-        one.face_source = std::move(part.face_source);
-        one.vertex_source = std::move(part.vertex_source);
-        one.volume = tools::volume_of(one.mesh);
-        one.area = part.area;
-        one.certificate.precision = input.file.stored_as;
-    }
+    for (tf::mesh_part& part : tf::components(input.file.mesh, options))
+        parts.push_back(tools::cut_off_of(std::move(part.mesh), std::move(part.face_source),
+                                          std::move(part.vertex_source),
+                                          {.precision = input.file.stored_as}));
     return parts;
 }
 
@@ -49,14 +44,10 @@ std::vector<cut_off> pieces_of(tf::cut_result&& made, const cut_settings& s) {
         if (s.keeps_one() && (i == 0) != (s.keep == tools::kept_half::below)) continue;
         tf::cut_piece& piece = made.pieces[i];
         if (piece.mesh.faces.empty() && !s.keeps_one()) continue;
-        cut_off& one = pieces.emplace_back();
-        one.volume = s.open ? tools::volume_of(piece.mesh) : tf::signed_volume(piece.mesh);
-        one.area = tf::surface_area(piece.mesh);
-        one.mesh = std::move(piece.mesh);
-        one.face_source = std::move(piece.face_source);
-        one.vertex_source = std::move(piece.vertex_source);
+        cut_off& one = pieces.emplace_back(
+            tools::cut_off_of(std::move(piece.mesh), std::move(piece.face_source),
+                              std::move(piece.vertex_source), std::move(piece.certificate)));
         one.cap = std::move(piece.cap);
-        one.certificate = std::move(piece.certificate);
     }
     return pieces;
 }

@@ -37,7 +37,8 @@ bool has_objects(const std::string& format) {
 tf::mesh_file carried(const cut_settings& s, const usable_input& input, cut_off&& piece) {
     tf::mesh_file file = file_of(std::move(piece.mesh), piece.certificate);
     tf::carry_sources(input.source())
-        .carry(file, piece.face_source, piece.vertex_source, piece.face_of_new_vertex);
+        .carry(file, piece.face_source, piece.vertex_source, piece.face_of_new_vertex,
+               piece.corner_source);
     input.source().texture_caps(file, piece.cap);
     if (!s.caps.empty()) {
         std::vector<std::int32_t> cap(piece.cap.begin(), piece.cap.end());  // none is -1

@@ -21,14 +21,15 @@ std::vector<std::string> both(std::vector<std::string> a, const std::vector<std:
 
 void add_shape_modes(command_line& line) {
     const std::vector<std::string> without = both(of_planes, {"--max-move"});
-    line.mode({.names = "simplify",
-               .text = "fewer faces, both surfaces within a distance, proven",
-               .usage = "simplify --distance D [OPTIONS] INPUT...",
-               .more = "No faces are made to meet. Borders, also of materials and values, are\n"
-                       "kept; values of vertices are interpolated.\n\nExamples:\n"
-                       "  $ tf-cut simplify data/sphere.ply --distance 0.01 -o fewer.ply\n"
-                       "  data/sphere.ply: 1 piece: 458 faces, volume 4.12809\n",
-               .without = without});
+    line.mode(
+        {.names = "simplify",
+         .text = "fewer faces, both surfaces within a distance, proven",
+         .usage = "simplify --distance D [OPTIONS] INPUT...",
+         .more = "No faces are made to meet. Borders and seams, also of materials and\n"
+                 "values, are kept; values of vertices and corners are interpolated.\n\nExamples:\n"
+                 "  $ tf-cut simplify data/sphere.ply --distance 0.01 -o fewer.ply\n"
+                 "  data/sphere.ply: 1 piece: 458 faces, volume 4.12809\n",
+         .without = without});
     line.mode(
         {.names = "offset",
          .text = "the solid grown by a distance, or shrunk by -D",

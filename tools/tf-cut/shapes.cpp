@@ -10,29 +10,6 @@
 namespace tools {
 namespace {
 
-cut_off as_piece(tf::mesh&& mesh, tf::certificate&& known) {
-    cut_off piece;
-    piece.face_source.assign(mesh.faces.size(), tf::operand_element::none);
-    piece.vertex_source.assign(mesh.points.size(), tf::operand_element::none);
-    piece.volume = volume_of(mesh);
-    piece.area = tf::surface_area(mesh);
-    piece.mesh = std::move(mesh);
-    piece.certificate = std::move(known);
-    return piece;
-}
-
-/// Groups of faces whose borders are kept: of one material, with one value in each property. Values
-/// of corners are left out, which is said.
-std::vector<std::uint32_t> groups_of(job& work, const usable_input& input) {
-    tf::carry_source source = input.source();
-    tf::mesh_file plain = *source.file;
-    if (plain.attributes.corners != tf::corner_values{})
-        work.warn("attributes", "texture coordinates and normals of corners are not carried over");
-    plain.attributes.corners = {};
-    source.file = &plain;
-    return tf::carry_sources(source).face_groups(true, false);
-}
-
 json distances_entry(const cut_settings& s, double used, double resolution, double least,
                      double greatest) {
     return {{"given", s.shape.distance.given},
@@ -62,19 +39,19 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
     const tf::mesh& mesh = input.file.mesh;
     const double distance = s.shape.distance.used(diagonal_of(input));
     if (s.mode == cut_mode::simplify) {
-        const std::vector<std::uint32_t> groups = groups_of(work, input);
+        const std::vector<std::uint32_t> groups = tf::carry_sources(input.source()).corner_groups();
         tf::simplify_result made = tf::simplify(mesh, distance,
                                                 {.precision = precision,
                                                  .target_faces = s.shape.fewest_faces,
-                                                 .face_groups = groups,
+                                                 .corner_groups = groups,
                                                  .progress = work.progress("simplify")});
         work.call_ended(made.certificate.status == tf::status::cancelled);
         work.entry["distances"] =
             distances_entry(s, distance, 0.0, 0.0, std::max(made.there_at_most, made.back_at_most));
-        cut_off piece = as_piece(std::move(made.mesh), std::move(made.certificate));
-        piece.face_source = std::move(made.face_source);
-        piece.vertex_source = std::move(made.vertex_source);
+        cut_off piece = cut_off_of(std::move(made.mesh), std::move(made.face_source),
+                                   std::move(made.vertex_source), std::move(made.certificate));
         piece.face_of_new_vertex = std::move(made.face_of_new_vertex);
+        piece.corner_source = std::move(made.corner_source);
         return piece;
     }
     const tf::offset_options options{.resolution = s.shape.resolution,
@@ -88,7 +65,7 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
     work.entry["distances"] = distances_entry(s, distance, made.statistics.resolution,
                                               made.statistics.least, made.statistics.greatest);
     if (s.mode == cut_mode::hollow && made.certificate) say_drains(work, s, made);
-    return as_piece(std::move(made.mesh), std::move(made.certificate));
+    return cut_off_of(std::move(made.mesh), {}, {}, std::move(made.certificate));
 }
 
 }  // namespace tools

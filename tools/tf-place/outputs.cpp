@@ -66,7 +66,8 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     if (!fixed.files.empty() && settings.mode != place_mode::fit &&
         (form.format == "ply" || form.format == "glb")) {
         const auto classes = tf::contact_classes::of(moving.shapes[0], fixed.shapes, met);
-        // What has been moved stays what it is, with its polygons, and its colors where it has some.
+        // What has been moved stays what it is, with its polygons, and its colors where it has
+        // some.
         tf::contact_classes::color(
             file, scene ? classes.in_files(moving, fixed) : classes.in_files(moving),
             {.split_polygons = picture && !scene,

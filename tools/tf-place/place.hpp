@@ -101,8 +101,8 @@ void enter_place(json& entry, const placing& p);
 /// Says that, and what -v adds to it.
 void say_place(job& work, const placing& p);
 
-/// Page and picture, where they are asked for: MOVING where it is and was, what it meets, and how far it is
-/// from that: `known`, where that was asked for.
+/// Page and picture, where they are asked for: MOVING where it is and was, what it meets, and how
+/// far it is from that: `known`, where that was asked for.
 void write_page(job& work, const placing& p, const tf::deviation_result* known = nullptr);
 /// The page of plates and parts.
 void write_page(job& work, const place_settings& settings, const tf::body_set& parts,

@@ -55,8 +55,8 @@ void enter_repair(job& work, const dirty_mesh& input, const repair_settings& set
 /// Whether what these settings make is written.
 using attempt = std::function<bool(const repair_settings&)>;
 
-/// Why the result is not to be written, with what helps against it, tried where it is no wrap; empty
-/// when it is.
+/// Why the result is not to be written, with what helps against it, tried where it is no wrap;
+/// empty when it is.
 [[nodiscard]] std::string objection(const repair_settings& settings, const tf::repaired_file& made,
                                     const attempt& works);
 
@@ -67,9 +67,9 @@ void warn_of_surprises(job& work, const repair_settings& settings, const tf::rep
 void write_solid(job& work, const dirty_mesh& input, const repair_settings& settings,
                  tf::repaired_file& made, const std::filesystem::path& path);
 
-/// Page and picture, where they are asked for: before and after with what became of each face, or the input
-/// alone where nothing was `made`. `face_source` and `is_left` are as in `repaired_file`; a wrap has
-/// nothing left of any face.
+/// Page and picture, where they are asked for: before and after with what became of each face, or
+/// the input alone where nothing was `made`. `face_source` and `is_left` are as in `repaired_file`;
+/// a wrap has nothing left of any face.
 void write_page(job& work, const dirty_mesh& input, const std::string& verdict, bool good,
                 const tf::mesh& made = {}, const std::vector<std::uint32_t>& face_source = {},
                 const std::vector<std::uint8_t>& is_left = {});

@@ -17,8 +17,8 @@ namespace tools {
 /// Does this process's share of a search by many: makes the tiles, or searches one. \throws failure
 void share_search(job& work, const search_settings& settings, const tile_options& tiles);
 
-/// What `search` finds, but of the mesh only the faces that meet others. Enters in `work.entry` what
-/// reading a file does. \throws failure
+/// What `search` finds, but of the mesh only the faces that meet others. Enters in `work.entry`
+/// what reading a file does. \throws failure
 [[nodiscard]] findings search_in_tiles(job& work, const search_settings& settings,
                                        const tile_options& tiles,
                                        const std::filesystem::path& folder);

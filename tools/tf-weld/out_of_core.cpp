@@ -60,7 +60,8 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     return {};
 }
 
-/// None for what is no cloud that can be read by blocks. \throws tf::io_error where it cannot be read
+/// None for what is no cloud that can be read by blocks. \throws tf::io_error where it cannot be
+/// read
 std::optional<tf::cloud_outline> cloud_at(const tf::cloud_inputs& inputs,
                                           const tf::communicator& ranks) {
     try {

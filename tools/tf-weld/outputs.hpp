@@ -55,8 +55,8 @@ void write_map(output_file& file, const welding& w, bool as_csv);
 void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& file, const welding& w,
                    const std::filesystem::path& path);
 
-/// Page and picture, where they are asked for: points by the sizes of their groups, where the dropped ones
-/// went, and how far points are apart.
+/// Page and picture, where they are asked for: points by the sizes of their groups, where the
+/// dropped ones went, and how far points are apart.
 void write_page(job& work, const tf::mesh_file& file, const welding& w,
                 const weld_request& request);
 

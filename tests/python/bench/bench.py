@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""bench.py [--cpu] [WORD...]: what a call costs, whether meshes are copied, how soon Ctrl-C stops, and times
-beside SciPy, Open3D and VTK where they are installed. With words, only the parts whose names have one: copies,
-calls, stops, points, open3d, vtk.
+"""bench.py [--cpu] [WORD...]: what a call costs, whether meshes are copied, how soon Ctrl-C stops,
+and times beside SciPy, Open3D and VTK where they are installed. With words, only the parts whose
+names have one: copies, calls, stops, points, open3d, vtk.
 
-Medians of three runs, one library after the other in each round; of calls, the least. PYTHONPATH names the package."""
+Medians of three runs, one library after the other in each round; of calls, the least. PYTHONPATH
+names the package."""
 
 import os
 import resource
@@ -89,7 +90,8 @@ def calls():
         print(f"  {name}: {each(run):.1f}")
     from treeform import _core
     little, more = _core.HeldMesh(np.zeros((1000, 3))), _core.HeldMesh(np.zeros((4200, 3)))
-    print(f"  bounds of 1000 points, on the calling thread: {each(lambda: _core.bounds(little)):.1f}")
+    print(f"  bounds of 1000 points, on the calling thread: "
+          f"{each(lambda: _core.bounds(little)):.1f}")
     print(f"  bounds of 4200 points, by a helper thread: {each(lambda: _core.bounds(more)):.1f}")
 
 

@@ -20,7 +20,8 @@ IDENTITY = np.eye(4)
 
 def add(kind="cube", name="", scale=(1, 1, 1), **where):
     """A new object, the only one selected."""
-    getattr(bpy.ops.mesh, f"primitive_{kind}_add")(**({"size": 1} if kind == "cube" else {}), **where)
+    getattr(bpy.ops.mesh, f"primitive_{kind}_add")(**({"size": 1} if kind == "cube" else {}),
+                                                   **where)
     bpy.context.object.name = name or bpy.context.object.name
     bpy.context.object.scale = scale
     bpy.context.view_layer.update()
@@ -149,14 +150,17 @@ class Booleans(Case):
 
     def test_turned_spheres_are_certified_in_float32(self):
         for operation in ("union", "difference", "intersection"):
-            a = add("ico_sphere", subdivisions=3, rotation=(0.1, 0.2, 0.3), location=(100.1, 7.3, 0))
+            a = add("ico_sphere", subdivisions=3, rotation=(0.1, 0.2, 0.3),
+                    location=(100.1, 7.3, 0))
             b = add("ico_sphere", subdivisions=3, rotation=(1, 2, 3), location=(100.7, 7.4, 0.2))
-            c = add("uv_sphere", rotation=(0.3, 2, 1), location=(100.1, 7.9, 0), scale=(1.1, 0.7, 0.9))
+            c = add("uv_sphere", rotation=(0.3, 2, 1), location=(100.1, 7.9, 0),
+                    scale=(1.1, 0.7, 0.9))
             combined(operation, a, b, c)
             self.assertGreater(self.assert_certified(a).volume, 0.1)
 
     def test_coordinates_of_the_active_object_stay_bit_for_bit(self):
-        a, b = add("ico_sphere", rotation=(1, 2, 3), location=(0.1, 0.2, 0.3)), add(location=(1, 1, 1))
+        a, b = add("ico_sphere", rotation=(1, 2, 3),
+                   location=(0.1, 0.2, 0.3)), add(location=(1, 1, 1))
         before = set(state(a)[0])
         combined("union", a, b)
         self.assertGreater(len(before & set(state(a)[0])), 0.7 * len(before))
@@ -315,7 +319,8 @@ class KeptThings(Case):
         self.assertGreater(sum(len(one.vertices) == 4 for one in a.data.polygons), 400)
 
     def test_the_triangles_that_are_stored_are_those_that_were_checked(self):
-        """Also where Blender cuts polygons otherwise: a side turned over, quads that are not flat."""
+        """Also where Blender cuts polygons otherwise: a side turned over, quads that are not
+        flat."""
         rng = np.random.default_rng(1)
         a, b = add(scale=(4, 4, 4)), add("cylinder", vertices=64, depth=1, rotation=(1, 2, 3))
         c, d = add(location=(0.2, 0.1, 1)), add("uv_sphere", segments=24, ring_count=12)
@@ -326,11 +331,14 @@ class KeptThings(Case):
         for operation, active, other, quads in (("difference", a, b, 70), ("union", c, d, 150)):
             made = addon.combine(bpy.context, operation, active, [other])
             stored = self.assert_certified(active)
-            self.assertEqual((bool(made.certificate), made.certificate.precision), (True, "float32"))
+            self.assertEqual((bool(made.certificate), made.certificate.precision),
+                             (True, "float32"))
             np.testing.assert_array_equal(stored.vertices, made.vertices)
-            self.assertEqual(*({min((x, y, z), (y, z, x), (z, x, y)) for x, y, z in one.faces.tolist()}
+            self.assertEqual(*({min((x, y, z), (y, z, x), (z, x, y)) for x, y,
+                                z in one.faces.tolist()}
                                for one in (stored, made)))
-            self.assertGreaterEqual(sum(len(one.vertices) == 4 for one in active.data.polygons), quads)
+            self.assertGreaterEqual(sum(len(one.vertices) == 4 for one in active.data.polygons),
+                                    quads)
 
     def test_layers_are_matched_by_name(self):
         a, b = add(), add(location=(0.5, 0.5, 0.5))
@@ -371,7 +379,8 @@ class Checks(Case):
         for one in a.data.polygons:
             up = sum(one.normal) > 0
             self.assertEqual(one.select, up == (one.index < 6))
-        loops = {a.data.loops[k].vertex_index for p in chosen for k in a.data.polygons[p].loop_indices}
+        loops = {a.data.loops[k].vertex_index for p in chosen
+                 for k in a.data.polygons[p].loop_indices}
         self.assertEqual({one.index for one in a.data.vertices if one.select}, loops)
 
     def test_in_edit_mode(self):
@@ -411,7 +420,8 @@ class Checks(Case):
     def test_what_is_refused(self):
         a = add()
         a.data.vertices[3].co.y = float("nan")
-        self.refused(f"{a.name}: vertex 3 is not at a finite place", bpy.ops.object.treeform_check, a)
+        self.refused(f"{a.name}: vertex 3 is not at a finite place", bpy.ops.object.treeform_check,
+                     a)
 
 
 class Repairs(Case):

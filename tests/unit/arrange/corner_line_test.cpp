@@ -28,8 +28,8 @@ tf::point3 whole(test::random& source, std::size_t most) {
     return {one(), one(), one()};
 }
 
-/// The line of the header for an s that is small, but not smaller than any number. Corners are whole
-/// numbers to 3: what is not 0 is 1 at least, times s^2 where it decides.
+/// The line of the header for an s that is small, but not smaller than any number. Corners are
+/// whole numbers to 3: what is not 0 is 1 at least, times s^2 where it decides.
 tf::point3 on_line(const tf::triangle3& t) {
     constexpr double s = 0x1p-9;
     tf::point3 p;

@@ -17,8 +17,8 @@
 
 namespace {
 
-/// A ball, with some corners moved: where it is higher than `height`, by rounding errors, so that two
-/// of them all but lie on each other there; else to where others are not.
+/// A ball, with some corners moved: where it is higher than `height`, by rounding errors, so that
+/// two of them all but lie on each other there; else to where others are not.
 tf::mesh all_but_same(double height, double rest, test::random& source) {
     tf::mesh result = test::ball(4, 1.0);
     for (tf::point3& p : result.points) {

@@ -63,7 +63,8 @@ TEST_CASE("face samples: faces that lie half in another solid are not hidden") {
 }
 
 TEST_CASE("face samples: hidden faces count for what it costs to cut them") {
-    // Pins through a plate: half of all faces are their ends, out of it, where nothing is near them.
+    // Pins through a plate: half of all faces are their ends, out of it, where nothing is near
+    // them.
     std::vector<tf::mesh> drilled{box(8, 8, 0.5)};
     for (int i = 0; i < 64; ++i)
         drilled.push_back(moved(test::prism(32, 0.3, 1.0), {i % 8 + 0.5, i / 8 + 0.5, -0.25}));

@@ -43,7 +43,8 @@ tf::aabb<double, 3> box_of(const tf::mesh& mesh, const tf::transform<3>& move) {
     return box;
 }
 
-/// Puts the box of moved `b` beside that of moved `a` along an axis, so that they touch or nearly do.
+/// Puts the box of moved `b` beside that of moved `a` along an axis, so that they touch or nearly
+/// do.
 void lay_beside(const tf::mesh& a, const tf::mesh& b, std::size_t axis,
                 tf::mesh_positions& positions) {
     const double end = box_of(a, positions.move_a).max[axis];

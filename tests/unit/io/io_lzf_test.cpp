@@ -1,6 +1,6 @@
 /// \file
-/// Packed bytes by blocks, and unpacked by several one after the other. What one packs and unpacks is
-/// tested with the files that are packed so.
+/// Packed bytes by blocks, and unpacked by several one after the other. What one packs and unpacks
+/// is tested with the files that are packed so.
 
 #include <libmesh/io/lzf.hpp>
 

@@ -1,6 +1,6 @@
 /// \file
-/// Texts of points that many look at, each at the lines that begin in its part, and that are then read
-/// from any point on.
+/// Texts of points that many look at, each at the lines that begin in its part, and that are then
+/// read from any point on.
 
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/record_index.hpp>

@@ -1,6 +1,6 @@
 /// \file
-/// Solids grown, shrunk, hollowed, and surfaces made thick: certified, at their distance, on the right
-/// side, in volumes that are known.
+/// Solids grown, shrunk, hollowed, and surfaces made thick: certified, at their distance, on the
+/// right side, in volumes that are known.
 
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/cut.hpp>

@@ -247,7 +247,8 @@ TEST_CASE("repair: slivers go with faces that have no area, and stay where there
 }
 
 TEST_CASE("repair: a part inside another is no loss where its corner is moved away") {
-    // The edge where two cubes touch is moved apart, and the small one is left with a corner outside.
+    // The edge where two cubes touch is moved apart, and the small one is left with a corner
+    // outside.
     const tf::mesh cubes =
         test::together(test::box(1, 1, 1), test::moved(test::box(1, 1, 1), {-1, -1, 0}));
     const tf::mesh all = test::together(cubes, test::box(0.5, 0.5, 0.5));

@@ -48,7 +48,8 @@ long double distance_to(const long_point& from, const long_point& to, const long
     return apart(p, foot);
 }
 
-/// Distance of a point from a triangle: the least of those from segments across it, a convex function.
+/// Distance of a point from a triangle: the least of those from segments across it, a convex
+/// function.
 long double distance_to(const tf::triangle3& t, const long_point& p) {
     const auto at = [&](long double a) {
         return distance_to(point_at(t, a, 0), point_at(t, a, 1 - a), p);

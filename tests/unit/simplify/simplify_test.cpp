@@ -88,8 +88,8 @@ tf::point3 between(const tf::point3& p, const tf::point3& q, double share) {
     return {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)};
 }
 
-/// From a point to the nearest of 15 of each face of a mesh, and half the way between these: no less
-/// than its distance, by a way that has nothing in common with the library.
+/// From a point to the nearest of 15 of each face of a mesh, and half the way between these: no
+/// less than its distance, by a way that has nothing in common with the library.
 class sampled_surface {
   public:
     explicit sampled_surface(const tf::mesh& mesh) {

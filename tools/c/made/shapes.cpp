@@ -57,6 +57,8 @@ tf::simplify_options glue::read(const treeform_simplify_options& o) {
     how.feature_angle = o.feature_angle;
     how.face_groups = array(o.face_groups, o.face_group_count, "face_groups");
 
+    how.corner_groups = array(o.corner_groups, o.corner_group_count, "corner_groups");
+
     how.progress = progress(o);
 
     return how;
@@ -76,6 +78,7 @@ void glue::fill(keeper& kept, const tf::simplify_result& from, treeform_simplify
     to.face_source = or_null(from.face_source);
     to.vertex_source = or_null(from.vertex_source);
     to.face_of_new_vertex = or_null(from.face_of_new_vertex);
+    to.corner_source = or_null(from.corner_source);
     to.collapses = from.collapses;
     to.refused_by_topology = from.refused_by_topology;
     to.refused_by_turning = from.refused_by_turning;

@@ -13,7 +13,8 @@ required_conan_version = ">=2.0"
 
 class Treeform(ConanFile):
     name = "treeform"
-    description = "Exact, fast tools for triangle meshes: self-intersections, solids, welding, placement"
+    description = ("Exact, fast tools for triangle meshes: self-intersections, solids, welding, "
+                   "placement")
     license = "Apache-2.0"
     topics = ("mesh", "geometry", "boolean", "self-intersection", "3d")
     package_type = "library"

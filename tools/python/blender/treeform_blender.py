@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exact booleans, self-intersection check and repair in Blender, by the Python package treeform.
 
-Blender's coordinates are float32, so results are asked for in float32: what has been checked is what
-is stored. See README.md."""
+Blender's coordinates are float32, so results are asked for in float32: what has been checked is
+what is stored. See README.md."""
 
 import textwrap
 from contextlib import contextmanager
@@ -102,8 +102,8 @@ def materials_of(object):
 # ---- what results keep of their operands ----
 
 def weights_in_source(corners, triangle):
-    """(n, 3, 3): of each corner of faces (n, 3, 3), the barycentric weights in the triangles (n, 3, 3)
-    that the faces lie in."""
+    """(n, 3, 3): of each corner of faces (n, 3, 3), the barycentric weights in the triangles (n, 3,
+    3) that the faces lie in."""
     u, v = (triangle[:, None, k] - triangle[:, None, 0] for k in (1, 2))
     w = corners - triangle[:, None, 0]
     normal = np.cross(u, v)
@@ -119,8 +119,8 @@ def whole_polygons(operand, source, faces, same):
     """Polygons that a result has as they were.
 
     source (n,): the triangle that each of `faces` lies in; same (n, 3, 3): which of its corners is
-    which of that one. Returns the polygons, whether they are turned over, and the vertex of the result
-    that is at each loop."""
+    which of that one. Returns the polygons, whether they are turned over, and the vertex of the
+    result that is at each loop."""
     corner = same.argmax(axis=-1)
     loops = np.take_along_axis(operand.loops[source], corner, axis=1)
     whole = same.any(axis=-1).all(axis=-1)
@@ -140,8 +140,8 @@ class Faces:
     """Faces of a result, with what they keep of their operands."""
 
     def __init__(self, mesh, face_source, vertex_source, operands):
-        """face_source, vertex_source: (n, 2), an operand and its face or vertex. Faces without a source
-        have material 0 and UV 0."""
+        """face_source, vertex_source: (n, 2), an operand and its face or vertex. Faces without a
+        source have material 0 and UV 0."""
         names = dict.fromkeys(name for one in operands for name in one.uvs)
         self.uvs = {name: [] for name in list(names)[:MOST_UV_LAYERS]}
         self.corners, self.totals, self.operand, self.polygon = [], [], [], []
@@ -169,8 +169,8 @@ class Faces:
 
     @staticmethod
     def loops_of(operand, polygons, turned):
-        """Loops of polygons; those of the turned ones backward, from the same one on, so that Blender
-        cuts quads by the same diagonal."""
+        """Loops of polygons; those of the turned ones backward, from the same one on, so that
+        Blender cuts quads by the same diagonal."""
         total = operand.total[polygons]
         place = np.arange(total.sum()) - np.repeat(np.cumsum(total) - total, total)
         size = np.repeat(total, total)
@@ -248,15 +248,16 @@ def fill(data, vertices, faces):
 
 
 def edge_and_corner(triangles, vertices):
-    """A number for the edge that starts at the lowest corner of each triangle, and the third corner."""
+    """A number for the edge that starts at the lowest corner of each triangle, and the third
+    corner."""
     first = triangles.argmin(axis=1)[:, None]
     a, b, c = np.take_along_axis(triangles, (first + np.arange(3)) % 3, axis=1).astype(np.uint64).T
     return a * np.uint64(vertices) + b, c
 
 
 def are_missing(some, triangles, vertices):
-    """(n,) whether each of some triangles is none of `triangles`, of which only one has an edge in the
-    same direction."""
+    """(n,) whether each of some triangles is none of `triangles`, of which only one has an edge in
+    the same direction."""
     edges, corners = edge_and_corner(triangles, vertices)
     order = np.argsort(edges)
     wanted, corner = edge_and_corner(some, vertices)
@@ -392,8 +393,10 @@ class Operator(bpy.types.Operator):
 
 OPERATIONS = (
     ("union", "Union", "The active object becomes what is in any of the selected ones"),
-    ("difference", "Difference", "The active object becomes what of it is in no other selected one"),
-    ("intersection", "Intersection", "The active object becomes what is in all of the selected ones"),
+    ("difference", "Difference",
+     "The active object becomes what of it is in no other selected one"),
+    ("intersection", "Intersection",
+     "The active object becomes what is in all of the selected ones"),
 )
 
 
@@ -426,7 +429,8 @@ class TREEFORM_OT_boolean(Operator):
         if not len(made.faces):
             self.say(context, f"Nothing is left of {active.name}", "WARNING")
         else:
-            self.say(context, f"{active.name} has {len(active.data.polygons):,} faces: closed, and no "
+            self.say(context,
+                     f"{active.name} has {len(active.data.polygons):,} faces: closed, and no "
                               "two meet; checked as stored")
         return {"FINISHED"}
 

@@ -15,6 +15,7 @@ void add_functions(py::module_& module);
 void add_files(py::module_& module);
 void add_intersections(py::module_& module);
 void add_nearness(py::module_& module);
+void add_operations(py::module_& module);
 void add_options(py::module_& module);
 void add_pictures(py::module_& module);
 void add_placement(py::module_& module);

@@ -78,6 +78,16 @@ carrying::carrying(const held_meshes& operands) {
     sources_ = std::move(sources);
 }
 
+tf::simplify_result carrying::simplify(const tf::mesh_ref& mesh, double max_distance,
+                                       std::span<const std::uint32_t> face_groups,
+                                       tf::simplify_options options) const {
+    std::vector<std::uint32_t> corner_groups;
+    if (!sources_.all().empty()) corner_groups = sources_.corner_groups();
+    options.face_groups = face_groups;
+    options.corner_groups = corner_groups;
+    return tf::simplify(mesh, max_distance, options);
+}
+
 template <class Carry>
 py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
     if (sources_.all().empty()) return py::none();
@@ -97,9 +107,10 @@ py::object carrying::to(const tf::mesh& made, const tf::carried_elements& elemen
 py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
                         std::span<const std::uint32_t> vertex_source,
                         std::span<const std::uint32_t> face_of_new_vertex,
+                        std::span<const std::uint32_t> corner_source,
                         std::span<const std::uint32_t> cap) const {
     return carried(made, [&](tf::mesh_file& file) {
-        sources_.carry(file, face_source, vertex_source, face_of_new_vertex);
+        sources_.carry(file, face_source, vertex_source, face_of_new_vertex, corner_source);
         if (!cap.empty()) sources_.all().front().texture_caps(file, cap);
     });
 }

@@ -28,11 +28,17 @@ class carrying {
         }
     }
 
+    /// `tf::simplify` of a single operand, with what is carried kept at borders and seams.
+    [[nodiscard]] tf::simplify_result simplify(const tf::mesh_ref& mesh, double max_distance,
+                                               std::span<const std::uint32_t> face_groups,
+                                               tf::simplify_options options) const;
+
     /// The attributes of what was made of the operands; None where these have none.
     [[nodiscard]] py::object to(const tf::mesh& made, const tf::carried_elements& elements) const;
     [[nodiscard]] py::object to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
                                 std::span<const std::uint32_t> vertex_source,
                                 std::span<const std::uint32_t> face_of_new_vertex = {},
+                                std::span<const std::uint32_t> corner_source = {},
                                 std::span<const std::uint32_t> cap = {}) const;
 
   private:
@@ -45,8 +51,8 @@ class carrying {
         std::vector<tf::carry_source>{}};  ///< empty: there is nothing to carry
 };
 
-/// The faces of a body that `by` moves, turned over where it mirrors, and a copy of what the body has,
-/// with normals turned likewise; None where it has nothing.
+/// The faces of a body that `by` moves, turned over where it mirrors, and a copy of what the body
+/// has, with normals turned likewise; None where it has nothing.
 py::tuple turned_over(const held_mesh& body, const tf::transform<3>& by);
 
 }  // namespace binding

@@ -210,10 +210,10 @@ py::object data_of(const Result& from, const carrying& attributes) {
         return attributes.to(from.mesh,
                              {from.face_source, from.vertex_source, from.face_of_cut_vertex});
     else if constexpr (requires { from.cap; })
-        return attributes.to(from.mesh, from.face_source, from.vertex_source, {}, from.cap);
+        return attributes.to(from.mesh, from.face_source, from.vertex_source, {}, {}, from.cap);
     else if constexpr (requires { from.face_of_new_vertex; })
         return attributes.to(from.mesh, from.face_source, from.vertex_source,
-                             from.face_of_new_vertex);
+                             from.face_of_new_vertex, from.corner_source);
     else
         return attributes.to(from.mesh, from.face_source, from.vertex_source);
 }

@@ -15,8 +15,8 @@ using name_pairs = std::vector<std::pair<std::string, std::string>>;
     return columns;
 }
 
-/// All that a file has besides points and faces: a `mesh_file` without its mesh. Copies share it until
-/// one of them is changed: a copy made with the interpreter's lock stays as it is without it.
+/// All that a file has besides points and faces: a `mesh_file` without its mesh. Copies share it
+/// until one of them is changed: a copy made with the interpreter's lock stays as it is without it.
 class file_data {
   public:
     file_data() : file_(std::make_shared<treeform::mesh_file>()) {}

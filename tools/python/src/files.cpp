@@ -166,8 +166,7 @@ std::string text_of(const file_data& data) {
            ", columns=" + std::string(py::repr(rows)) + ")";
 }
 
-void add_attributes(py::module_& module) {
-    const auto kept = [](auto of) { return [of](const file_data& d) { return of(d.file()); }; };
+void add_columns(py::class_<file_data>& made) {
     const auto columns_of = [](const char* element) {
         return [element](const file_data& d) { return columns(d, element); };
     };
@@ -176,6 +175,20 @@ void add_attributes(py::module_& module) {
             set_column(d, element, name, py::module_::import("numpy").attr("asarray")(values));
         };
     };
+    made.def_property_readonly("vertex", columns_of("vertex"),
+                               "A copy of each column of vertices, (V,).")
+        .def_property_readonly("face", columns_of("face"),
+                               "A copy of each column of faces as stored in the file.")
+        .def("columns", &columns, py::arg("element"),
+             "A copy of each column of `element`; lists as (begin, values).")
+        .def("set_vertex", set_column_of("vertex"), py::arg("name"), py::arg("values"),
+             "Sets a column of vertices, (V,), in the type of `values`.")
+        .def("set_face", set_column_of("face"), py::arg("name"), py::arg("values"),
+             "Sets a column of faces, (F,), in the type of `values`.");
+}
+
+void add_attributes(py::module_& module) {
+    const auto kept = [](auto of) { return [of](const file_data& d) { return of(d.file()); }; };
     py::class_<file_data> made(module, "Attributes",
                                R"(All that a file has besides points and faces.
 
@@ -231,17 +244,8 @@ parts, too; lists and other kinds of rows are left out.
         .def_property_readonly(
             "stored_face", &stored_face,
             "(F,) the file's face that each triangle is a part of; None where all "
-            "are triangles.")
-        .def_property_readonly("vertex", columns_of("vertex"),
-                               "A copy of each column of vertices, (V,).")
-        .def_property_readonly("face", columns_of("face"),
-                               "A copy of each column of faces as stored in the file.")
-        .def("columns", &columns, py::arg("element"),
-             "A copy of each column of `element`; lists as (begin, values).")
-        .def("set_vertex", set_column_of("vertex"), py::arg("name"), py::arg("values"),
-             "Sets a column of vertices, (V,), in the type of `values`.")
-        .def("set_face", set_column_of("face"), py::arg("name"), py::arg("values"),
-             "Sets a column of faces, (F,), in the type of `values`.");
+            "are triangles.");
+    add_columns(made);
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ bool process_ends() {
     return one != std::thread::id() && one != std::this_thread::get_id();
 }
 
-/// At the end of the process, the interpreter ends a thread that wants its lock by unwinding it, which
-/// C++ does not survive. So such a thread does not come back.
+/// At the end of the process, the interpreter ends a thread that wants its lock by unwinding it,
+/// which C++ does not survive. So such a thread does not come back.
 void come_back(PyThreadState* state) {
     if (process_ends()) {
         --outside;
@@ -378,7 +378,8 @@ int end() {
 
 void leave_jobs_at_the_end() {
 #ifdef __GLIBC__
-    // What is registered before, and what libraries have that are older than this, is left out then.
+    // What is registered before, and what libraries have that are older than this, is left out
+    // then.
     (void)::on_exit(
         [](int status, void*) {
             if (outside == 0) return;

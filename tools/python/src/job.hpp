@@ -7,18 +7,18 @@
 
 namespace binding {
 
-/// Few elements: done at once. `writes`: long work, too, that leaves a file of its own behind where it
-/// is not ended in its turn.
+/// Few elements: done at once. `writes`: long work, too, that leaves a file of its own behind where
+/// it is not ended in its turn.
 enum class job_kind : std::uint8_t { by_elements, long_work, writes };
 
 /// Makes the function or method `name` of `scope` a job. It then also takes `progress`: None, or a
 /// function that is called with the share of the work that is done.
 ///
 /// A job runs on a helper thread, unless its arguments are few elements and it is `by_elements`:
-/// handing it over would take longer. It is asked to stop when `progress` returns False or raises, or
-/// when a signal's handler raises, as that of Ctrl-C does; a result that is there is returned all the
-/// same where `progress` returns False. The caller then gets what was raised: at
-/// once, even where the job takes some time to notice.
+/// handing it over would take longer. It is asked to stop when `progress` returns False or raises,
+/// or when a signal's handler raises, as that of Ctrl-C does; a result that is there is returned
+/// all the same where `progress` returns False. The caller then gets what was raised: at once, even
+/// where the job takes some time to notice.
 void make_job(const py::object& scope, const char* name, job_kind kind = job_kind::by_elements);
 
 /// The same of several.
@@ -36,8 +36,8 @@ void add_job(py::module_& module, const char* name, Function* function,
 /// The job that runs on this thread: `progress_callback` for it; empty where there is none.
 treeform::progress_callback report_of_job();
 
-/// For jobs, before what cannot be taken back: false where the job is to stop. After that, `progress`
-/// no longer stops it.
+/// For jobs, before what cannot be taken back: false where the job is to stop. After that,
+/// `progress` no longer stops it.
 bool commit_job();
 
 /// Whether the job that runs on this thread is to stop; null where there is none.
@@ -49,8 +49,8 @@ void without_lock(const std::function<void()>& body);
 /// Does `body` with the interpreter's lock, within work that goes on without it.
 void with_lock(const std::function<void()>& body);
 
-/// What `body(progress_callback)` returns. It runs without the interpreter's lock and must not touch
-/// Python.
+/// What `body(progress_callback)` returns. It runs without the interpreter's lock and must not
+/// touch Python.
 template <class Body>
 auto run(Body&& body) {
     using result = std::invoke_result_t<Body&, const treeform::progress_callback&>;

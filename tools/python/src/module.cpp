@@ -105,4 +105,5 @@ PYBIND11_MODULE(_core, module) {
     add_assembly(module);
     add_trees(module);
     add_functions(module);
+    add_operations(module);
 }

@@ -93,8 +93,11 @@ py::object object(of_result, tf::section_result&& s) {
 }
 
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes) {
-    const py::object pieces = as_python(std::move(from.pieces), attributes);
-    return py::make_tuple(pieces, as_python(std::move(from.certificate)));
+    const py::object made = py::module_::import("treeform._cuts")
+                                .attr("CutPieces")(as_python(std::move(from.pieces), attributes));
+    made.attr("certificate") = as_python(std::move(from.certificate));
+    made.attr("resolved") = from.resolved;
+    return made;
 }
 
 py::object object(of_result, tf::intersection_regions&& from) {

@@ -35,7 +35,7 @@ py::object object(of_result, tf::intersection_regions&& from);
 /// Points, and paths by their numbers.
 py::object object(of_result, tf::curve_network&& from);
 
-/// The pieces, and the certificate of all.
+/// The pieces, the certificate of all, and whether the mesh was resolved.
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes);
 /// As columns: of layers, of loops, of points.
 py::object object(of_result, tf::section_result&& from);

@@ -20,8 +20,8 @@ py::list joints_of(const tf::urdf_robot& of) {
     return all;
 }
 
-/// The robot, its name, links, joints, parts, links of parts, adjacent parts, and what is approximated or
-/// no mesh.
+/// The robot, its name, links, joints, parts, links of parts, adjacent parts, and what is
+/// approximated or no mesh.
 py::tuple read_urdf(const std::filesystem::path& path,
                     const std::vector<std::filesystem::path>& package_folders, bool visual) {
     robot made = run([&](const tf::progress_callback& report) {

@@ -6,8 +6,8 @@
 
 namespace binding {
 
-/// The communicator of (rank, size, exchange) as Python has it, or one that is alone for None. Its copies may go
-/// without the interpreter's lock as long as the first one stays.
+/// The communicator of (rank, size, exchange) as Python has it, or one that is alone for None. Its
+/// copies may go without the interpreter's lock as long as the first one stays.
 inline treeform::communicator communicator_of(const py::object& communicator) {
     treeform::communicator made;
     if (communicator.is_none()) return made;
@@ -22,8 +22,8 @@ inline treeform::communicator communicator_of(const py::object& communicator) {
     return made;
 }
 
-/// Tells a communicator that this process is at work, and when no more, however that ends: a call that was
-/// interrupted may have been left by then.
+/// Tells a communicator that this process is at work, and when no more, however that ends: a call
+/// that was interrupted may have been left by then.
 class at_work {
   public:
     explicit at_work(const py::object& communicator) : all_(communicator) {
@@ -55,8 +55,8 @@ class step_progress {
     treeform::progress_callback report_;
 };
 
-/// A `Work` that Python's threads share: one step after the other. Also a step that nobody waits for
-/// any more ends before the next one begins.
+/// A `Work` that Python's threads share: one step after the other. Also a step that nobody waits
+/// for any more ends before the next one begins.
 template <class Work>
 class work_in_steps {
   public:

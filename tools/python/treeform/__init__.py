@@ -18,7 +18,7 @@ from ._assembly import (ClashResult, NearestPoints, PartClash, PoseClashes, RELA
                         clash, closest_points, distance, intersects)
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
                         symmetric_difference, union)
-from ._cuts import (CutPiece, MassProperties, MeshPart, Section, SectionLoop, components,
+from ._cuts import (CutPiece, CutPieces, MassProperties, MeshPart, Section, SectionLoop, components,
                     concatenate, cut, cut_along, cut_to_fit, layer_heights, mass_properties,
                     section, submesh, transformed)
 from ._errors import Cancelled, CertificateError, Error, FileError, NotCertifiedError, NotSolidError
@@ -51,10 +51,10 @@ from ._weld import StreamWeld, WeldResult, WeldStreamResult, count_nearly_equal,
 
 __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
            "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
-           "ConvexHull", "CutPiece", "Depth", "Deviation", "Error", "FacePairs", "Feature",
-           "FileError", "FilePairs", "Impact", "Isoline", "Isolines", "Joint", "KINDS", "LaidFlat",
-           "MadeMesh", "MassProperties", "Measure", "Mesh", "MeshDefects", "MeshLike", "MeshPart",
-           "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
+           "ConvexHull", "CutPiece", "CutPieces", "Depth", "Deviation", "Error", "FacePairs",
+           "Feature", "FileError", "FilePairs", "Impact", "Isoline", "Isolines", "Joint", "KINDS",
+           "LaidFlat", "MadeMesh", "MassProperties", "Measure", "Mesh", "MeshDefects", "MeshLike",
+           "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
            "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash", "Picture",
            "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
            "RepairResult", "ResolveResult", "Robot", "SearchEffort", "Section", "SectionLoop",

@@ -104,6 +104,14 @@ def ids(values: ArrayLike, name: str) -> Ids:
     return np.require(array, np.uint32, ["C", "A"])
 
 
+def labels(values: ArrayLike | None, name: str) -> Ids:
+    """`values` as (n,) numbers; None is an empty array."""
+    array = ids(() if values is None else values, name)
+    if array.ndim != 1:
+        raise ValueError(f"{name}: the shape is {array.shape}, not (n,)")
+    return array
+
+
 def faces(values: ArrayLike, name: str = "faces") -> Ids:
     """`values` as faces: (n, 3), or the flat [3, a, b, c, 4, ...] of PyVista and VTK."""
     array = ids(values, name)
@@ -121,7 +129,8 @@ def triangles_of(corners: Ids, begin: NDArray[Any], sizes: NDArray[Any], name: s
     two, along the diagonal from its first corner."""
     wrong = np.flatnonzero((sizes < 3) | (sizes > 4))
     if wrong.size:
-        raise ValueError(f"{name}: face {wrong[0]} has {sizes[wrong[0]]} corners; only triangles and "
+        raise ValueError(f"{name}: face {wrong[0]} has {sizes[wrong[0]]} corners; only triangles "
+                         f"and "
                          "quads are taken: triangulate first")
     face = np.repeat(np.arange(len(sizes)), sizes - 2)
     first = np.asarray(begin)[face]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Iterable, Union
+from typing import Any, Iterable, List, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,11 +15,11 @@ from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held, listed
 from ._progress import Progress
 from ._repair import MadeMesh
-from ._results import Result
+from ._results import Certificate, Result
 
-__all__ = ["CutPiece", "MassProperties", "MeshPart", "Section", "SectionLoop", "components",
-           "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights", "mass_properties",
-           "section", "submesh", "transformed"]
+__all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "SectionLoop",
+           "components", "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights",
+           "mass_properties", "section", "submesh", "transformed"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -201,12 +201,24 @@ class CutPiece(MadeMesh):
 # end
 
 
+class CutPieces(List[CutPiece]):
+    """A list of pieces, and what was checked.
+
+    certificate: That of the first piece that is not ok, or of the mesh where it bounds no solid.
+    resolved: Faces of the mesh met: what was cut is the solid that it winds around, where parts
+        that overlap are one; without caps, the faces cut along each other.
+    """
+
+    certificate: Certificate
+    resolved: bool
+
+
 # made of functions:
 #   cut cut_to_fit cut_along
 def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
         heights: ArrayLike | None = None, precision: str = "float64",
         max_displacement: float = np.inf, caps: bool = True, check: bool = True,
-        progress: Progress = None) -> list[CutPiece]:
+        progress: Progress = None) -> CutPieces:
     """The mesh below, between and above planes at `heights` above a plane.
 
     Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face
@@ -248,7 +260,7 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
 
 def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
                max_displacement: float = np.inf, caps: bool = True, check: bool = True,
-               progress: Progress = None) -> list[CutPiece]:
+               progress: Progress = None) -> CutPieces:
     """Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
     each axis as there can be, and equally far apart, to rounding. A size that is infinite is not
     cut along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x
@@ -274,7 +286,7 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
 
 
 def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bool = True,
-              progress: Progress = None) -> list[CutPiece]:
+              progress: Progress = None) -> CutPieces:
     """The mesh cut along its isolines (`isolines`): pieces with values below, between and from the
     levels on, K + 1 for K levels in ascending order, equal ones counted once. Pieces are open
     surfaces that end in the same points; together they are the mesh, for it is not moved: only new

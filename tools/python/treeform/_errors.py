@@ -8,7 +8,7 @@ import re
 import sys
 from numbers import Real
 from types import FrameType
-from typing import Any, Callable, Mapping, Protocol, TypeVar, cast, overload
+from typing import Any, Callable, Mapping, Protocol, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,8 +105,8 @@ class NotCertifiedError(CertificateError):
 
 
 def require(certificate: Certificate, *also: str, of_one: bool = False) -> None:
-    """Raises what `certificate` says, unless it is ok or its status is one of `also`. `of_one`: of a
-    single mesh, which is no operand."""
+    """Raises what `certificate` says, unless it is ok or its status is one of `also`. `of_one`: of
+    a single mesh, which is no operand."""
     if certificate or certificate.status in also:
         return
     if certificate.status == "open_input":
@@ -122,16 +122,11 @@ class _Certified(Protocol):
 _Result = TypeVar("_Result", bound=_Certified)
 
 
-@overload
-def checked(made: _Result, check: bool, of_one: bool = False) -> _Result: ...
-@overload
-def checked(made: tuple[_Made, Certificate], check: bool, of_one: bool = False) -> _Made: ...
-def checked(made: Any, check: bool, of_one: bool = False) -> Any:
-    """A result, or pieces and the certificate of all; with `check`, raises what that says."""
-    result, certificate = made if isinstance(made, tuple) else (made, made.certificate)
+def checked(made: _Result, check: bool, of_one: bool = False) -> _Result:
+    """A result; with `check`, raises what its certificate says."""
     if check:
-        require(certificate, "sheet", of_one=of_one)
-    return result
+        require(made.certificate, "sheet", of_one=of_one)
+    return made
 
 
 #: What annotations ask for, and how that is said.
@@ -147,8 +142,8 @@ _KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
 
 
 def name_argument(error: TypeError) -> None:
-    """Raises ValueError that names an argument which is not what its function's annotation asks for,
-    where the extension has refused those it was called with."""
+    """Raises ValueError that names an argument which is not what its function's annotation asks
+    for, where the extension has refused those it was called with."""
     frame: FrameType | None = sys._getframe(1)
     if not re.search("incompatible (function|constructor) arguments", str(error)):
         return

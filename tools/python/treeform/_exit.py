@@ -14,8 +14,8 @@ _PATIENCE = {_WORKS: 0.1, _WRITES: 5.0}
 @atexit.register
 def _end() -> None:
     """Jobs may still run: that were told to stop, or of daemon threads. They get the interpreter's
-    lock no more, and memory that they use stays. Those that write have longer: they notice soon, and
-    remove what is not whole."""
+    lock no more, and memory that they use stays. Those that write have longer: they notice soon,
+    and remove what is not whole."""
     begun = time.monotonic()
     while (still := _core.end()) != _NOTHING:
         if time.monotonic() - begun > _PATIENCE[still]:

@@ -196,13 +196,13 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
     that see the folder: those of Dask, of Slurm, of `multiprocessing`.
 
     All make it with the same arguments. One calls `scatter`; then each calls `search_tile` for its
-    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that is
-    finished is not searched again. Arguments are those of `self_intersections_of_file`; empty
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
+    is finished is not searched again. Arguments are those of `self_intersections_of_file`; empty
     `folder`: the input's name and ".search-tiles".
 
-    It has a hold on the folder until `close`, the end of a `with`, or its own end. A copy for another
-    process (pickle) is made anew from its arguments. A step before its turn raises FileError, a tile
-    that is not there IndexError.
+    It has a hold on the folder until `close`, the end of a `with`, or its own end. A copy for
+    another process (pickle) is made anew from its arguments. A step before its turn raises
+    FileError, a tile that is not there IndexError.
 
     >>> import tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:

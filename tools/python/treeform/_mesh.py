@@ -187,8 +187,8 @@ class Mesh:
         return _core.bounds(self._ready()._held)
 
     def show(self, *others: MeshLike, **look: Any) -> View:
-        """A view of the mesh, and others, for a notebook or a page: see `show`, which takes the same
-        arguments."""
+        """A view of the mesh, and others, for a notebook or a page: see `show`, which takes the
+        same arguments."""
         from ._show import show
 
         return show(self, *others, **look)
@@ -261,8 +261,8 @@ def _read_only(array: _Array) -> _Array:
 
 
 def listed(meshes: Any) -> tuple[Any, ...] | None:
-    """What is in a list of meshes, or in anything else that can be gone through; None for what is no
-    list, but a mesh."""
+    """What is in a list of meshes, or in anything else that can be gone through; None for what is
+    no list, but a mesh."""
     if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes)) or any(
             hasattr(meshes, name) for name in ("mesh", "vertices", "points", "__array__")):
         return None
@@ -289,9 +289,10 @@ def held(mesh: Any) -> _core.HeldMesh:
 
 
 def cloud_of(body: Any) -> Floats | None:
-    """The points of an array of points, or of what has `points` or `vertices` and no faces; None for
-    a mesh."""
-    if isinstance(body, np.ndarray) or isinstance(body, (list, tuple)) and not _arrays.is_pair(body):
+    """The points of an array of points, or of what has `points` or `vertices` and no faces; None
+    for a mesh."""
+    if isinstance(body, np.ndarray) or isinstance(body,
+                                                  (list, tuple)) and not _arrays.is_pair(body):
         return _arrays.points(body, "points")
     if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict", "triangle",
                                           "GetPolys")):

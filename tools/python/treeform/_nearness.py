@@ -295,12 +295,12 @@ class Deviation(Result):
     faces: (V,) the nearest face of `b`.
     is_signed: Whether distances have a sign.
     side_counts: Where they have: how many points are inside, on, outside; exact. Else None.
-    mean: Of the signed distances.
-    mean_absolute: Of their magnitudes, as are the six below.
-    rms: Root mean square.
+    mean: Mean of the signed distances.
+    mean_absolute: Mean of their magnitudes.
+    rms: Root mean square of the distances.
     p50: The least value that half of the magnitudes do not exceed.
-    p95: 95 % are not above it.
-    p99: 99 % are not above it.
+    p95: The same for 95 % of them.
+    p99: The same for 99 % of them.
     max: The largest magnitude.
     worst: The lowest point with that distance.
     lowest: The least signed distance.

@@ -27,10 +27,10 @@ class SearchEffort(NamedTuple):
     """What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
     two: the same for the same input. What it found holds either way.
 
-    pairs: Looked at.
-    bound: Of these: the most that it was to look at.
-    cut: Questions that would have taken more than they may, a 32nd of the bound or what was left of
-        it: where there are some, something better may exist.
+    pairs: Pairs of faces looked at, a pair in motion counting as two.
+    bound: The most that it was to look at.
+    cut: Questions passed over, where something better may exist: they would have taken more than a
+        32nd of the bound, or than what was left of it.
     """
 
     pairs: int
@@ -469,7 +469,7 @@ class Alignment(MeshResult):
     mesh: The moved mesh; of a cloud, one without faces.
     rms: Root mean square of the distances that count, after, by weights if there are; 0 for none.
         Of two clouds by `plane_to_plane`, the distances to the planes, as far as both sides agree.
-    rms_at_start: The same before, without weights.
+    rms_at_start: The same at the start, without weights.
     overlap: Share of all moving points whose nearest fixed point is within `max_distance`, after.
     inliers: How many of the moving points are within 4.5 medians of the distances that count.
     correlation: Correlation of the signed distances of neighbors, in [-1, 1]: near 0 where they are
@@ -477,11 +477,11 @@ class Alignment(MeshResult):
     uncertainty: How far the points may be from where they belong: the standard deviation that the
         distances leave, and how little they hold, as a root mean square over the points; without
         the motions that `undetermined` counts.
-    scale: Found in addition to that of `start`.
+    scale: The scale found, in addition to that of `start`.
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
     converged: `end` is `converged`.
-    iterations: From the start that was best.
-    start: Which that was: 0 is the present position.
+    iterations: Steps from the best start.
+    start: Which start that was: 0 is the present position.
     undetermined: How many independent motions nothing holds, as where a plane slides on a plane.
     message: Half a sentence for people.
     """

@@ -115,8 +115,9 @@ def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
 
     >>> import treeform
     >>> mesh = ([[0, 0, 0], [1, 1, 1], [3, 3, 3], [0, float("nan"), 0]], [[0, 1, 2], [0, 1, 3]])
-    >>> treeform.find_defects(mesh)
-    MeshDefects(nonfinite_points=[3], nonfinite_faces=[1], degenerate_faces=[0], out_of_range_faces=[])
+    >>> found = treeform.find_defects(mesh)
+    >>> found.nonfinite_points.tolist(), found.degenerate_faces.tolist()
+    ([3], [0])
     """
     return _core.find_defects(held(mesh), progress=progress)
 # end

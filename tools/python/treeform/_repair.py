@@ -262,7 +262,7 @@ class ConvexHull(Result):
 # end
 
     def mesh(self, points: Body) -> Mesh:
-        """The hull as a closed mesh, of the points that it uses. points: those it is the hull of."""
+        """The hull as a closed mesh, of the points that it uses: `points` are those it is of."""
         used, faces = np.unique(self.faces, return_inverse=True)
         return Mesh(points_of(points)[used], faces.reshape(-1, 3))
 

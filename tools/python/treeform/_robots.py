@@ -63,8 +63,8 @@ class Robot(Result):
     _data: _core.RobotData
 
     def poses(self, values: Mapping[str, ArrayLike] | None = None) -> Floats:
-        """(N, 4, 4): where each part is, from its own frame to that of the robot; (P, N, 4, 4) where
-        a value is an array (P,).
+        """(N, 4, 4): where each part is, from its own frame to that of the robot; (P, N, 4, 4)
+        where a value is an array (P,).
 
         values: of joints by name, radians or meters. Others are at 0, or follow the joint that they
         mimic. Limits are not looked at.
@@ -91,8 +91,8 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     radius too far out, so that no clash is missed.
 
     package_folders: where packages are: `package://name/rest` is FOLDER/name/rest or FOLDER/rest;
-    else it is looked for in the file's folder and those above. visual: the meshes that are for show,
-    not those for collisions. Faces that are not finite are left out, equal corners joined.
+    else it is looked for in the file's folder and those above. visual: the meshes that are for
+    show, not those for collisions. Faces that are not finite are left out, equal corners joined.
 
     Raises FileError naming the path and the reason.
 
@@ -109,7 +109,8 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     [True, False]
     """
     folders = _arrays.several(package_folders, "package_folders")
-    data, name, links, joints, parts, link_of_part, adjacent, approximated, skipped = _core.read_urdf(
+    (data, name, links, joints, parts, link_of_part, adjacent, approximated,
+     skipped) = _core.read_urdf(
         path_of(path), [path_of(one) for one in folders], visual, progress=progress)
     return Robot(name, links, [Joint(*one) for one in joints], [Mesh._of(*one) for one in parts],
                  np.array(link_of_part, np.uint32), adjacent, approximated, skipped, data)

@@ -171,8 +171,10 @@ class SimplifyResult(MadeMesh):
     there_at_most: No point of the input is further from the result.
     back_at_most: No point of the result is further from the input.
     vertex_source: (V,) vertex of the input that each is; `NONE`: new.
-    face_of_new_vertex: (V,) of a new vertex, the face of the input that is nearest to it; else
-        `NONE`.
+    face_of_new_vertex: (V,) of a new vertex, the face of the input that is nearest to it, on its
+        side of seams; else `NONE`.
+    corner_source: (3 F,) the corner of the input that each is at (3 f + i for corner i of face f),
+        on its side of seams; none at new vertices.
     """
 
     face_source: Ids
@@ -185,14 +187,15 @@ class SimplifyResult(MadeMesh):
     back_at_most: float
     vertex_source: Ids
     face_of_new_vertex: Ids
+    corner_source: Ids
 # end
 
 
 # made of functions:
 #   simplify
-def simplify(mesh: MeshLike, max_distance: float, *, precision: str = "float64",
-             target_faces: int = 0, feature_angle: float = 180.0, check: bool = True,
-             progress: Progress = None) -> SimplifyResult:
+def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | None = None,
+             precision: str = "float64", target_faces: int = 0, feature_angle: float = 180.0,
+             check: bool = True, progress: Progress = None) -> SimplifyResult:
     """The mesh with fewer faces: edges are collapsed, those first that change the surface least.
 
     Both surfaces are within `max_distance` of each other: each face is proven so, none is sampled.
@@ -209,9 +212,10 @@ def simplify(mesh: MeshLike, max_distance: float, *, precision: str = "float64",
     nothing, nor are coordinates whose squares are no doubles. Corners with equal coordinates are
     one vertex; faces with two equal corners go, and are no part of either surface.
 
-    Values of vertices are interpolated, faces have those of their source, and values of corners are
-    left out.
+    Values of vertices and corners are interpolated; seams, and borders of materials and of values
+    of faces, are kept.
 
+    face_groups: (F,) numbers; edges between faces of different ones are borders, too.
     precision: 'float32' or 'float64'. Precision of points. With float32, all are rounded first, and
         bounds count that; values are stored as doubles.
     target_faces: Stop at so many faces.
@@ -219,8 +223,8 @@ def simplify(mesh: MeshLike, max_distance: float, *, precision: str = "float64",
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotCertifiedError where the result could not be certified; ValueError for a distance that
-    is negative or not finite, another number of groups than of faces, or a face with a corner that
-    is out of range or not finite.
+    is negative or not finite, another number of groups than of faces or corners, or a face with a
+    corner that is out of range or not finite.
 
     Cost: 50 to 150 microseconds a collapse, serial: O(n log n) for n collapses, more where a face
     comes to stand for many; 1 kB a face; and `find_solid_defects` before and after.
@@ -231,7 +235,8 @@ def simplify(mesh: MeshLike, max_distance: float, *, precision: str = "float64",
     (True, True)
     """
     how = options(_core.SimplifyOptions, locals())
-    return checked(_core.simplify(held(mesh), max_distance, how,
+    return checked(_core.simplify(held(mesh), max_distance,
+                                  _arrays.labels(face_groups, "face_groups"), how,
                                   progress=progress), check, of_one=True)
 # end
 

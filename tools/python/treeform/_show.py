@@ -35,7 +35,8 @@ class Picture(bytes):
 
 
 class View:
-    """Meshes as a page with a 3D view: a notebook shows it where it stands, `write` makes a file."""
+    """Meshes as a page with a 3D view: a notebook shows it where it stands, `write` makes a
+    file."""
 
     def __init__(self, meshes: Sequence[_core.HeldMesh], look: dict[str, Any]) -> None:
         self._meshes = list(meshes)
@@ -81,7 +82,8 @@ def plot(*meshes: _Shown, path: Path | None = None, view: str | Sequence[str] = 
     else from the lowest to the highest; zero is white where it lies between. NaN: no value.
     y_is_up: y instead of z.
 
-    Faces with a coordinate that is not finite are left out. The same bytes for any number of threads.
+    Faces with a coordinate that is not finite are left out. The same bytes for any number of
+    threads.
 
     >>> import treeform
     >>> m = treeform.read("data/two_spheres.stl")

@@ -116,8 +116,8 @@ class PointTree:
 
         x: (..., m). k: a number, or a list of which nearest ones are wanted, from 1.
         distance_upper_bound: only points nearer than this.
-        eps and p are those of SciPy: answers are always those of eps 0, and p has to be 2. All cores
-        are used, whatever `workers` says (`treeform.threads`).
+        eps and p are those of SciPy: answers are always those of eps 0, and p has to be 2. All
+        cores are used, whatever `workers` says (`treeform.threads`).
 
         Returns d, i of shape (...) for k = 1, else (..., k); infinite and n where there are fewer.
 

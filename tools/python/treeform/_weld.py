@@ -50,9 +50,7 @@ class WeldResult(MeshResult):
 def welded(body: Any, how: _core.WeldOptions, label: ArrayLike | None,
            progress: Progress) -> WeldResult:
     """`weld` of a cloud, or of a mesh with its attributes."""
-    labels = _arrays.ids(() if label is None else label, "label")
-    if labels.ndim != 1:
-        raise ValueError(f"label: the shape is {labels.shape}, not (n,)")
+    labels = _arrays.labels(label, "label")
     points = cloud_of(body)
     if points is not None:
         return _core.weld_cloud(points, None, how, labels, progress=progress)
@@ -253,7 +251,7 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
         one fails or is interrupted, all raise at the next collective call.
 
     Raises FileError when an input cannot be read or an output cannot be written, FileError,
-    ValueError for a tolerance below 0 or not finite, and as `weld` for properties.
+    ValueError for a tolerance below 0 or not finite, and as `weld`.
 
     Cost: O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for each
     condition, 48 for an order, and points as in memory for a choice of what is kept; of a mesh up
@@ -278,14 +276,14 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
     folder: those of Dask, of Slurm, of `multiprocessing`.
 
     All make it with the same arguments. One calls `scatter`; then each calls `weld_tile` for its
-    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that is
-    finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
+    is finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
     input's name and ".tiles".
 
-    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs all
-    others to have let go of it. A copy for another process (pickle) is made anew from its arguments.
-    A step before its turn raises FileError, a tile that is not there IndexError. After Cancelled,
-    make it anew.
+    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs
+    all others to have let go of it. A copy for another process (pickle) is made anew from its
+    arguments. A step before its turn raises FileError, a tile that is not there IndexError. After
+    Cancelled, make it anew.
 
     >>> import os, tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:

@@ -102,8 +102,8 @@ enum class align_end : std::uint8_t {
 /// (axis times angle) about `align_result::pivot_moved` and a shift, together by 1 in the root mean
 /// square over the points.
 struct align_freedom {
-    point3 turn{};
-    point3 shift{};
+    point3 turn{};   ///< axis times angle, about `pivot_moved`
+    point3 shift{};  ///< after the turn
     /// Share of the motion (of its squares) that is along the normals: near 0 where points slide on
     /// the surface and nothing holds them, as a plane on a plane; 1 at most.
     double stiffness = 0.0;
@@ -117,12 +117,12 @@ struct align_result {
     /// accurate.
     transform<3> matrix{};
     point3 pivot{};        ///< center of the box of the moving points
-    point3 pivot_moved{};  ///< where it goes
-    double scale = 1.0;    ///< found in addition to that of `start`
+    point3 pivot_moved{};  ///< where the pivot goes
+    double scale = 1.0;    ///< the scale found, in addition to that of `start`
     /// Root mean square of the distances that count, after, by weights if there are; 0 for none. Of
     /// two clouds by `plane_to_plane`, the distances to the planes, as far as both sides agree.
     double rms = 0.0;
-    double rms_at_start = 0.0;  ///< the same before, without weights
+    double rms_at_start = 0.0;  ///< the same at the start, without weights
     /// Share of all moving points whose nearest fixed point is within `max_distance`, after.
     double overlap = 0.0;
     /// How many of the moving points are within 4.5 medians of the distances that count.
@@ -136,10 +136,10 @@ struct align_result {
     double uncertainty = 0.0;
     /// The independent motions, least held first; none without partners.
     std::vector<align_freedom> freedoms{};
-    align_end end = align_end::nothing_to_align;
-    bool converged = false;                          ///< `end` is `converged`
-    unsigned iterations = 0;                         ///< from the start that was best
-    unsigned start = 0;                              ///< which that was: 0 is the present position
+    align_end end = align_end::nothing_to_align;  ///< how the search ended
+    bool converged = false;                       ///< `end` is `converged`
+    unsigned iterations = 0;                      ///< steps from the best start
+    unsigned start = 0;  ///< which start that was: 0 is the present position
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
 
     /// How many of `freedoms`, the first ones, are so little held that their part of the motion

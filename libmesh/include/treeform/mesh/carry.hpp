@@ -51,6 +51,8 @@ struct carried_elements {
     std::span<const operand_element> face_source;           ///< [F]
     std::span<const operand_element> vertex_source;         ///< [V]
     std::span<const operand_element> face_of_cut_vertex{};  ///< [V] or empty
+    /// [3 F] or empty: of a single input, as in `simplify_result`
+    std::span<const std::uint32_t> corner_source{};
 };
 
 /// The inputs of an operation, whose attributes its result gets. Files are not copied: they must
@@ -78,11 +80,23 @@ class carry_sources {
     TREEFORM_API void carry(mesh_file& file, const carried_elements& made) const;
 
     /// The same for what was made of a single input, with sources as in `resolve_result`:
-    /// `operand_element::none` stands for no source. With `face_of_new_vertex`, as in
-    /// `simplify_result`, values of corners are not carried: faces reach far beyond their sources.
+    /// `operand_element::none` stands for no source.
+    ///
+    /// With those of `simplify_result`, faces may reach beyond their sources. Values of corners are
+    /// those of `corner_source`, and at new vertices in between; a face whose corners had one normal
+    /// gets that of its plane.
     TREEFORM_API void carry(mesh_file& file, std::span<const std::uint32_t> face_source,
                             std::span<const std::uint32_t> vertex_source,
-                            std::span<const std::uint32_t> face_of_new_vertex = {}) const;
+                            std::span<const std::uint32_t> face_of_new_vertex = {},
+                            std::span<const std::uint32_t> corner_source = {}) const;
+
+    /// [3 F] Groups for `simplify_options::corner_groups`, of a single input: of the corners at a
+    /// point, those are in one that are linked by faces of one material, with equal values in all
+    /// columns that are carried and, at both ends of the edge between them, equal texture
+    /// coordinates and normals. Two faces that have one normal each count as if it were the same.
+    /// Empty where all corners at each point would be in one group.
+    /// \cost O(V log V + F log F), and O(F) for each column
+    [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> corner_groups() const;
 
     /// [F of all inputs, in order] A group for each face, for `boolean_options::face_groups`. With
     /// `by_values`, a group has one material and equal values in all columns that are carried; a

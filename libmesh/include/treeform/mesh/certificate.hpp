@@ -36,10 +36,10 @@ enum class status : std::uint8_t {
 /// What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
 /// two: the same for the same input. What it found holds either way.
 struct search_effort {
-    std::uint64_t pairs = 0;  ///< looked at
-    std::uint64_t bound = 0;  ///< of these: the most that it was to look at
-    /// Questions that would have taken more than they may, a 32nd of the bound or what was left of
-    /// it: where there are some, something better may exist.
+    std::uint64_t pairs = 0;  ///< pairs of faces looked at, a pair in motion counting as two
+    std::uint64_t bound = 0;  ///< the most that it was to look at
+    /// Questions passed over, where something better may exist: they would have taken more than a
+    /// 32nd of the bound, or than what was left of it.
     std::uint64_t cut = 0;
     friend bool operator==(const search_effort&, const search_effort&) = default;
 };

@@ -62,8 +62,8 @@ struct cut_result {
     std::vector<cut_piece> pieces{};
     /// That of the first piece that is not ok, or of the mesh where it bounds no solid.
     treeform::certificate certificate{};
-    /// Faces of the mesh met: what was cut is the solid that it winds around, where parts that overlap
-    /// are one; without caps, the faces cut along each other. Not of `cut_along`.
+    /// Faces of the mesh met: what was cut is the solid that it winds around, where parts that
+    /// overlap are one; without caps, the faces cut along each other. Not of `cut_along`.
     bool resolved = false;
 };
 

@@ -32,8 +32,8 @@ struct deviation_options {
 
 /// The largest distance of a point of one surface from another surface.
 struct directed_distance {
-    double sampled =
-        0.0;  ///< over the vertices of the first, or the points of a cloud: a lower bound
+    /// The largest distance of the vertices of the first, or of a cloud's points: a lower bound.
+    double sampled = 0.0;
     /// No point of the first surface is further away: the largest, over its faces, of the largest
     /// distance of a corner plus the longest edge / sqrt(3). Of a cloud the same as `sampled`.
     double at_most = 0.0;
@@ -42,16 +42,16 @@ struct directed_distance {
 /// Counts of signed distances in `counts.size()` intervals of equal length from `low` to `high`.
 /// The last one includes `high`.
 struct distance_histogram {
-    double low = 0.0;
-    double high = 0.0;
-    std::vector<std::uint64_t> counts{};
+    double low = 0.0;                     ///< the least signed distance
+    double high = 0.0;                    ///< the greatest signed distance
+    std::vector<std::uint64_t> counts{};  ///< points in each interval, from `low` up
 };
 
 /// How many signed distances are below, in and above the tolerance band.
 struct band_counts {
-    std::uint64_t below = 0;
-    std::uint64_t within = 0;
-    std::uint64_t above = 0;
+    std::uint64_t below = 0;   ///< points below the band
+    std::uint64_t within = 0;  ///< points in it, both ends included
+    std::uint64_t above = 0;   ///< points above it
 };
 
 /// How far points are from a surface.
@@ -63,12 +63,12 @@ struct deviation_result {
     /// Whether `b` is closed, so that distances have a sign.
     bool is_signed = false;
     std::optional<side_counts> sides{};  ///< of the points of `a`, where distances have a sign
-    double mean = 0.0;                   ///< of the signed distances
-    double mean_absolute = 0.0;          ///< of their magnitudes, as are the six below
-    double rms = 0.0;                    ///< root mean square
+    double mean = 0.0;                   ///< mean of the signed distances
+    double mean_absolute = 0.0;          ///< mean of their magnitudes
+    double rms = 0.0;                    ///< root mean square of the distances
     double p50 = 0.0;         ///< the least value that half of the magnitudes do not exceed
-    double p95 = 0.0;         ///< 95 % are not above it
-    double p99 = 0.0;         ///< 99 % are not above it
+    double p95 = 0.0;         ///< the same for 95 % of them
+    double p99 = 0.0;         ///< the same for 99 % of them
     double max = 0.0;         ///< the largest magnitude
     std::uint32_t worst = 0;  ///< the lowest point with that distance
     double lowest = 0.0;      ///< the least signed distance

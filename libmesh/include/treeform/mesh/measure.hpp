@@ -206,9 +206,9 @@ struct thickness_result {
 
 /// How many points are inside a solid, on a surface, outside of all.
 struct side_counts {
-    std::uint64_t inside = 0;
-    std::uint64_t on = 0;
-    std::uint64_t outside = 0;
+    std::uint64_t inside = 0;   ///< points strictly inside one of the solids
+    std::uint64_t on = 0;       ///< points on the surface of one, and inside none
+    std::uint64_t outside = 0;  ///< points outside all
 };
 
 /// Counts the points by where they are with respect to `solids`, exactly: strictly inside any of

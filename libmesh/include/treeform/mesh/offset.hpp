@@ -25,9 +25,9 @@ struct offset_options {
     /// Edge of the cells that the surface is made in, in the mesh's length unit: at most half of
     /// the distance. Every point of space whose distance differs from the one asked for by more
     /// than twice this is on the right side of the surface. Details that are smaller may be lost.
-    /// Not given: a quarter of the distance, at most a 64th of the diagonal of the result. Where that
-    /// would make more than some 2^16 cells at the surface (170,000 faces), cells are larger, up to
-    /// half of the distance. `offset_statistics` has the value used, and the error reached.
+    /// Not given: a quarter of the distance, at most a 64th of the diagonal of the result. Where
+    /// that would make more than some 2^16 cells at the surface (170,000 faces), cells are larger,
+    /// up to half of the distance. `offset_statistics` has the value used, and the error reached.
     std::optional<double> resolution{};
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;

@@ -183,8 +183,8 @@ struct isolines_result {
 TREEFORM_API void write_section(const std::filesystem::path& path, const section_result& section,
                                 const std::string& format = {}, const std::string& unit = {});
 
-/// The same for isolines: SVG as seen from the normal of a frame, a group a level; DXF and OBJ lines
-/// in space; JSON all that is known.
+/// The same for isolines: SVG as seen from the normal of a frame, a group a level; DXF and OBJ
+/// lines in space; JSON all that is known.
 TREEFORM_API void write_isolines(const std::filesystem::path& path, const isolines_result& isolines,
                                  const plane_frame& seen = {}, const std::string& format = {},
                                  const std::string& unit = {});

@@ -196,8 +196,8 @@ struct stream_search_result {
 /// pair counts in the tile that holds the lowest corner of the common part of the boxes of its
 /// faces, so it counts once.
 ///
-/// The folder stays when the process is killed, and the same call goes on from there. With several ranks,
-/// rank 0 makes the tiles, all search them, and rank 0 gets the result.
+/// The folder stays when the process is killed, and the same call goes on from there. With several
+/// ranks, rank 0 makes the tiles, all search them, and rank 0 gets the result.
 ///
 /// \throws io_error when the file cannot be read or is of another format; stream_error for the
 ///         folder; std::length_error for more than 2^32 - 1 triangles

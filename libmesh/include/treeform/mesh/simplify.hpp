@@ -26,6 +26,9 @@ struct simplify_options {
     double feature_angle = 180.0;
     /// [F] or empty: edges between faces of different groups are borders of both.
     std::span<const std::uint32_t> face_groups{};
+    /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
+    /// their corners at each of its ends are of one group. Of a file: `carry_sources::corner_groups`.
+    std::span<const std::uint32_t> corner_groups{};
     progress_callback progress{};
 };
 
@@ -36,8 +39,12 @@ struct simplify_result {
     treeform::mesh mesh;
     std::vector<std::uint32_t> face_source;    ///< [F] the face of the input that each was
     std::vector<std::uint32_t> vertex_source;  ///< [V] vertex of the input that each is; none: new
-    /// [V] of a new vertex, the face of the input that is nearest to it; else none
+    /// [V] of a new vertex, the face of the input that is nearest to it, on its side of seams; else
+    /// none
     std::vector<std::uint32_t> face_of_new_vertex;
+    /// [3 F] the corner of the input that each is at (3 f + i for corner i of face f), on its side of
+    /// seams; none at new vertices
+    std::vector<std::uint32_t> corner_source;
     std::uint64_t collapses = 0;            ///< edges that became a vertex
     std::uint64_t refused_by_topology = 0;  ///< edges tried whose collapse would change it
     std::uint64_t refused_by_turning = 0;   ///< edges whose collapse would turn a face about
@@ -69,12 +76,12 @@ struct simplify_result {
 /// cross, at edges of more than two faces or of faces that do not run both ways, and where faces at
 /// a vertex are no fan, vertices stay as they are.
 ///
-/// A distance below what doubles can prove, some 2^-46 of the largest coordinate, collapses nothing,
-/// nor are coordinates whose squares are no doubles. Corners with equal coordinates are one vertex;
-/// faces with two equal corners go, and are no part of either surface.
+/// A distance below what doubles can prove, some 2^-46 of the largest coordinate, collapses
+/// nothing, nor are coordinates whose squares are no doubles. Corners with equal coordinates are
+/// one vertex; faces with two equal corners go, and are no part of either surface.
 ///
 /// \throws std::invalid_argument for a distance that is negative or not finite, another number of
-///         groups than of faces, or a face with a corner that is out of range or not finite
+///         groups than of faces or corners, or a face with a corner that is out of range or not finite
 /// \cost   50 to 150 microseconds a collapse, serial: O(n log n) for n collapses, more where a face
 ///         comes to stand for many; 1 kB a face; and `find_solid_defects` before and after
 /// \same   on any number of threads

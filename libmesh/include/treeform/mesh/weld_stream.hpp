@@ -190,7 +190,7 @@ class TREEFORM_API stream_error : public std::runtime_error {
 /// tolerance, or `weld_rule::chain`.
 ///
 /// \throws io_error when an input cannot be read or an output cannot be written, stream_error,
-///         std::invalid_argument for a tolerance below 0 or not finite, and as `weld` for properties
+///         std::invalid_argument for a tolerance below 0 or not finite, and as `weld`
 /// \cost   O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for
 ///         each condition, 48 for an order, and points as in memory for a choice of what is kept;
 ///         of a mesh up to 56 more, and 48 a triangle; the points of a compressed PCD also unpacked

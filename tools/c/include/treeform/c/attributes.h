@@ -28,17 +28,25 @@ TREEFORM_C_API treeform_code treeform_carry(treeform_file* file,
                                             const treeform_element* face_of_cut_vertex);
 
 /// The same for what was made of one input: `face_source` [F] and `vertex_source` [V] are those of
-/// a `treeform_resolve_result` or `treeform_repair_result`.
+/// a `treeform_resolve_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
+/// `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
 TREEFORM_C_API treeform_code treeform_carry_one(treeform_file* file,
                                                 const treeform_carry_source* input,
                                                 const uint32_t* face_source,
-                                                const uint32_t* vertex_source);
+                                                const uint32_t* vertex_source,
+                                                const uint32_t* face_of_new_vertex,
+                                                const uint32_t* corner_source);
 
 /// A group for each face of all inputs, for `treeform_boolean_options::face_groups`. With
 /// `by_values` a group has one material and equal values, with `by_input` faces of one input only.
 TREEFORM_C_API treeform_code treeform_face_groups(const treeform_carry_source* inputs, size_t count,
                                                   int32_t by_values, int32_t by_input,
                                                   treeform_indices** groups);
+
+/// A group for each corner [3 F] of an input, for `treeform_simplify_options::corner_groups`: seams,
+/// and borders of materials and values, are kept. None where there are no values.
+TREEFORM_C_API treeform_code treeform_corner_groups(const treeform_carry_source* input,
+                                                    treeform_indices** groups);
 
 /// Gives faces the columns NAME_mesh and NAME_face: the operand that each comes from, and its
 /// number there; a comment for each of `inputs` [count] says its name.

@@ -96,20 +96,20 @@ TREEFORM_C_API void treeform_free(void* what);
 typedef int (*treeform_progress)(double done, void* data);
 
 /// From here on, also those calls of this thread report progress that have no progress among their
-/// options and take long: `treeform_find_features`, and those that answer many questions: of points,
-/// rays, boxes, positions, and all pairs of points. Null: none does, as at first. A call that is
-/// cancelled has filled its arrays in part.
+/// options and take long: `treeform_find_features`, and those that answer many questions: of
+/// points, rays, boxes, positions, and all pairs of points. Null: none does, as at first. A call
+/// that is cancelled has filled its arrays in part.
 ///
-/// All other calls without progress run to their end: they read or write a file once, take one or two
-/// meshes through once (a million faces or points in less than half a second on two cores), or build
-/// a tree (the same).
+/// All other calls without progress run to their end: they read or write a file once, take one or
+/// two meshes through once (a million faces or points in less than half a second on two cores), or
+/// build a tree (the same).
 TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
 
 /// Takes what one process of a communicator has sent: `bytes` [count].
 typedef void (*treeform_hear)(const void* bytes, size_t count, void* listener);
 
-/// Processes that do one work together, each its share, in a folder that all see, such as those that
-/// mpirun starts. All call the same with the same options; outputs are those of rank 0.
+/// Processes that do one work together, each its share, in a folder that all see, such as those
+/// that mpirun starts. All call the same with the same options; outputs are those of rank 0.
 typedef struct treeform_communicator {
     size_t rank;
     size_t size;
@@ -267,10 +267,10 @@ typedef struct treeform_certificate {
 /// What a search that could go on has looked at, counted in pairs of faces, a pair in motion as
 /// two: the same for the same input. What it found holds either way.
 typedef struct treeform_search_effort {
-    uint64_t pairs;  ///< looked at
-    uint64_t bound;  ///< of these: the most that it was to look at
-    /// Questions that would have taken more than they may, a 32nd of the bound or what was left of
-    /// it: where there are some, something better may exist.
+    uint64_t pairs;  ///< pairs of faces looked at, a pair in motion counting as two
+    uint64_t bound;  ///< the most that it was to look at
+    /// Questions passed over, where something better may exist: they would have taken more than a
+    /// 32nd of the bound, or than what was left of it.
     uint64_t cut;
 } treeform_search_effort;
 // end

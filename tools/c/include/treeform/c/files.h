@@ -207,7 +207,8 @@ TREEFORM_C_API treeform_code treeform_file_round_to_float32(treeform_file* file,
 /// outward as before.
 TREEFORM_C_API treeform_code treeform_file_transform(treeform_file* file, const double* matrix);
 
-/// Turns the normals of the file as a matrix does; where it mirrors, for faces that are turned over.
+/// Turns the normals of the file as a matrix does; where it mirrors, for faces that are turned
+/// over.
 TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix);
 
 // made of <mesh/write.hpp>:

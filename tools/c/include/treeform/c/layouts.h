@@ -259,8 +259,8 @@ TREEFORM_C_API void treeform_align_options_init(treeform_align_options* options,
 /// (axis times angle) about `align_result::pivot_moved` and a shift, together by 1 in the root
 /// mean square over the points.
 typedef struct treeform_freedom {
-    double turn[3];
-    double shift[3];
+    double turn[3];   ///< axis times angle, about `pivot_moved`
+    double shift[3];  ///< after the turn
     /// Share of the motion (of its squares) that is along the normals: near 0 where points slide
     /// on the surface and nothing holds them, as a plane on a plane; 1 at most.
     double stiffness;
@@ -293,12 +293,12 @@ typedef struct treeform_align_result {
     /// accurate.
     double matrix[12];
     double pivot[3];        ///< center of the box of the moving points
-    double pivot_moved[3];  ///< where it goes
-    double scale;           ///< found in addition to that of `start`
+    double pivot_moved[3];  ///< where the pivot goes
+    double scale;           ///< the scale found, in addition to that of `start`
     /// Root mean square of the distances that count, after, by weights if there are; 0 for none.
     /// Of two clouds by `plane_to_plane`, the distances to the planes, as far as both sides agree.
     double rms;
-    double rms_at_start;  ///< the same before, without weights
+    double rms_at_start;  ///< the same at the start, without weights
     /// Share of all moving points whose nearest fixed point is within `max_distance`, after.
     double overlap;
     /// How many of the moving points are within 4.5 medians of the distances that count.
@@ -309,11 +309,11 @@ typedef struct treeform_align_result {
     /// [freedom_count] The independent motions, least held first; none without partners.
     const treeform_freedom* freedoms;
     size_t freedom_count;
-    size_t undetermined;  ///< how many of `freedoms` nothing holds
-    treeform_align_end end;
-    uint32_t iterations;  ///< from the start that was best
-    uint32_t start;       ///< which that was: 0 is the present position
-    const char* message;  ///< half a sentence for people
+    size_t undetermined;     ///< how many of `freedoms` nothing holds
+    treeform_align_end end;  ///< how the search ended
+    uint32_t iterations;     ///< steps from the best start
+    uint32_t start;          ///< which start that was: 0 is the present position
+    const char* message;     ///< half a sentence for people
     /// How far the points may be from where they belong: the standard deviation that the distances
     /// leave, and how little they hold, as a root mean square over the points; without the motions
     /// that `undetermined` counts.

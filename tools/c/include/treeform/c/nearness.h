@@ -203,8 +203,8 @@ TREEFORM_C_API void treeform_depth_options_init(treeform_depth_options* options,
 // end
 
 /// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
-/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate. What
-/// the search took comes in `effort`, which may be null.
+/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
+/// What the search took comes in `effort`, which may be null.
 TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         const treeform_mesh* b,
                                                         const treeform_depth_options* options,
@@ -246,12 +246,12 @@ typedef struct treeform_deviation_result {
     const uint32_t* faces;  ///< [V] the nearest face of `b`
     size_t count;
     int32_t is_signed;     ///< Whether `b` is closed, so that distances have a sign.
-    double mean;           ///< of the signed distances
-    double mean_absolute;  ///< of their magnitudes, as are the six below
-    double rms;            ///< root mean square
+    double mean;           ///< mean of the signed distances
+    double mean_absolute;  ///< mean of their magnitudes
+    double rms;            ///< root mean square of the distances
     double p50;            ///< the least value that half of the magnitudes do not exceed
-    double p95;            ///< 95 % are not above it
-    double p99;            ///< 99 % are not above it
+    double p95;            ///< the same for 95 % of them
+    double p99;            ///< the same for 99 % of them
     double max;            ///< the largest magnitude
     uint32_t worst;        ///< the lowest point with that distance
     double lowest;         ///< the least signed distance

@@ -104,6 +104,11 @@ typedef struct treeform_simplify_options {
     size_t face_group_count;
     treeform_progress progress;
     void* progress_data;
+    /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
+    /// their corners at each of its ends are of one group. Of a file:
+    /// `carry_sources::corner_groups`; or null
+    const uint32_t* corner_groups;
+    size_t corner_group_count;
 } treeform_simplify_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_simplify_options_init(treeform_simplify_options* options, size_t size);
@@ -125,13 +130,17 @@ typedef struct treeform_simplify_result {
     const treeform_certificate* certificate;
     /// [V] vertex of the input that each is; `TREEFORM_NONE`: new
     const uint32_t* vertex_source;
-    /// [V] of a new vertex, the face of the input that is nearest to it; else none
+    /// [V] of a new vertex, the face of the input that is nearest to it, on its side of seams;
+    /// else none
     const uint32_t* face_of_new_vertex;
+    /// [3 F] the corner of the input that each is at (3 f + i for corner i of face f), on its side
+    /// of seams; none at new vertices
+    const uint32_t* corner_source;
 } treeform_simplify_result;
 // end
 
-/// The mesh with fewer faces, no point of either surface further than `max_distance` from the other.
-/// The code is that of the certificate.
+/// The mesh with fewer faces, no point of either surface further than `max_distance` from the
+/// other. The code is that of the certificate.
 TREEFORM_C_API treeform_code treeform_simplify(const treeform_mesh* mesh, double max_distance,
                                                const treeform_simplify_options* options,
                                                treeform_simplify_result** result);
@@ -221,8 +230,8 @@ TREEFORM_C_API treeform_code treeform_isolines(const treeform_mesh* mesh, const 
                                                treeform_progress progress, void* progress_data,
                                                treeform_isolines_result** lines);
 
-/// Writes isolines as `treeform_write_section` does sections; SVG as seen from where `normal` points
-/// (null: z).
+/// Writes isolines as `treeform_write_section` does sections; SVG as seen from where `normal`
+/// points (null: z).
 TREEFORM_C_API treeform_code treeform_write_isolines(const char* path,
                                                      const treeform_isolines_result* lines,
                                                      const double normal[3], const char* format,

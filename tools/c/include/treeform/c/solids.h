@@ -292,29 +292,28 @@ TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* option
 
 /// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
 typedef struct treeform_repair_statistics {
-    uint64_t tetrahedra;    ///< that the faces were; their boundary was kept
-    uint64_t degenerate;    ///< faces without area, dropped; with such, slivers
-    uint64_t repeated;      ///< faces on others, dropped
-    uint64_t closed_edges;  ///< pairs of border edges that became one
-    uint64_t split_edges;   ///< border edges split at vertices that lie on them
-    double gap;             ///< widest crack that was looked for
-    double widest;          ///< widest crack that was closed
-    uint64_t flipped;       ///< faces turned to agree with their neighbors
-    uint64_t turned;        ///< components turned outward
-    uint64_t strays;        ///< faces of loose and of inner pieces, dropped
-    uint64_t holes;         ///< filled
-    uint64_t hole_edges;    ///< around them
-    uint64_t filled;        ///< faces that fill them
-    uint64_t sheets;        ///< rims not filled, since they end sheets
-    uint64_t open_edges;    ///< left after these steps
-    int32_t resolved;       ///< faces met and were cut
-    uint64_t pairs;         ///< of faces that met
-    /// bounded ones, by least disagreement (`treeform_repair`)
-    uint64_t labeled_cells;
-    double dropped_area;           ///< of faces that their labels put within or without
-    double turned_area;            ///< of faces that their labels turned over
+    uint64_t tetrahedra;           ///< tetrahedra that the faces were; their boundary was kept
+    uint64_t degenerate;           ///< faces without area, dropped; with such, slivers
+    uint64_t repeated;             ///< faces on others, dropped
+    uint64_t closed_edges;         ///< pairs of border edges that became one
+    uint64_t split_edges;          ///< border edges split at vertices that lie on them
+    double gap;                    ///< widest crack that was looked for
+    double widest;                 ///< widest crack that was closed
+    uint64_t flipped;              ///< faces turned to agree with their neighbors
+    uint64_t turned;               ///< components turned outward
+    uint64_t strays;               ///< faces of loose and of inner pieces, dropped
+    uint64_t holes;                ///< holes filled
+    uint64_t hole_edges;           ///< edges around them
+    uint64_t filled;               ///< faces that fill them
+    uint64_t sheets;               ///< rims not filled, since they end sheets
+    uint64_t open_edges;           ///< left after these steps
+    int32_t resolved;              ///< faces met and were cut
+    uint64_t pairs;                ///< pairs of faces that met
+    uint64_t labeled_cells;        ///< cells labeled inside or outside, since faces disagreed
+    double dropped_area;           ///< area of faces with one label on both sides
+    double turned_area;            ///< area of faces that their labels turned over
     uint64_t removed;              ///< faces that resolving left nothing of
-    uint64_t split_vertices;       ///< as in `boolean_statistics`
+    uint64_t split_vertices;       ///< vertices split where parts of the solid touch
     uint64_t detached;             ///< vertices moved apart
     uint64_t touching;             ///< vertices that still have a twin at their place
     uint64_t vanished_components;  ///< larger than `repair_options::strays`

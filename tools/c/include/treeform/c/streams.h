@@ -75,9 +75,10 @@ typedef struct treeform_weld_stream_result {
 } treeform_weld_stream_result;
 // end
 
-/// Welds the cloud in the files `inputs` [count] (PLY, PCD, LAS, LAZ, PTS, XYZ, CSV), or the mesh in
-/// one file (PLY, binary STL), and writes `output`, whole or not at all: the same bytes as `treeform_weld_file` would lead to.
-/// The folder stays when the process is killed, and the same call goes on from there.
+/// Welds the cloud in the files `inputs` [count] (PLY, PCD, LAS, LAZ, PTS, XYZ, CSV), or the mesh
+/// in one file (PLY, binary STL), and writes `output`, whole or not at all: the same bytes as
+/// `treeform_weld_file` would lead to. The folder stays when the process is killed, and the same
+/// call goes on from there.
 TREEFORM_C_API treeform_code treeform_weld_stream(const char* const* inputs, size_t count,
                                                   const char* output,
                                                   const treeform_weld_stream_options* options,
@@ -97,8 +98,8 @@ TREEFORM_C_API treeform_code treeform_shared_weld_scatter(treeform_shared_weld* 
                                                           size_t* tiles);
 /// Welds a tile, unless that is done.
 TREEFORM_C_API treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile);
-/// Welds what lies along the borders of tiles, when all are welded and the others have let go of the
-/// folder, and writes `output`, whole or not at all.
+/// Welds what lies along the borders of tiles, when all are welded and the others have let go of
+/// the folder, and writes `output`, whole or not at all.
 TREEFORM_C_API treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld,
                                                          const char* output,
                                                          treeform_weld_stream_result** result);
