@@ -51,7 +51,7 @@ class FunctionWriter:
     def __init__(self, language: Language, options: dict[str, str]) -> None:
         self.language, self.options = language, options
         self.docs = read_docs()
-        self.public = {}
+        self.public = {"_core": ["Attributes"]}
         for path in sorted((ROOT / "tools/python/treeform").glob("_[a-z]*.py")):
             if found := re.search(r"^__all__ = (\[[^\]]*\])", path.read_text(), re.M):
                 self.public[path.stem] = sorted(ast.literal_eval(found[1]))

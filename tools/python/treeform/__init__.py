@@ -13,6 +13,7 @@ given; what operations return has been checked in the numbers returned.
 from . import _core, _exit
 
 # made of names:
+from ._core import Attributes
 from ._arrays import NONE
 from ._assembly import (ClashResult, NearestPoints, PartClash, PoseClashes, RELATIONS, check_poses,
                         clash, closest_points, distance, intersects)
@@ -27,7 +28,7 @@ from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, 
 from ._intersections import (FacePairs, FilePairs, KINDS, Region, StreamSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
                              self_intersections, self_intersections_of_file)
-from ._mesh import Attributes, Mesh, MeshLike
+from ._mesh import Mesh, MeshLike
 from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_point, contains,
                         deviation, locate, raycast, raycast_all, raycast_any, signed_distance,
                         winding_number)

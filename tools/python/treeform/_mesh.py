@@ -17,7 +17,7 @@ from ._results import Certificate, Result
 if TYPE_CHECKING:
     from ._show import View
 
-__all__ = ["Attributes", "Mesh", "MeshLike"]
+__all__ = ["Mesh", "MeshLike"]
 
 
 class HasFaces(Protocol):
