@@ -80,7 +80,7 @@ def python_modules():
         if isinstance(node, ast.ImportFrom) and node.module:
             path = next(PACKAGE.glob(f"{node.module}.py*"))
             docstring = ast.get_docstring(ast.parse(path.read_text()))
-            title = first_sentence(docstring or "Certificates.")
+            title = first_sentence(docstring or "Attributes of meshes.")
             yield node.module.strip("_"), title, path, [name.name for name in node.names]
 
 

@@ -233,8 +233,10 @@ V, F = CUBE.vertices, CUBE.faces
 @pytest.mark.parametrize("verb, message", [
     (lambda: tf.Mesh(V, F, {"q": 1}), "attributes: Attributes are needed, not dict"),
     (lambda: tf.weld(V, "x"), "tolerance: a number is needed, not 'x'"),
-    (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1), "memory: -1 is less than 0"),
-    (lambda: tf.weld_stream("a.ply", "b.ply", memory=0.5), "memory: a whole number is needed"),
+    (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1),
+     "memory: a whole number, not negative, is needed"),
+    (lambda: tf.weld_stream("a.ply", "b.ply", memory=0.5),
+     "memory: a whole number, not negative, is needed"),
     (lambda: tf.threads(-1), "most: -1 is less than 0"),
     (lambda: tf.write("a\0b.ply", CUBE), "path: .* has a zero in it"),
     (lambda: tf.read("a\0b.ply"), "path: .* has a zero in it"),

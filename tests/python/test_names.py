@@ -95,7 +95,7 @@ def there(scope, names):
             made[name] = there(one, [n for n in vars(one) if not n.startswith("_") or n in KEPT])
         elif callable(one):
             line = [line for line in one.__doc__.splitlines() if line.startswith(f"{name}(")][-1]
-            made[name] = len(re.findall(r"\barg\d+: ", line))
+            made[name] = len([one for one in re.findall(r"[(,] ?(\w+): ", line) if one != "self"])
         else:
             made[name] = None
     return made

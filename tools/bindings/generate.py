@@ -15,6 +15,7 @@ import c_surface
 import functions
 import python_language
 import python_surface
+import python_verbs
 import python_write
 import report_write
 from c_language import Language
@@ -41,7 +42,7 @@ def python_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pat
     language = python_language.Language(structs, enums, python_surface.RESULTS,
                                         python_surface.WORDS)
     writer = python_write.Writer(language, python_surface.OPTIONS, python_surface.COUNTERS,
-                                 python_surface.FUNCTIONS)
+                                 python_surface.STATES, python_verbs.FUNCTIONS)
     made = writer.sources()
     for path in sorted([*python_write.PACKAGE.glob("*.py"), *python_write.PACKAGE.glob("*.pyi")]):
         made[path] = writer.package_file(path)

@@ -57,41 +57,97 @@ class Result:
 
 @dataclass
 class Function:
-    """A function of the extension: `cut(mesh: Mesh, ...) -> list[CutPiece]`, and the call of C++."""
+    """A function of the extension, `cut(mesh: Mesh, ..., options: cut_options) -> CutPieces`, and
+    the call of C++. That of the package has its name and arguments: defaults are said there,
+    options are arguments by name, but for those in brackets, and behind `*` all are by name."""
 
     declared: str
-    call: str
+    call: str = ""  #: "": it is in `src/*.cpp`
     context: str = ""  #: an argument whose attributes results get, or that moves
     kind: str = "by_elements"  #: `job_kind`
+    # of the package
+    #: What is raised where its certificate is not ok: of a "solid" or "solids", NotSolidError where
+    #: one is open, too; of a "mesh" or "meshes", NotCertifiedError alone.
+    check: str = ""
+    missing: str = ""  #: what raises ValueError in place of None
+    made: str = ""  #: what the package returns, and how, where it is something else
+    value: str = "{}"
+    body: str = ""  #: of the package alone: what it returns, where `how` are the options
+    given: str = ""  #: options that the package makes of other arguments, `size=size_of(size)`
+    leave: str = ""  #: options that it does not have
+    words: dict[str, str] = field(default_factory=dict)  #: names of C++ that it has others for
+    cpp: str = ""  #: "of", or "of in header": whose docstring it has; "": of the call, or its name
+    doc: str = ""  #: in place of what C++ says, where that is of no use
+    also: str = ""  #: beside it
+    docs: dict[str, str] = field(default_factory=dict)  #: of arguments
 
     @property
     def name(self) -> str:
         return self.declared.partition("(")[0]
 
     @property
-    def parameters(self) -> list[tuple[str, str]]:
+    def arguments(self) -> list[tuple[str, str, str, list[str]]]:
+        """Names, types, defaults, options that have a place."""
         inside = self.declared[self.declared.index("(") + 1:self.declared.rindex(") -> ")]
-        return [tuple(one.split(": ")) for one in re.split(r", (?=\w+: )", inside) if one]
+        made = []
+        for one in re.split(r", (?=\*{0,2}\w+: |\*)", inside):
+            declared, _, default = one.partition(" = ")
+            name, _, type = declared.partition(": ")
+            type, _, first = type.rstrip(")").partition("(")
+            made.append((name, type, default, first.split(", ") if first else []))
+        return made
+
+    @property
+    def parameters(self) -> list[tuple[str, str]]:
+        return [(name.strip("*"), type) for name, type, *_ in self.arguments
+                if type in ARGUMENTS or re.fullmatch(r"[a-z]+(_[a-z]+)*", type)]
 
     @property
     def returns(self) -> str:
-        return self.declared.partition(" -> ")[2]
+        return self.declared.rpartition(" -> ")[2]
 
 
-#: Types of arguments: in C++, in the stub, and how a call gets them.
+_LIST = '[{} for one in _arrays.several({{0}}, "{{0}}")]'
+#: Types of arguments: in C++, in the stub, how a call gets them; in the package, and what it hands
+#: over.
 ARGUMENTS = {
-    "Mesh": ("const held_mesh&", "HeldMesh", "{}.ref()"),
-    "Meshes": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})"),
-    "Vector": ("const array_of<double>&", "Floats", "point_of({})"),
-    "Matrix": ("const array_of<double>&", "Floats", "transform_of({})"),
-    "Points": ("const points_array&", "Floats", "points_of({})"),
-    "Numbers": ("const array_of<double>&", "Floats", "rows_of<double>({})"),
-    "Ids": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})"),
-    "Kinds": ("const array_of<std::uint8_t>&", "Bytes", "{}"),
-    "Pairs": ("const ids_array&", "Ids", "{}"),
-    "float": ("double", "float", "{}"), "int": ("std::size_t", "int", "{}"),
-    "bool": ("bool", "bool", "{}"), "str": ("const std::string&", "str", "{}"),
-    "names": ("const std::vector<std::string>&", "list[str]", "{}"),
+    "Mesh": ("const held_mesh&", "HeldMesh", "{}.ref()", "MeshLike", "held({})"),
+    "Body": ("const held_mesh&", "HeldMesh", "{}.ref()", "Body", "held_body({})"),
+    "Meshes": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Iterable[MeshLike]",
+               _LIST.format("held(one)")),
+    "Parts": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Iterable[Body]",
+              _LIST.format("held_body(one)")),
+    "Operands": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "MeshesLike",
+                 "operands_of({})"),
+    "Bodies": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Any", "bodies({})"),
+    "Vector": ("const array_of<double>&", "Floats", "point_of({})", "ArrayLike",
+               '_arrays.vector({0}, "{0}")'),
+    "Matrix": ("const array_of<double>&", "Floats", "transform_of({})", "ArrayLike | None",
+               '_arrays.matrix({0}, "{0}")'),
+    "Points": ("const points_array&", "Floats", "points_of({})", "ArrayLike",
+               '_arrays.points({0}, "{0}")'),
+    "Cloud": ("const points_array&", "Floats", "points_of({})", "Body", "points_of({})"),
+    "Numbers": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike",
+                '_arrays.floats({0}, "{0}")'),
+    "Levels": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike",
+               'np.atleast_1d(_arrays.floats({0}, "{0}"))'),
+    "Groups": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})", "ArrayLike | None",
+               '_arrays.labels({0}, "{0}")'),
+    "PairIds": ("const ids_array&", "Ids", "{}", "", ""),
+    "Kinds": ("const array_of<std::uint8_t>&", "Bytes", "{}", "", ""),
+    "Words": ("const std::vector<std::string>&", "list[str]", "{}", "", ""),
+    "Heights": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike | None",
+                "heights_of({})"),
+    "Drains": ("const array_of<double>&", "Floats", "rows_of<tf::drain>({})", "ArrayLike",
+               "drains_of({})"),
+    "Poses": ("const array_of<double>&", "Floats", "transforms_of({})", "ArrayLike | None",
+              'poses_of({0}, "{0}")'),
+    "Chosen": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})", "ArrayLike",
+               "chosen_of(mesh, {})"),
+    "Pairs": ("const ids_array&", "Ids", "rows_of<tf::part_pair>({})", "", ""),
+    **{type: (cpp, type, "{}", type, "{}") for type, cpp in (
+        ("float", "double"), ("int", "std::size_t"), ("bool", "bool"),
+        ("str", "const std::string&"))},
 }
 
 
@@ -158,8 +214,13 @@ class Language:
             return f"{self.annotation(found.group(1))} | None"
         raise ValueError(f"{type}: Python has no such thing yet")
 
-    def sentence(self, one: Field) -> str:
-        """What is said of a field, with its shape in front."""
+    def words_of(self, type: str) -> str:
+        """"'none', 'quarter' or 'any'" of an enumeration of up to six."""
+        words = [f"'{value}'" for value, _ in self.enums[type].values] if type in self.enums else []
+        return f"{', '.join(words[:-1])} or {words[-1]}" if 1 < len(words) < 7 else ""
+
+    def sentence(self, one: Field, has_words: bool = True) -> str:
+        """What is said of a field, with its shape in front, and the words that it can be."""
         text = one.sentence
         shape = ARRAYS.get(one.type.removeprefix("optional<").removesuffix(">"), ("", ""))[1]
         if one.type in ARRAYS:
@@ -171,10 +232,8 @@ class Language:
             text = text.replace(before, after)
         if "uint32_t" in one.type:
             text = re.sub(r"\b(else|or) none\b", r"\1 `NONE`", text)
-        values = self.enums[one.type].values if one.type in self.enums else []
-        if 1 < len(values) < 7:
-            words = [f"'{value}'" for value, _ in values]
-            text = f"{text.rstrip('.')}: {', '.join(words[:-1])} or {words[-1]}".lstrip(": ")
+        if has_words and (words := self.words_of(one.type)):
+            text = f"{text.rstrip('.')}: {words}".lstrip(": ")
         if shape and text:
             text = f"{shape.format(one.shape or 'n')} {text}"
         elif text:
@@ -191,14 +250,16 @@ class Language:
         doc = of.doc or self.structs[of.cpp].doc
         if not doc:
             raise ValueError(f"{of.cpp} has no docstring")
-        lines = _wrapped(doc, 4, '"""')
+        lines = wrapped(doc, 4, '"""')
         for one in own:
             if not one.doc:
                 raise ValueError(f"{of.cpp}::{one.name} has no sentence")
-            lines += ([""] if one is own[0] else []) + _wrapped(f"{one.name}: {one.doc}", 8, "", 4)
+            lines += ([""] if one is own[0] else []) + wrapped(f"{one.name}: {one.doc}", 8, "", 4)
         text += "\n".join(lines) + '\n    """\n\n'
         for one in own:
             text += f"    {one.name}: {one.annotation}{one.default and ' = ' + one.default}\n"
+        if of.is_tuple:
+            text += "\n    def __repr__(self) -> str:\n        return tuple_repr(self)\n"
         return text
 
     def object_code(self, of: Result) -> str:
@@ -209,7 +270,7 @@ class Language:
         codes = [one.code for one in attributes]
         if "certificate" in " ".join(codes) and any(
                 one.name == "certificate" for one in self.structs[of.cpp].fields):
-            text += "const py::object certificate = py::cast(from.certificate);\n"
+            text += "const py::object certificate = as_python(tf::certificate(from.certificate));\n"
         elif any("certificate" in code for code in codes):
             text += "const py::object certificate = py::none();\n"
         if any("data)" in code for code in codes):
@@ -244,6 +305,8 @@ class Language:
         for one in self.option_fields(name, leave):
             type = {"pair_kinds": "Optional[list[str]]", "filesystem::path": "str",
                     "vector<string>": "list[str]", "vector<weld_condition>": "Same",
+                    "vector<named_column>": "Optional[Mapping[str, str | int]]",
+                    "optional<array<double,3>>": "Optional[Sequence[float]]",
                     "optional<array<double,2>>": "Optional[Sequence[float]]"}.get(one.type)
             type = type or self.annotation(one.type)
             if type.endswith(" | None"):
@@ -253,7 +316,7 @@ class Language:
             arguments.append(f"{one.name}: {type} = ...")
         text = f"class {camel(name)}:\n    names: tuple[str, ...]\n"
         text += "    defaults: dict[str, Any]\n"
-        return text + _call("    def __init__(", arguments, ") -> None: ...") + "\n\n"
+        return text + call_text("    def __init__(", arguments, ") -> None: ...") + "\n\n"
 
     # ---- functions ----
 
@@ -262,7 +325,7 @@ class Language:
         call = one.call
         how = ""
         for name, type in one.parameters:
-            cpp, _, value = ARGUMENTS.get(type, ("", "", "{}"))
+            cpp, _, value = ARGUMENTS.get(type, ("", "", "{}", "", ""))[:3]
             if type in self.structs:
                 cpp, value, how = f"tf::{type}", "{}", name
             elif type in self.enums:
@@ -274,12 +337,10 @@ class Language:
         context = f", {one.context}" if one.context else ""
         if one.context.startswith("attributes of "):
             operand = one.context[len("attributes of "):]
-            many = dict(one.parameters)[operand] == "Meshes"
-            text += f"const carrying attributes({operand if many else '{&' + operand + '}'});\n"
+            many = dict(one.parameters)[operand] in ("Meshes", "Operands")
+            text += f"carrying attributes({operand if many else '{&' + operand + '}'});\n"
+            text += f"attributes.keep_apart({how});\n" if how else ""
             context = ", attributes"
-            if how and any(f.name == "keep_cuts" for f in self.structs[dict(
-                    one.parameters)[how]].fields):
-                text += f"{how}.keep_cuts = {how}.keep_cuts || attributes.mixes();\n"
         report = bool(how) and any("progress" in f.type for f in self.structs[dict(
             one.parameters)[how]].fields)
         text += f"return as_python(run([&](const tf::progress_callback&" \
@@ -291,17 +352,17 @@ class Language:
     def function_stub(self, one: Function) -> str:
         arguments = []
         for name, type in one.parameters:
-            stub = ARGUMENTS.get(type, ("", "", ""))[1]
+            stub = ARGUMENTS[type][1] if type in ARGUMENTS else ""
             if type in self.structs:
                 stub = camel(type)
             elif type in self.enums:
                 stub = "str"
             arguments.append(f"{name}: {stub}")
-        return _call(f"def {one.name}(", [*arguments, "progress: Watched = ..."],
+        return call_text(f"def {one.name}(", [*arguments, "progress: Watched = ..."],
                      f") -> {one.returns}: ...") + "\n"
 
 
-def _wrapped(text: str, indent: int, front: str, first: int | None = None) -> list[str]:
+def wrapped(text: str, indent: int, front: str, first: int | None = None) -> list[str]:
     lines: list[str] = []
     for i, part in enumerate(text.split("\n\n")):
         lines += ([""] if i else []) + textwrap.wrap(
@@ -311,12 +372,12 @@ def _wrapped(text: str, indent: int, front: str, first: int | None = None) -> li
     return lines
 
 
-def _call(front: str, arguments: list[str], end: str) -> str:
+def call_text(front: str, arguments: list[str], end: str, width: int = 100) -> str:
     """A declaration over as many lines as it needs."""
     lines, line = [], front
     for i, one in enumerate(arguments):
         piece = one + (", " if i + 1 < len(arguments) else end)
-        if len(line + piece.rstrip()) > 100:
+        if len(line + piece.rstrip()) > width:
             lines.append(line.rstrip())
             line = " " * len(front)
         line += piece

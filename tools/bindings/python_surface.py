@@ -1,12 +1,26 @@
-"""Which structs of C++ are classes, options and functions in Python, and where they differ. All else
-follows from the headers: `python_language.py` says how."""
+"""Which structs of C++ are classes and options in Python, and where they differ. All else follows
+from the headers: `python_language.py` says how."""
 
 from __future__ import annotations
 
-from python_language import Attribute, Function, Result
+from python_language import Attribute, Result
 
 #: Words of C++ in sentences, and those of Python.
-WORDS = {"`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
+WORDS = {"columns as `las_header` says": "columns are the fields of its records",
+         "what `las_header` says": "what their records hold",
+         "each of `scene_parts`": "each part",
+         " (`libmesh/attributes/known_columns.cpp` is the table)": "",
+         "Of `file.attributes`, each": "Of `Attributes`, each", "`mesh_file::": "`Attributes.",
+         "`attributes::": "`Attributes.",
+         "Precision of the coordinates returned. float32 values are stored as doubles.":
+             "Of the coordinates returned; 'float32' for STL and GLB.",
+         "above `plane`": "above a plane", "`relation`": "`measure`", "`subtract`": "`difference`",
+         "`point_count`": "the number of vertices", "a prepared mesh": "a `Mesh`",
+         "meshes that are not prepared": "what is no `Mesh`",
+         "Prepared meshes keep": "A `Mesh` keeps", "Of prepared meshes": "Of a `Mesh`",
+         "`unite`": "`union`", "`transform_mesh`": "`transformed`",
+         "`find_oriented_box`": "`oriented_box`", "`find_mass_properties`": "`mass_properties`",
+         "`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
          "`boolean_statistics`": "`BooleanResult.statistics`",
          "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
 
@@ -25,6 +39,27 @@ def column(name: str, annotation: str, doc: str, rows: str, value: str) -> Attri
 
 
 RESULTS = [
+    # _results
+    Result("certificate", "Certificate", "_results", leave="meeting_at",
+           doc="What was checked about the coordinates of a result, with exact predicates. True "
+               "where "
+               "everything that the operation promises holds.",
+           custom={
+               "status": [Attribute("status", "str", "'ok', or how the operation ended.",
+                                    "py::cast(word_of(from.status))")],
+               "meeting": [column("meeting", "Ids", "(n, 2) the first 100 of these pairs.",
+                                  "meeting", "one")],
+               "open": [
+                   Attribute("open_edges", "Floats", "(n, 2, 3) the ends of the first 100 of these "
+                             "edges.", "ends_of(from.open)"),
+                   column("open_faces", "Ids", "(n, 2) the operand and the face at each of them.",
+                          "open", "std::array{one.face.operand, one.face.index}")],
+               "+": [MESSAGE]},
+           docs={"boundary_edges": "Of the open edges, those of an odd number of faces.",
+                 "misoriented_edges": "Of the open edges, those of faces that run the same way.",
+                 "meeting_count": "Pairs of faces that meet where they should not.",
+                 "open_count": "Edges whose signed face count is not zero.",
+                 "size_after": "The same after.", "size_is_volume": "Whether these are volumes."}),
     # _booleans
     Result("boolean_result", "BooleanResult", "_booleans", "MeshResult", context="attributes",
            doc="The surface of a solid, and what was checked about it. Every function that takes a "
@@ -71,7 +106,8 @@ RESULTS = [
            docs={"statistics": "Counts of what was done."},
            custom={"vanished_components": [], "statistics": [Attribute(
                "statistics", "dict[str, Any]", "Counts of what was done.",
-               'with(counters(from.statistics), "vanished_components", from.vanished_components)')]}),
+               'with(counters(from.statistics), "vanished_components", '
+               "from.vanished_components)")]}),
     Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
            doc="A mended mesh.", inherited="mesh certificate", names={"statistics": "steps"},
            docs={"steps": "What each step has done: faces flipped, holes filled, ..."},
@@ -86,7 +122,8 @@ RESULTS = [
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) numbers of the points, outward."},
            custom={"sides": [
-               column("first_face", "Ids", "(S,) the first face of each flat side; its faces follow "
+               column("first_face", "Ids", "(S,) the first face of each flat side; its faces "
+                                           "follow "
                       "one another.", "sides", "one.first_face"),
                column("areas", "Floats", "(S,) the area of each side.", "sides", "one.area"),
                column("normals", "Floats", "(S, 3) the outward normal of each side, of length 1.",
@@ -127,7 +164,8 @@ RESULTS = [
                    Attribute("mesh", "Mesh", "Only the faces that meet others, in the order of the "
                              "file.", "mesh_object(std::move(from.part.mesh), py::none(), "
                              "py::none())"),
-                   Attribute("dropped", "int", "Triangles with a coordinate that is not finite, left "
+                   Attribute("dropped", "int", "Triangles with a coordinate that is not finite, "
+                                               "left "
                              "out.", "py::cast(from.part.dropped)")],
                "found": [
                    column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
@@ -164,15 +202,18 @@ RESULTS = [
                          "py::cast(from.survey.non_finite)"),
                Attribute("tiles", "int", "Parts that space was cut into.",
                          "py::cast(from.survey.tiles)"),
-               Attribute("continued", "bool", "Whether the run went on from what an earlier one had "
+               Attribute("continued", "bool", "Whether the run went on from what an earlier one "
+                                              "had "
                          "left.", "py::cast(from.survey.continued)")],
                "+": [
-                   Attribute("max_displacement", "float", "The furthest that a point moved, at most; "
+                   Attribute("max_displacement", "float", "The furthest that a point moved, at "
+                                                          "most; "
                              "also to a step of LAS.",
                              "py::cast(from.counts.max_displacement + from.survey.las_moved)"),
                    Attribute("faces", "int", "Of a mesh, faces that are left.",
                              "py::cast(from.counts.faces)"),
-                   Attribute("statistics", "dict[str, int]", "Of a mesh, what became of its faces, as "
+                   Attribute("statistics", "dict[str, int]", "Of a mesh, what became of its "
+                                                             "faces, as "
                              "in `WeldResult.statistics`.", "counters(from.counts)"),
                    Attribute("warnings", "list[str]", "What a person should know.",
                              "warnings_of(from)")]},
@@ -188,7 +229,8 @@ RESULTS = [
                                    "from.sides->on, from.sides->outside)) : py::none()")],
                "there": [Attribute("there", "tuple[float, float]",
                                    "(over the points of the first, a bound that no point of its "
-                                   "surface exceeds); of the distances from the first to the second.",
+                                   "surface exceeds); of the distances from the first to the "
+                                   "second.",
                                    "py::make_tuple(from.there.sampled, from.there.at_most)")],
                "back": [Attribute("back", "tuple[float, float] | None",
                                   "The same from the second to the first; the larger one is the "
@@ -241,7 +283,8 @@ RESULTS = [
                      Attribute("tolerance", "float", "Of `turn`: the gap beyond the clearance that "
                                "counts as contact.", "py::cast(0.0)", "0.0"),
                      Attribute("offset", "float", "Of `mate_features`: how far the center of the "
-                               "moving feature ended from the fixed one.", "py::cast(0.0)", "0.0")]}),
+                               "moving feature ended from the fixed one.", "py::cast(0.0)",
+                               "0.0")]}),
     Result("impact", "Impact", "_placement", "NamedTuple",
            leave="exact contact_count pairs_tested predicates",
            doc="The first contact of two meshes in motion.",
@@ -307,7 +350,8 @@ RESULTS = [
                       "std::array{one.a, one.b}"),
                      ("how", "NDArray[np.uint8]", "(n,) uint8: how they lie, a place in "
                       "`RELATIONS`.", "static_cast<std::uint8_t>(one.how)"),
-                     ("distance", "Floats", "(n,) of those that are closer than the clearance; else "
+                     ("distance", "Floats", "(n,) of those that are closer than the clearance; "
+                                            "else "
                       "0.", "one.distance"))]]}),
     Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
            doc="How all parts lie to each other.",
@@ -321,14 +365,21 @@ COUNTERS = {"boolean_statistics": "", "resolve_statistics": "", "repair_statisti
             "wrap_statistics": "", "offset_statistics": "", "weld_statistics": "",
             "weld_stream_counts": "kept groups max_displacement faces"}
 
+#: Structs as bytes, for pickle, and the fields that are left out.
+STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_values": "",
+          "attributes": "", "las_record": "", "las_header": "", "value_range": "",
+          "mesh_file": "mesh"}
+
 #: Options by name: structs, and the fields that Python gives in another way, or not at all.
 OPTIONS = {
+    "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
     "offset_options": "", "simplify_options": "face_groups corner_groups", "thickness_options": "",
     "feature_options": "", "self_intersection_options": "component_of_face between within",
     "mesh_intersection_options": "", "stream_search_options": "box communicator",
-    "weld_options": "label may_merge search", "weld_stream_options": "communicator shared las_scale las_offset",
+    "weld_options": "label may_merge search", "weld_stream_options": "communicator shared "
+                                                                     "las_scale las_offset",
     "slide_options": "close_in limit vertices", "drop_options": "limit vertices",
     "mate_options": "limit vertices", "separate_options": "normals face_pairs limit vertices",
     "turn_options": "max_steps limit vertices", "feature_mate_options": "limit vertices",
@@ -336,101 +387,3 @@ OPTIONS = {
     "lay_flat_options": "overhang_sides", "align_options": "accelerate", "pack_options": "tighten",
     "deviation_options": "", "clash_options": "ignored effort", "pose_options": "ignored",
 }
-
-#: Functions of the extension that are one call.
-FUNCTIONS = [
-    # _booleans
-    Function("split(meshes: Meshes, options: boolean_options) -> BooleanResult",
-             "tf::split($meshes, options)", "attributes of meshes"),
-    # _cuts
-    Function("layer_heights(mesh: Mesh, at: Vector, normal: Vector, thickness: float) -> Floats",
-             "tf::oriented_plane{$at, $normal}.layer_heights(mesh.view().points, thickness)"),
-    Function("components(mesh: Mesh, options: components_options) -> list[MeshPart]",
-             "tf::components($mesh, options)", "attributes of mesh"),
-    Function("submesh(mesh: Mesh, faces: Ids) -> MeshPart", "tf::submesh($mesh, $faces)",
-             "attributes of mesh"),
-    Function("moved_points(mesh: Mesh, matrix: Matrix) -> Floats",
-             "tf::transform_mesh({mesh.view().points, {}}, $matrix).points"),
-    Function("mass_properties(mesh: Mesh) -> Optional[MassProperties]",
-             "tf::find_mass_properties(mesh.view())"),
-    # _shapes
-    Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
-             "tf::offset($mesh, distance, options)", kind="long_work"),
-    Function("hollow(mesh: Mesh, wall: float, drains: Numbers, options: offset_options) "
-             "-> OffsetResult",
-             "tf::hollow($mesh, wall, rows_of<tf::drain>(drains), options)", kind="long_work"),
-    Function("thicken(mesh: Mesh, thickness: float, side: thick_side, options: offset_options) "
-             "-> OffsetResult",
-             "tf::thicken($mesh, thickness, $side, options)", kind="long_work"),
-    Function("simplify(mesh: Mesh, max_distance: float, face_groups: Ids, options: simplify_options) "
-             "-> SimplifyResult",
-             "attributes.simplify($mesh, max_distance, $face_groups, options)",
-             "attributes of mesh", kind="long_work"),
-    Function("wall_thickness(mesh: Mesh, options: thickness_options) -> Thickness",
-             "tf::wall_thickness($mesh, options)"),
-    Function("oriented_box(points: Points) -> Optional[OrientedBox]",
-             "tf::find_oriented_box($points)"),
-    Function("isolines(mesh: Mesh, values: Numbers, levels: Numbers) -> Isolines",
-             "tf::isolines($mesh, $values, $levels, {report})"),
-    # _repair
-    Function("resolve(mesh: Mesh, mode: resolve_mode, options: resolve_options) -> ResolveResult",
-             "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh"),
-    Function("repair(mesh: Mesh, options: repair_options) -> RepairResult",
-             "tf::repair($mesh, options)", "attributes of mesh"),
-    Function("wrap(mesh: Mesh, size: float, options: wrap_options) -> WrapResult",
-             "tf::wrap($mesh, size, options)", kind="long_work"),
-    Function("convex_hull(points: Points) -> ConvexHull", "tf::convex_hull($points, report)"),
-    Function("rounded(points: Points, precision: precision) -> Floats",
-             "tf::rounded($points, $precision)"),
-    # _properties
-    Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
-    Function("signed_volume(mesh: Mesh) -> float", "tf::signed_volume(mesh.view())"),
-    Function("surface_area(mesh: Mesh) -> float", "tf::surface_area(mesh.view())"),
-    Function("find_defects(mesh: Mesh) -> MeshDefects", "tf::find_defects(mesh.view())"),
-    Function("count_topology(mesh: Mesh) -> Topology",
-             "tf::count_topology(mesh.view().points.size(), mesh.view().faces)"),
-    Function("face_components(mesh: Mesh) -> Ids",
-             "tf::face_components(mesh.view().points.size(), mesh.view().faces)"),
-    Function("count_inside_out(mesh: Mesh) -> int", "tf::count_inside_out(mesh.view())"),
-    Function("find_features(mesh: Mesh, kind: feature_kind, options: feature_options)"
-             " -> list[Feature]", "tf::find_features(mesh.view(), $kind, options)"),
-    Function("find_solid_defects(mesh: Mesh) -> SolidDefects",
-             "tf::find_solid_defects($mesh, report)"),
-    # _intersections
-    Function("self_intersections(mesh: Mesh, options: self_intersection_options) -> FacePairs",
-             "tf::self_intersections($mesh, options)"),
-    Function("mesh_intersections(a: Mesh, b: Mesh, options: mesh_intersection_options) -> FacePairs",
-             "tf::mesh_intersections($a, $b, options)"),
-    Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
-             "tf::faces_in_box(mesh.view(), $min, $max)"),
-    # _weld
-    Function("count_nearly_equal(points: Points, distance: float) -> int",
-             "tf::count_nearly_equal($points, distance)"),
-    # _nearness
-    Function("deviation(a: Mesh, b: Mesh, options: deviation_options) -> Optional[Deviation]",
-             "tf::deviation(a.prepared(), b.prepared(), options)"),
-    # _placement
-    Function("slide(moving: Mesh, fixed: Meshes, direction: Vector, options: slide_options)"
-             " -> Placement", "tf::slide($moving, $fixed, $direction, options)", "moving"),
-    Function("drop(moving: Mesh, fixed: Meshes, options: drop_options) -> Placement",
-             "fixed.empty() ? tf::drop($moving, options) : tf::drop($moving, $fixed, options)",
-             "moving"),
-    Function("mate(moving: Mesh, fixed: Meshes, options: mate_options) -> Placement",
-             "tf::mate($moving, $fixed, options)", "moving"),
-    Function("separate(moving: Mesh, fixed: Meshes, options: separate_options) -> Placement",
-             "tf::separate($moving, $fixed, options)", "moving"),
-    Function("measure(a: Mesh, b: Mesh, options: measure_options) -> Optional[Measure]",
-             "tf::measure(a.prepared(), b.prepared(), options)"),
-    Function("penetration_depth(a: Mesh, b: Mesh, options: depth_options) -> Optional[Depth]",
-             "tf::penetration_depth(a.prepared(), b.prepared(), options)"),
-    Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",
-             "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)"),
-    Function("lay_flat(moving: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
-             "tf::lay_flat(moving.prepared(), options)", "moving"),
-    Function("align(moving: Mesh, fixed: Mesh, options: align_options) -> Alignment",
-             "tf::align(moving.prepared(), fixed.prepared(), options)", "moving"),
-    # _assembly
-    Function("closest_points(a: Mesh, b: Mesh, move_a: Matrix, move_b: Matrix, radius: float)"
-             " -> Optional[NearestPoints]",
-             "tf::closest_points(a.prepared(), b.prepared(), {$move_a, $move_b, radius})"),
-]

@@ -8,21 +8,26 @@ import re
 
 from c_write import formatted
 from headers import ROOT
+from python_functions import FunctionWriter
 from python_language import Function, Language
 
 PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
 #: Modules whose results are in `places.cpp`.
 PLACES = ("_assembly", "_nearness", "_placement")
-BLOCK = re.compile(r"^# made of (results|options|functions)[^\n]*:\n((?:#   [^\n]+\n)*).*?^# end\n",
+BLOCK = re.compile(r"^# made of (results|options|functions|names|imports)[^\n]*:\n"
+                   r"((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
 
 
 class Writer:
     def __init__(self, language: Language, options: dict[str, str], counters: dict[str, str],
-                 functions: list[Function]) -> None:
+                 states: dict[str, str], functions: list[Function]) -> None:
+        self.states = states
         self.language, self.options, self.counters = language, options, counters
-        self.functions = functions
+        self.functions = [one for one in functions if not one.body]
+        self.package = FunctionWriter(language, options)
+        self.by_name = {one.name: one for one in functions}
 
     def package_file(self, path: pathlib.Path) -> str:
         """A file of the package with its blocks made anew."""
@@ -33,7 +38,16 @@ class Writer:
         head = found.group(0)[:found.end(2) - found.start()]
         if kind == "options":
             return head + "".join(self.language.option_stub(name, leave)
-                                  for name, leave in self.options.items()).rstrip("\n") + "\n# end\n"
+                                  for name, leave in self.options.items()
+                                  ).rstrip("\n") + "\n# end\n"
+        if kind == "imports":
+            modules = sorted({(one.module, one.name) for one in self.language.results.values()})
+            return head + "".join(f"from .{module} import {name}\n"
+                                  for module, name in modules) + "# end\n"
+        if kind == "names":
+            return head + self.package.exports() + "# end\n"
+        if kind == "functions" and names:
+            return head + self.package.block(names, self.by_name, found.group(0)) + "# end\n"
         if kind == "functions":
             return head + "".join(self.language.function_stub(one)
                                   for one in self.functions) + "# end\n"
@@ -46,53 +60,52 @@ class Writer:
             classes.append(self.language.class_text(of, order))
         return head + "\n\n".join(classes) + "# end\n"
 
+    def _calls(self, start: str, what: str, calls: list[Function]) -> str:
+        text = start + "namespace {\n\n"
+        text += "\n".join(self.language.function_code(one) for one in calls)
+        return text + f"\n}}  // namespace\n\nvoid add_{what}(py::module_& module) {{\n" + "".join(
+            f'add_job(module, "{one.name}", &{one.name}'
+            f"{'' if one.kind == 'by_elements' else ', job_kind::' + one.kind});\n"
+            for one in calls) + "}\n\n}  // namespace binding\n"
+
     def sources(self) -> dict[pathlib.Path, str]:
-        structs = self.language.structs
-        used = {one.cpp for one in self.language.results.values()} | {*self.options, *self.counters}
         enums = sorted(name for name in self.language.enums)
-        of_enums = {self.language.enums[name].header for name in enums}
-        includes = sorted(structs[name].header for name in used)
         first = "#pragma once\n/// \\file\n/// Made by tools/bindings of the headers of C++.\n\n"
-        words = first + '#include "../words.hpp"\n' + "".join(
-            f"#include <treeform/{one}>\n" for one in sorted(of_enums)) + "\nnamespace binding {\n\n"
+        words = first + '#include "../words.hpp"\n\nnamespace binding {\n\n'
         for name in enums:
             values = self.language.enums[name].values
             words += (f"template <>\nstruct words_of<tf::{name}> {{\n"
                       f"static constexpr words<{len(values)}> all{{"
                       + ", ".join(f'"{value}"' for value, _ in values) + "};\n};\n")
         words += "\n}  // namespace binding\n"
-        head = first + '#include "../fields.hpp"\n' + "".join(
-            f"#include <treeform/{one}>\n" for one in sorted(set(includes)))
-        head += "\nnamespace binding {\n\n" + "".join(self.language.declaration(one)
-                                for one in self.language.results.values())
+        head = first + '#include "../fields.hpp"\n\nnamespace binding {\n\n' + "".join(
+            self.language.declaration(one) for one in self.language.results.values())
         head += "\n" + "".join(f"py::dict counters(const tf::{name}& from);\n"
                                 for name in self.counters)
         head += "\n}  // namespace binding\n"
+        states = first + '#include "../base.hpp"\n\nnamespace binding {\n\n' + "\n".join(
+            self.language.option_code(name, leave) for name, leave in self.states.items())
+        states += "\n}  // namespace binding\n"
         start = ("// Made by tools/bindings of the headers of C++: see its README.\n"
-                 '#include "{}"\n\nnamespace binding {{\n\n')
-        options = start.format("made.hpp") + "\n".join(
+                 '#include "../bindings.hpp"\n\nnamespace binding {\n\n')
+        options = start + "\n".join(
             self.language.option_code(name, leave) for name, leave in self.options.items())
         options += "\nvoid add_options(py::module_& module) {\n" + "".join(
             self.language.option_class(name) for name in self.options)
         options += "}\n\n}  // namespace binding\n"
-        of_places, results = (start.format("../parts.hpp") + "\n".join(
+        of_places, results = (start + "\n".join(
             self.language.object_code(one) for one in self.language.results.values()
             if (one.module in PLACES) == places) for places in (True, False))
         of_places += "\n}  // namespace binding\n"
         results += "\n" + "\n".join(self.language.counters_code(name, leave)
                                     for name, leave in self.counters.items())
         results += "\n}  // namespace binding\n"
-        functions = ("// Made by tools/bindings of the headers of C++: see its README.\n"
-                     '#include "../bindings.hpp"\n#include "../job.hpp"\n#include "made.hpp"\n'
-                     "#include <treeform/treeform.hpp>\n\nnamespace binding {\nnamespace {\n\n")
-        functions += "\n".join(self.language.function_code(one) for one in self.functions)
-        functions += "\n}  // namespace\n\nvoid add_functions(py::module_& module) {\n" + "".join(
-            f'add_job(module, "{one.name}", &{one.name}'
-            f"{'' if one.kind == 'by_elements' else ', job_kind::' + one.kind});\n"
-            for one in self.functions)
-        functions += "}\n\n}  // namespace binding\n"
+        calls = [one for one in self.functions if one.call]
+        functions = self._calls(start, "functions", [one for one in calls if not one.context])
+        operations = self._calls(start, "operations", [one for one in calls if one.context])
         made = {"words.hpp": words, "made.hpp": head, "options.cpp": options,
                 "results.cpp": results, "places.cpp": of_places,
-                "functions.cpp": functions}
+                "functions.cpp": functions, "operations.cpp": operations,
+                "states.hpp": states}
         return {MADE / name: formatted(text, f"tools/python/src/made/{name}")
                 for name, text in made.items()}

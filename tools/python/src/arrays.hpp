@@ -2,27 +2,9 @@
 /// \file
 /// NumPy arrays as the spans that treeform takes, and vectors as NumPy arrays. Nothing is copied.
 
-#include <treeform/mesh/mesh.hpp>
-
-#include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <memory>
-#include <new>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
+#include "base.hpp"
 
 namespace binding {
-
-namespace py = pybind11;
-namespace tf = treeform;
 
 /// What the Python side hands over: it has made the array contiguous, aligned and of this type.
 template <class T>

@@ -1,45 +1,7 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
-#include <treeform/mesh/clash.hpp>
-#include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/intersections.hpp>
-
-#include <pybind11/stl.h>
-
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
-
-tf::clash_result clash_of(const held_meshes& parts, tf::clash_options options,
-                          const ids_array& ignored) {
-    options.ignored = rows_of<tf::part_pair>(ignored);
-    const std::vector<tf::prepared_mesh> all = borrowed(parts);
-    return run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::clash(all, options);
-    });
-}
-
-py::object clash(const held_meshes& parts, const tf::clash_options& options,
-                 const ids_array& ignored) {
-    return as_python(clash_of(parts, options, ignored));
-}
-
-// ---- poses ----
-
-/// The maps of matrices [n][4][4].
-std::vector<tf::transform<3>> transforms_of(const array_of<double>& matrices) {
-    const std::size_t count = static_cast<std::size_t>(matrices.size()) / 16;
-    std::vector<tf::transform<3>> all(count);
-    for (std::size_t i = 0; i < count; ++i) all[i] = transform_of(matrices.data() + i * 16);
-    return all;
-}
 
 /// [P] where both meshes are: one of the two may be for all.
 std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
@@ -52,18 +14,6 @@ std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
     for (std::size_t i = 0; i < all.size(); ++i)
         all[i] = {a[a.size() == 1 ? 0 : i], b[b.size() == 1 ? 0 : i]};
     return all;
-}
-
-py::object check_poses(const held_meshes& parts, const array_of<double>& matrices,
-                       tf::pose_options options, const ids_array& ignored) {
-    options.ignored = rows_of<tf::part_pair>(ignored);
-    const std::vector<tf::prepared_mesh> all = borrowed(parts);
-    const std::vector<tf::transform<3>> poses = transforms_of(matrices);
-    tf::pose_result found = run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::check_poses(all, poses, options);
-    });
-    return as_python(std::move(found));
 }
 
 /// `of(positions)` for pieces of the positions, its answers one after the other.
@@ -102,10 +52,8 @@ py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double
 
 void add_assembly(py::module_& module) {
     module.attr("RELATIONS") = py::cast(words_of<tf::mesh_relation>::all);
-    module.def("clash", &clash);
-    module.def("check_poses", &check_poses);
-    module.def("intersects", &intersects);
-    module.def("distance", &distance);
+    add_job(module, "intersects", &intersects);
+    add_job(module, "distance", &distance);
 }
 
 }  // namespace binding

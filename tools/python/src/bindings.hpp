@@ -2,27 +2,27 @@
 /// \file
 /// What each source adds to the module.
 
-#include <pybind11/pybind11.h>
+#include "job.hpp"
+#include "parts.hpp"
 
 namespace binding {
 
-void add_assembly(pybind11::module_& module);
-void add_booleans(pybind11::module_& module);
-void add_boxes(pybind11::module_& module);
-void add_carrying(pybind11::module_& module);
-void add_certificates(pybind11::module_& module);
-void add_clouds(pybind11::module_& module);
-void add_cuts(pybind11::module_& module);
-void add_functions(pybind11::module_& module);
-void add_files(pybind11::module_& module);
-void add_intersections(pybind11::module_& module);
-void add_nearness(pybind11::module_& module);
-void add_options(pybind11::module_& module);
-void add_pictures(pybind11::module_& module);
-void add_placement(pybind11::module_& module);
-void add_repair(pybind11::module_& module);
-void add_robots(pybind11::module_& module);
-void add_streams(pybind11::module_& module);
-void add_weld(pybind11::module_& module);
+void add_assembly(py::module_& module);
+void add_booleans(py::module_& module);
+void add_carrying(py::module_& module);
+void add_cuts(py::module_& module);
+void add_functions(py::module_& module);
+void add_files(py::module_& module);
+void add_intersections(py::module_& module);
+void add_nearness(py::module_& module);
+void add_operations(py::module_& module);
+void add_options(py::module_& module);
+void add_pictures(py::module_& module);
+void add_placement(py::module_& module);
+void add_repair(py::module_& module);
+void add_robots(py::module_& module);
+void add_streams(py::module_& module);
+void add_trees(py::module_& module);
+void add_weld(py::module_& module);
 
 }  // namespace binding

@@ -1,24 +1,6 @@
 #include "bindings.hpp"
-#include "carrying.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
-#include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/carry.hpp>
-
-#include <pybind11/stl.h>
-
-#include <limits>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
-namespace {
-
-/// What is made of so many operands: by name, or by a formula in letters or names.
 tf::boolean_expression expression_of(const std::string& operation, const std::string& formula,
                                      const std::vector<std::string>& names, std::size_t count) {
     if (operation == "union") return tf::boolean_expression::union_of(count);
@@ -29,17 +11,12 @@ tf::boolean_expression expression_of(const std::string& operation, const std::st
                          : tf::boolean_expression(formula, names);
 }
 
-/// A cloud is no solid, not even the empty one.
-void require_faces(const held_mesh& mesh, const std::string& name) {
-    const auto [points, faces] = mesh.view();
-    if (!points.empty() && faces.empty())
-        throw std::invalid_argument(name + ": " + std::to_string(points.size()) +
-                                    " points without a face are no solid");
-}
 void require_faces(const held_meshes& meshes, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < meshes.size(); ++i)
         require_faces(*meshes[i], names.empty() ? "operand " + std::to_string(i) : names[i]);
 }
+
+namespace {
 
 /// The objects of a mesh, in order, each with what it has; none where they cannot be told apart.
 py::list objects_of(const held_mesh& mesh) {
@@ -62,56 +39,8 @@ py::list objects_of(const held_mesh& mesh) {
     return objects;
 }
 
-/// What options say of the attributes of operands.
-struct merging {
-    merging(tf::boolean_options& options, const held_meshes& meshes)
-        : attributes(meshes), groups(attributes.face_groups()) {
-        attributes.keep_apart(options);
-        options.face_groups = groups;
-    }
-    carrying attributes;
-    std::vector<std::uint32_t> groups;
-};
-
-py::object boolean(const held_meshes& meshes, const std::string& operation,
-                   const std::string& formula, const std::vector<std::string>& names,
-                   tf::boolean_options options) {
-    const tf::boolean_expression expression =
-        expression_of(operation, formula, names, meshes.size());
-    require_faces(meshes, names);
-    const merging with(options, meshes);
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::boolean(refs_of(meshes), expression, options);
-                     }),
-                     with.attributes);
-}
-
-py::object clip(const held_meshes& meshes, const std::string& operation,
-                tf::boolean_options options) {
-    const tf::boolean_expression expression = expression_of(operation, {}, {}, meshes.size());
-    require_faces(meshes, {});
-    const merging with(options, meshes);
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::clip(refs_of(meshes), 0, expression, options);
-                     }),
-                     with.attributes);
-}
-
-tf::certificate check_solid(const held_mesh& mesh) {
-    require_faces(mesh, "mesh");
-    return run(
-        [&](const tf::progress_callback& report) { return tf::check_solid(mesh.view(), report); });
-}
-
 }  // namespace
 
-void add_booleans(py::module_& module) {
-    module.def("objects_of", &objects_of);
-    module.def("boolean", &boolean);
-    module.def("clip", &clip);
-    module.def("check_solid", &check_solid);
-}
+void add_booleans(py::module_& module) { module.def("objects_of", &objects_of); }
 
 }  // namespace binding

@@ -1,16 +1,4 @@
-#include "carrying.hpp"
-
 #include "bindings.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "words.hpp"
-
-#include <algorithm>
-#include <cstddef>
-#include <stdexcept>
-#include <string>
-#include <utility>
 
 namespace binding {
 namespace {
@@ -88,16 +76,6 @@ carrying::carrying(const held_meshes& operands) {
     std::vector<tf::carry_source> sources;
     for (const tf::mesh_file& file : files_) sources.push_back({&file, {}});
     sources_ = std::move(sources);
-}
-
-void carrying::keep_apart(tf::boolean_options& options) const {
-    if (!options.simplify && sources_.has_vertex_values()) options.keep_cuts = true;
-}
-
-bool carrying::mixes() const { return sources_.merging_mixes_values(); }
-
-std::vector<std::uint32_t> carrying::face_groups() const {
-    return sources_.face_groups(true, false);
 }
 
 tf::simplify_result carrying::simplify(const tf::mesh_ref& mesh, double max_distance,

@@ -2,17 +2,8 @@
 /// \file
 /// Gives results what their operands have besides points and faces.
 
+#include "file_data.hpp"
 #include "held_mesh.hpp"
-#include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/simplify.hpp>
-#include <treeform/tree/aabb.hpp>
-
-#include <pybind11/pybind11.h>
-
-#include <cstdint>
-#include <span>
-#include <vector>
 
 namespace binding {
 
@@ -25,12 +16,18 @@ class carrying {
     /// \throws std::invalid_argument where attributes are not those of the mesh that has them
     explicit carrying(const held_meshes& operands);
 
-    /// Keeps all cuts where vertices have values, unless `simplify` is asked for.
-    void keep_apart(tf::boolean_options& options) const;
-    /// Whether merging faces may mix values, of one group or not.
-    [[nodiscard]] bool mixes() const;
-    /// `boolean_options::face_groups` for merging coplanar faces: only those of equal values.
-    [[nodiscard]] std::vector<std::uint32_t> face_groups() const;
+    /// Has options merge no faces of different values, nor any where vertices have values, unless
+    /// `simplify` is asked for. They refer to this.
+    template <class Options>
+    void keep_apart(Options& options) {
+        if constexpr (std::is_same_v<Options, tf::boolean_options>) {
+            if (!options.simplify && sources_.has_vertex_values()) options.keep_cuts = true;
+            options.face_groups = groups_ = sources_.face_groups(true, false);
+        } else if constexpr (requires { options.keep_cuts; }) {
+            options.keep_cuts = options.keep_cuts || sources_.merging_mixes_values();
+        }
+    }
+
     /// `tf::simplify` of a single operand, with what is carried kept at borders and seams.
     [[nodiscard]] tf::simplify_result simplify(const tf::mesh_ref& mesh, double max_distance,
                                                std::span<const std::uint32_t> face_groups,
@@ -49,6 +46,7 @@ class carrying {
     py::object carried(const tf::mesh& made, Carry&& carry) const;
 
     std::vector<tf::mesh_file> files_;
+    std::vector<std::uint32_t> groups_;
     tf::carry_sources sources_{
         std::vector<tf::carry_source>{}};  ///< empty: there is nothing to carry
 };

@@ -2,26 +2,8 @@
 /// \file
 /// Fields of options and results, between C++ and Python: what `made/` is written with.
 
-#include "arrays.hpp"
 #include "carrying.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
 #include "made/words.hpp"
-#include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/weld_options.hpp>
-
-#include <pybind11/stl.h>
-
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace binding {
 
@@ -49,32 +31,44 @@ template <has_words Enum>
 void take(const char* name, py::handle value, Enum& to) {
     to = choice<Enum>(name, words_of<Enum>::all, cast_of<std::string>(value));
 }
-inline void take(const char*, py::handle value, std::string& to) {
-    to = cast_of<std::string>(value);
+/// What `function` of the package's `_arrays` makes of an argument; it names what it refuses.
+template <class T>
+T made_by(const char* function, const char* name, py::handle value) {
+    return py::module_::import("treeform._arrays").attr(function)(value, name).template cast<T>();
 }
-inline void take(const char*, py::handle value, std::filesystem::path& to) {
-    to = cast_of<std::string>(value);
+inline void take(const char* name, py::handle value, std::string& to) {
+    to = made_by<std::string>("word", name, value);
 }
-inline void take(const char*, py::handle value, tf::point3& to) {
-    to = point_of(cast_of<array_of<double>>(value));
+inline void take(const char* name, py::handle value, std::filesystem::path& to) {
+    to = made_by<std::string>("path_of", name, value);
 }
-inline void take(const char*, py::handle value, tf::transform<3>& to) {
-    to = transform_of(cast_of<array_of<double>>(value));
+inline void take(const char* name, py::handle value, tf::point3& to) {
+    to = point_of(made_by<array_of<double>>("vector", name, value));
 }
-inline void take(const char*, py::handle value, std::array<double, 2>& to) {
-    to = cast_of<std::array<double, 2>>(value);
+inline void take(const char* name, py::handle value, tf::transform<3>& to) {
+    to = transform_of(made_by<array_of<double>>("matrix", name, value));
 }
-inline void take(const char*, py::handle value, std::vector<std::string>& to) {
-    to = cast_of<std::vector<std::string>>(value);
+inline void take(const char* name, py::handle value, std::array<double, 3>& to) {
+    to = made_by<std::array<double, 3>>("vector", name, value);
 }
-inline void take(const char*, py::handle value, std::vector<tf::weld_condition>& to) {
-    for (const auto& [name, within] : cast_of<std::vector<std::pair<std::string, double>>>(value))
-        to.push_back({name, within});
+inline void take(const char* name, py::handle value, std::vector<tf::named_column>& to) {
+    to = columns_of(made_by<name_pairs>("columns_of", name, value));
+}
+inline void take(const char* name, py::handle value, std::array<double, 2>& to) {
+    to = made_by<std::array<double, 2>>("pair", name, value);
+}
+inline void take(const char* name, py::handle value, std::vector<std::string>& to) {
+    to = made_by<std::vector<std::string>>("words", name, value);
+}
+inline void take(const char* name, py::handle value, std::vector<tf::weld_condition>& to) {
+    using conditions = std::vector<std::pair<std::string, double>>;
+    for (const auto& [column, within] : made_by<conditions>("conditions", name, value))
+        to.push_back({column, within});
 }
 inline void take(const char* name, py::handle value, tf::pair_kinds& to) {
     if (value.is_none()) return;
     to = {};
-    for (const std::string& one : cast_of<std::vector<std::string>>(value))
+    for (const std::string& one : made_by<std::vector<std::string>>("words", name, value))
         to = to + choice<tf::pair_kind>(name, words_of<tf::pair_kind>::all, one);
 }
 
@@ -136,9 +130,6 @@ inline py::object value_of(const tf::point3& p) { return as_array(p); }
 inline py::object value_of(const tf::transform<3>& map) { return as_array(map); }
 inline py::object value_of(const std::array<std::array<double, 3>, 3>& rows) {
     return column(rows, [](const auto& row) { return row; });
-}
-inline py::object value_of(tf::certificate&& certificate) {
-    return py::cast(std::move(certificate));
 }
 template <has_words Enum>
 py::object value_of(Enum value) {

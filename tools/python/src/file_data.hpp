@@ -2,13 +2,7 @@
 /// \file
 /// What a mesh has besides points and faces.
 
-#include <treeform/mesh/mesh_file.hpp>
-
-#include <atomic>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
+#include "base.hpp"
 
 namespace binding {
 

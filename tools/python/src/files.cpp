@@ -1,84 +1,7 @@
 #include "bindings.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
 #include "state.hpp"
-#include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/read.hpp>
-#include <treeform/mesh/write.hpp>
-
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <array>
-#include <cstddef>
-#include <cstring>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-namespace treeform {
-
-// For `state_writer` and `state_reader`, found by the type of the value.
-
-template <class State>
-static void all_fields(State& state, io_warning& w) {
-    state(w.code, w.text);
-}
-template <class State>
-static void all_fields(State& state, column& c) {
-    state(c.name, c.type, c.list_length, c.role, c.values, c.list_begin);
-}
-template <class State>
-static void all_fields(State& state, element& e) {
-    state(e.name, e.rows, e.columns);
-}
-template <class State>
-static void all_fields(State& state, part& p) {
-    state(p.object, p.group, p.material, p.first_face);
-}
-template <class State>
-static void all_fields(State& state, corner_values& c) {
-    state(c.texture, c.has_w, c.normals, c.texture_of_corner, c.normal_of_corner);
-}
-template <class State>
-static void all_fields(State& state, attributes& a) {
-    state(a.elements, a.corners, a.parts, a.material_files, a.texture_files, a.comments, a.obj_info,
-          a.header);
-}
-template <class State>
-static void all_fields(State& state, las_record& r) {
-    state(r.user_id, r.record_id, r.description, r.reserved, r.data);
-}
-template <class State>
-static void all_fields(State& state, las_header& h) {
-    state(h.version_minor, h.point_format, h.scale, h.offset, h.block, h.records, h.behind_records,
-          h.extended_records);
-}
-template <class State>
-static void all_fields(State& state, value_range& r) {
-    state(r.column, r.least, r.greatest, r.whole);
-}
-template <class State>
-static void all_fields(State& state, mesh_file& f) {
-    state(f.stored_face, f.stored_faces, f.indexed, f.stored_as, f.format, f.warnings, f.attributes,
-          f.las, f.ranges);
-}
-
-}  // namespace treeform
 
 namespace binding {
-
-template <class State>
-static void all_fields(State& state, file_data& d) {
-    state(d.own());
-}
 
 namespace {
 
@@ -103,20 +26,16 @@ py::tuple read_by(bool join, const Take& take) {
 }
 
 py::tuple read(const std::filesystem::path& path, const std::string& format, bool join,
-               const name_pairs& columns, bool drop_nan) {
-    return read_by(join, [&] {
-        return tf::read(path, format, {.columns = columns_of(columns), .drop_nan = drop_nan});
-    });
+               const tf::read_options& options) {
+    return read_by(join, [&] { return tf::read(path, format, options); });
 }
 
 /// `name` stands for the file in errors, and its extension counts.
 py::tuple read_bytes(const py::bytes& bytes, const std::string& name, const std::string& format,
-                     bool join, const name_pairs& columns, bool drop_nan) {
+                     bool join, const tf::read_options& options) {
     const auto content = static_cast<std::string_view>(bytes);
-    return read_by(join, [&] {
-        return tf::read(std::as_bytes(std::span(content)), name, format,
-                        {.columns = columns_of(columns), .drop_nan = drop_nan});
-    });
+    return read_by(
+        join, [&] { return tf::read(std::as_bytes(std::span(content)), name, format, options); });
 }
 
 /// Meshes as the parts of one file: its points, faces and all else.
@@ -160,21 +79,7 @@ tf::write_result write_to(const std::filesystem::path& path, const held_mesh& me
 }
 
 py::object write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
-                 bool certified, const std::string& format, bool ascii,
-                 const std::optional<std::string>& precision, bool round,
-                 const std::vector<std::string>& drop, const name_pairs& rename,
-                 const std::optional<std::array<double, 3>>& las_scale,
-                 const std::optional<std::array<double, 3>>& las_offset) {
-    tf::write_options options{.format = format,
-                              .ascii = ascii,
-                              .drop = drop,
-                              .rename = columns_of(rename),
-                              .las_scale = las_scale,
-                              .las_offset = las_offset,
-                              .round = round};
-    if (precision)
-        options.precision =
-            choice<tf::precision>("precision", words_of<tf::precision>::all, *precision);
+                 bool certified, tf::write_options options) {
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };
@@ -229,20 +134,6 @@ void set_column(file_data& data, const std::string& element, const std::string& 
     throw std::invalid_argument(name + ": numbers of 8 to 64 bits, or floats of 32 or 64");
 }
 
-py::list parts(const file_data& data) {
-    py::list all;
-    for (const tf::part& one : data.file().attributes.parts)
-        all.append(py::make_tuple(one.object, one.group, one.material, one.first_face));
-    return all;
-}
-
-py::list warnings(const file_data& data) {
-    py::list all;
-    for (const tf::io_warning& one : data.file().warnings)
-        all.append(py::make_tuple(one.code, one.text));
-    return all;
-}
-
 py::dict corners(const file_data& data) {
     tf::corner_values copy = data.file().attributes.corners;
     py::dict all;
@@ -259,37 +150,112 @@ py::object stored_face(const file_data& data) {
     return as_array(std::move(copy));
 }
 
+/// A list of `of(one)` for each.
+template <class Values, class Of>
+py::list listed(const Values& values, const Of& of) {
+    py::list all;
+    for (const auto& one : values) all.append(of(one));
+    return all;
+}
+
+std::string text_of(const file_data& data) {
+    py::dict rows;
+    for (const tf::element& one : data.file().attributes.elements)
+        rows[py::str(one.name)] = py::list(columns(data, one.name));
+    return "Attributes(format=" + std::string(py::repr(py::str(data.file().format))) +
+           ", columns=" + std::string(py::repr(rows)) + ")";
+}
+
+void add_columns(py::class_<file_data>& made) {
+    const auto columns_of = [](const char* element) {
+        return [element](const file_data& d) { return columns(d, element); };
+    };
+    const auto set_column_of = [](const char* element) {
+        return [element](file_data& d, const std::string& name, const py::object& values) {
+            set_column(d, element, name, py::module_::import("numpy").attr("asarray")(values));
+        };
+    };
+    made.def_property_readonly("vertex", columns_of("vertex"),
+                               "A copy of each column of vertices, (V,).")
+        .def_property_readonly("face", columns_of("face"),
+                               "A copy of each column of faces as stored in the file.")
+        .def("columns", &columns, py::arg("element"),
+             "A copy of each column of `element`; lists as (begin, values).")
+        .def("set_vertex", set_column_of("vertex"), py::arg("name"), py::arg("values"),
+             "Sets a column of vertices, (V,), in the type of `values`.")
+        .def("set_face", set_column_of("face"), py::arg("name"), py::arg("values"),
+             "Sets a column of faces, (F,), in the type of `values`.");
+}
+
+void add_attributes(py::module_& module) {
+    const auto kept = [](auto of) { return [of](const file_data& d) { return of(d.file()); }; };
+    py::class_<file_data> made(module, "Attributes",
+                               R"(All that a file has besides points and faces.
+
+Columns of numbers for vertices and faces (colors, normals, qualities), names of parts, texture
+coordinates and normals of corners, comments, and the format that the file had. `write` puts back
+what the format of the output can hold. What operations make of a mesh has its columns, corners and
+parts, too; lists and other kinds of rows are left out.
+
+>>> import numpy as np
+>>> import treeform
+>>> extra = treeform.Attributes()
+>>> extra.set_vertex("quality", np.array([0.5, 1.0, 2.0]))
+>>> extra.vertex
+{'quality': array([0.5, 1. , 2. ])})");
+    made.attr("__module__") = "treeform";
+    made.def(py::init<>())
+        .def(pickled<file_data>([](file_data& d) -> tf::mesh_file& { return d.own(); }))
+        .def("__copy__", [](const file_data& d) { return file_data(d); })
+        .def("__repr__", &text_of)
+        .def_property_readonly(
+            "format", kept([](const tf::mesh_file& f) { return f.format; }),
+            "Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty.")
+        .def_property_readonly("precision",
+                               kept([](const tf::mesh_file& f) { return word_of(f.stored_as); }),
+                               "Of the coordinates in the file: 'float32' or 'float64'.")
+        .def_property_readonly("warnings", kept([](const tf::mesh_file& f) {
+                                   return listed(f.warnings, [](const tf::io_warning& one) {
+                                       return py::make_tuple(one.code, one.text);
+                                   });
+                               }),
+                               "What a person should know of the file: (code, text).")
+        .def_property_readonly("comments",
+                               kept([](const tf::mesh_file& f) { return f.attributes.comments; }),
+                               "Lines of comment of a PLY.")
+        .def_property_readonly("elements", kept([](const tf::mesh_file& f) {
+                                   return listed(f.attributes.elements, [](const tf::element& one) {
+                                       return py::str(one.name);
+                                   });
+                               }),
+                               "Kinds of rows that the file has: 'vertex', 'face', ...")
+        .def_property_readonly("parts", kept([](const tf::mesh_file& f) {
+                                   return listed(f.attributes.parts, [](const tf::part& one) {
+                                       return py::make_tuple(one.object, one.group, one.material,
+                                                             one.first_face);
+                                   });
+                               }),
+                               "Names in the file: (object, group, material, first face).")
+        .def_property_readonly(
+            "corners", &corners,
+            "Values of corners: `texture` (n, 3), `texture_of_corner` (F, 3) "
+            "numbers in it, and the same for `normals`; 4294967295 where a corner "
+            "has none.")
+        .def_property_readonly(
+            "stored_face", &stored_face,
+            "(F,) the file's face that each triangle is a part of; None where all "
+            "are triangles.");
+    add_columns(made);
+}
+
 }  // namespace
 
 void add_files(py::module_& module) {
-    py::class_<file_data>(module, "FileData", "All that a file has besides points and faces.")
-        .def(py::init<>())
-        .def(py::init<const file_data&>())
-        .def(pickled<file_data>())
-        .def_property_readonly("format", [](const file_data& d) { return d.file().format; })
-        .def_property_readonly("precision",
-                               [](const file_data& d) { return word_of(d.file().stored_as); })
-        .def_property_readonly("warnings", &warnings)
-        .def_property_readonly("parts", &parts)
-        .def_property_readonly("corners", &corners)
-        .def_property_readonly("stored_face", &stored_face)
-        .def_property_readonly("comments",
-                               [](const file_data& d) { return d.file().attributes.comments; })
-        .def_property_readonly("is_las",
-                               [](const file_data& d) { return d.file().las.has_value(); })
-        .def_property_readonly("elements",
-                               [](const file_data& d) {
-                                   std::vector<std::string> names;
-                                   for (const tf::element& one : d.file().attributes.elements)
-                                       names.push_back(one.name);
-                                   return names;
-                               })
-        .def("columns", &columns)
-        .def("set_column", &set_column);
-    module.def("read", &read);
-    module.def("read_bytes", &read_bytes);
-    module.def("scene", &scene);
-    module.def("write", &write);
+    add_attributes(module);
+    add_job(module, "read", &read, job_kind::long_work);
+    add_job(module, "read_bytes", &read_bytes, job_kind::long_work);
+    add_job(module, "scene", &scene);
+    add_job(module, "write", &write, job_kind::writes);
 }
 
 }  // namespace binding

@@ -3,13 +3,6 @@
 /// A mesh or cloud in the arrays of Python, as operations take it.
 
 #include "arrays.hpp"
-#include <treeform/mesh/mesh.hpp>
-
-#include <pybind11/pybind11.h>
-
-#include <cstddef>
-#include <utility>
-#include <vector>
 
 namespace binding {
 

@@ -1,25 +1,7 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
 #include "steps.hpp"
-#include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/self_intersections.hpp>
-
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
-namespace {
 
 constexpr auto& kind_words = words_of<tf::pair_kind>::all;
 
@@ -36,6 +18,8 @@ std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::
     }
     return all;
 }
+
+namespace {
 
 py::object self_intersections_of_file(const std::filesystem::path& path,
                                       tf::stream_search_options options,
@@ -70,66 +54,21 @@ void add_search_in_steps(py::module_& module) {
                      return search.scatter() == tf::status::ok ? search.tiles() : 0;
                  });
              })
-        .def("tiles",
-             [](search_in_steps& all) {
-                 return all.step([](tf::stream_search& search) { return search.tiles(); });
-             })
-        .def("unfinished",
-             [](search_in_steps& all) {
-                 return all.step([](tf::stream_search& search) { return search.unfinished(); });
-             })
-        .def("search_tile",
-             [](search_in_steps& all, std::size_t tile) {
-                 all.step([=](tf::stream_search& search) { return search.search_tile(tile); });
-             })
-        .def("finish",
-             [](search_in_steps& all) {
-                 return as_python(
-                     all.step([](tf::stream_search& search) { return search.finish(); }));
-             })
-        .def("remove_folder",
-             [](search_in_steps& all) {
-                 all.step([](tf::stream_search& search) {
-                     search.remove_folder();
-                     return true;
-                 });
-             })
+        .def("tiles", step_of(&tf::stream_search::tiles))
+        .def("unfinished", step_of(&tf::stream_search::unfinished))
+        .def("search_tile", step_of(&tf::stream_search::search_tile))
+        .def("finish", step_of(&tf::stream_search::finish))
+        .def("remove_folder", step_of(&tf::stream_search::remove_folder))
         .def("close", &search_in_steps::close);
-    module.def("search_of", &search_of);
-}
-
-py::tuple group_pairs(const held_mesh& mesh, const ids_array& pairs,
-                      const array_of<std::uint8_t>& kinds) {
-    const std::vector<tf::face_pair> all = pairs_of(pairs, kinds);
-    tf::intersection_regions groups =
-        run([&](const tf::progress_callback&) { return tf::group_pairs(mesh.view(), all); });
-    const py::object regions = as_python(std::move(groups.regions));
-    return py::make_tuple(regions, as_array(std::move(groups.region_of_pair)));
-}
-
-py::tuple intersection_paths(const held_mesh& mesh, const ids_array& pairs,
-                             const array_of<std::uint8_t>& kinds) {
-    const std::vector<tf::face_pair> all = pairs_of(pairs, kinds);
-    tf::curve_network net =
-        run([&](const tf::progress_callback&) { return tf::intersection_paths(mesh.view(), all); });
-    py::list paths;
-    for (tf::curve_path& one : net.paths)
-        paths.append(py::make_tuple(as_array(std::move(one.points)), one.closed));
-    return py::make_tuple(
-        column(net.points,
-               [](const tf::curve_point& p) {
-                   return std::array<double, 3>{p.position.x, p.position.y, p.position.z};
-               }),
-        paths);
+    make_jobs(module.attr("SearchInSteps"), {"scatter", "search_tile", "finish"}, job_kind::writes);
+    add_job(module, "search_of", &search_of, job_kind::long_work);
 }
 
 }  // namespace
 
 void add_intersections(py::module_& module) {
     module.attr("KINDS") = py::cast(kind_words);
-    module.def("self_intersections_of_file", &self_intersections_of_file);
-    module.def("group_pairs", &group_pairs);
-    module.def("intersection_paths", &intersection_paths);
+    add_job(module, "self_intersections_of_file", &self_intersections_of_file, job_kind::long_work);
     add_search_in_steps(module);
 }
 

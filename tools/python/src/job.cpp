@@ -1,24 +1,8 @@
-#include "job.hpp"
-
-#include "held_mesh.hpp"
+#include "bindings.hpp"
 #include "tools/bindings/pieces.hpp"
 
 #include <pthread.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <thread>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -341,6 +325,10 @@ void make_job(const py::object& scope, const char* name, job_kind kind) {
     else
         scope.attr(name) =
             py::cpp_function(job_of, py::name(name), py::is_method(scope), doc.c_str());
+}
+
+void make_jobs(const py::object& scope, std::initializer_list<const char*> names, job_kind kind) {
+    for (const char* const name : names) make_job(scope, name, kind);
 }
 
 treeform::progress_callback report_of_job() {

@@ -3,21 +3,9 @@
 /// Runs what takes long on a helper thread, while the thread that called it lets Python's other
 /// threads run, looks for signals (Ctrl-C) and reports progress.
 
-#include <treeform/tree/parallel.hpp>
-
-#include <pybind11/pybind11.h>
-
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <type_traits>
-#include <utility>
+#include "base.hpp"
 
 namespace binding {
-
-namespace py = pybind11;
 
 /// Few elements: done at once. `writes`: long work, too, that leaves a file of its own behind where
 /// it is not ended in its turn.
@@ -32,6 +20,10 @@ enum class job_kind : std::uint8_t { by_elements, long_work, writes };
 /// all the same where `progress` returns False. The caller then gets what was raised: at once, even
 /// where the job takes some time to notice.
 void make_job(const py::object& scope, const char* name, job_kind kind = job_kind::by_elements);
+
+/// The same of several.
+void make_jobs(const py::object& scope, std::initializer_list<const char*> names,
+               job_kind kind = job_kind::by_elements);
 
 /// Adds a function that is a job.
 template <class Function>

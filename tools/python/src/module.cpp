@@ -1,18 +1,4 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include <treeform/mesh/mesh_file.hpp>
-#include <treeform/mesh/weld_stream.hpp>
-#include <treeform/tree/parallel.hpp>
-#include <treeform/tree/version.hpp>
-
-#include <exception>
-#include <filesystem>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <system_error>
-#include <utility>
 
 namespace binding {
 namespace {
@@ -92,56 +78,8 @@ void add_meshes(py::module_& module) {
     module.def("thread_count", &tf::thread_count);
     module.def("version", &tf::version_string);
     module.def("end", &end);
+    add_job(module, "build", &build);
     leave_jobs_at_the_end();
-}
-
-constexpr const char* jobs[] = {"group_pairs",
-                                "intersection_paths",
-                                "boolean",
-                                "clip",
-                                "check_solid",
-                                "section",
-                                "cut",
-                                "cut_along",
-                                "cut_to_fit",
-                                "concatenate",
-                                "find_rounding_defects",
-                                "join_equal_points",
-                                "weld_mesh",
-                                "weld_cloud",
-                                "turn",
-                                "mate_features",
-                                "closest_point",
-                                "locate",
-                                "raycast",
-                                "raycast_all",
-                                "raycast_any",
-                                "clash",
-                                "check_poses",
-                                "intersects",
-                                "distance",
-                                "scene",
-                                "build"};
-
-/// All functions of the module but those that only look something up, and what trees are asked.
-void make_jobs(py::module_& module) {
-    module.def("build", &build);
-    for (const char* name : {"read", "read_bytes", "read_urdf", "self_intersections_of_file",
-                             "search_of", "weld_of", "pack", "page", "picture"})
-        make_job(module, name, job_kind::long_work);
-    for (const char* name : {"write", "write_section", "write_isolines", "weld_stream"})
-        make_job(module, name, job_kind::writes);
-    for (const char* name : {"scatter", "search_tile", "finish"})
-        make_job(module.attr("SearchInSteps"), name, job_kind::writes);
-    for (const char* name : {"scatter", "weld_tile", "finish"})
-        make_job(module.attr("WeldInSteps"), name, job_kind::writes);
-    for (const char* name : jobs) make_job(module, name);
-    for (const char* type : {"Cloud2", "Cloud3"})
-        for (const char* name : {"query", "query_ball", "query_pairs"})
-            make_job(module.attr(type), name);
-    for (const char* type : {"Boxes2", "Boxes3"})
-        for (const char* name : {"pairs", "pairs_with", "query", "nearest"})
-            make_job(module.attr(type), name);
 }
 
 }  // namespace
@@ -152,7 +90,6 @@ PYBIND11_MODULE(_core, module) {
     py::register_exception_translator(translate);
     add_meshes(module);
     add_carrying(module);
-    add_certificates(module);
     add_options(module);
     add_cuts(module);
     add_files(module);
@@ -166,8 +103,7 @@ PYBIND11_MODULE(_core, module) {
     add_nearness(module);
     add_pictures(module);
     add_assembly(module);
-    add_clouds(module);
-    add_boxes(module);
-    make_jobs(module);
+    add_trees(module);
     add_functions(module);
+    add_operations(module);
 }

@@ -1,20 +1,4 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "words.hpp"
-#include <treeform/mesh/deviation.hpp>
-#include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/point_location.hpp>
-
-#include <pybind11/stl.h>
-
-#include <algorithm>
-#include <limits>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -59,16 +43,28 @@ py::tuple locate(const held_mesh& mesh, const points_array& queries) {
 
 // ---- rays ----
 
-/// The rays [begin, end) of two arrays.
-std::vector<tf::ray3> rays_of(tf::points_view origins, tf::points_view directions, double t_min,
-                              double t_max, std::size_t begin, std::size_t end) {
-    std::vector<tf::ray3> rays(end - begin);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const tf::point3 &o = origins[begin + i], &d = directions[begin + i];
-        rays[i] = {{o.x, o.y, o.z}, {d.x, d.y, d.z}, t_min, t_max};
+/// The rays of two arrays.
+class rays {
+  public:
+    rays(const points_array& origins, const points_array& directions, double t_min, double t_max)
+        : from_(points_of(origins)), along_(points_of(directions)), t_min_(t_min), t_max_(t_max) {
+        if (from_.size() != along_.size())
+            throw std::invalid_argument("directions: " + std::to_string(along_.size()) + " for " +
+                                        std::to_string(from_.size()) + " origins");
     }
-    return rays;
-}
+    [[nodiscard]] std::size_t size() const { return from_.size(); }
+
+    [[nodiscard]] std::vector<tf::ray3> piece(std::size_t begin, std::size_t end) const {
+        std::vector<tf::ray3> some;
+        for (std::size_t i = begin; i < end; ++i)
+            some.push_back({numbers(from_[i]), numbers(along_[i]), t_min_, t_max_});
+        return some;
+    }
+
+  private:
+    tf::points_view from_, along_;
+    double t_min_, t_max_;
+};
 
 /// `t` of a hit of ray `i` of a piece. It may be infinite by the length of the direction alone.
 double finite(double t, std::size_t i) {
@@ -79,13 +75,12 @@ double finite(double t, std::size_t i) {
 
 py::tuple raycast(const held_mesh& mesh, const points_array& origins,
                   const points_array& directions, double t_min, double t_max) {
-    const auto from = points_of(origins), along = points_of(directions);
-    std::vector<double> t(from.size(), infinity);
-    std::vector<std::uint32_t> faces(from.size(), none);
-    std::vector<std::uint8_t> at(from.size(), static_cast<std::uint8_t>(tf::feature::interior));
-    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
-        const auto hits =
-            tf::raycast(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
+    const rays all(origins, directions, t_min, t_max);
+    std::vector<double> t(all.size(), infinity);
+    std::vector<std::uint32_t> faces(all.size(), none);
+    std::vector<std::uint8_t> at(all.size(), static_cast<std::uint8_t>(tf::feature::interior));
+    run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+        const auto hits = tf::raycast(mesh.prepared(), all.piece(begin, end));
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (!hits[i]) continue;
             t[begin + i] = finite(hits[i]->t, i);
@@ -99,12 +94,11 @@ py::tuple raycast(const held_mesh& mesh, const points_array& origins,
 
 py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
                       const points_array& directions, double t_min, double t_max) {
-    const auto from = points_of(origins), along = points_of(directions);
+    const rays all(origins, directions, t_min, t_max);
     std::vector<std::uint32_t> ray_of_hit, faces;
     std::vector<double> t;
-    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
-        const tf::mesh_hits found =
-            tf::raycast_all(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
+    run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+        const tf::mesh_hits found = tf::raycast_all(mesh.prepared(), all.piece(begin, end));
         for (std::size_t i = 0; i + 1 < found.begin.size(); ++i)
             for (std::size_t h = found.begin[i]; h < found.begin[i + 1]; ++h) {
                 ray_of_hit.push_back(static_cast<std::uint32_t>(begin + i));
@@ -118,11 +112,10 @@ py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
 
 py::array raycast_any(const held_mesh& mesh, const points_array& origins,
                       const points_array& directions, double t_min, double t_max) {
-    const auto from = points_of(origins), along = points_of(directions);
-    std::vector<std::uint8_t> any(from.size());
-    run_pieces(from.size(), [&](std::size_t begin, std::size_t end) {
-        const auto hit =
-            tf::raycast_any(mesh.prepared(), rays_of(from, along, t_min, t_max, begin, end));
+    const rays all(origins, directions, t_min, t_max);
+    std::vector<std::uint8_t> any(all.size());
+    run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+        const auto hit = tf::raycast_any(mesh.prepared(), all.piece(begin, end));
         std::copy(hit.begin(), hit.end(), any.begin() + static_cast<std::ptrdiff_t>(begin));
     });
     return as_array<std::uint8_t>(std::move(any));
@@ -131,11 +124,11 @@ py::array raycast_any(const held_mesh& mesh, const points_array& origins,
 }  // namespace
 
 void add_nearness(py::module_& module) {
-    module.def("closest_point", &closest_point);
-    module.def("locate", &locate);
-    module.def("raycast", &raycast);
-    module.def("raycast_all", &raycast_all);
-    module.def("raycast_any", &raycast_any);
+    add_job(module, "closest_point", &closest_point);
+    add_job(module, "locate", &locate);
+    add_job(module, "raycast", &raycast);
+    add_job(module, "raycast_all", &raycast_all);
+    add_job(module, "raycast_any", &raycast_any);
 }
 
 }  // namespace binding

@@ -1,8 +1,4 @@
-#include "parts.hpp"
-
-#include <treeform/tree/aabb.hpp>
-
-#include <string>
+#include "bindings.hpp"
 
 namespace binding {
 
@@ -23,6 +19,14 @@ py::object contacts_of(const tf::placement& at) {
     made["fixed"] =
         column(at.contacts, [](const contact& c) { return static_cast<std::uint32_t>(c.fixed); });
     return object_of("treeform._placement", "Contacts", made);
+}
+
+py::array ends_of(const std::vector<tf::open_edge>& open) {
+    auto ends = column(open, [](const tf::open_edge& edge) {
+        return std::array{edge.ends[0].x, edge.ends[0].y, edge.ends[0].z,
+                          edge.ends[1].x, edge.ends[1].y, edge.ends[1].z};
+    });
+    return ends.reshape({-1, 2, 3});
 }
 
 py::list regions_of(tf::part_clash& from) {
@@ -61,11 +65,80 @@ py::list warnings_of(const tf::weld_stream_result& from) {
     return warnings;
 }
 
+py::object object(of_result, tf::section_result&& s) {
+    using layer = tf::section_layer;
+    using loop = tf::section_loop;
+    py::dict made, loops;
+    made["heights"] = column(s.layers, [](const layer& l) { return l.height; });
+    made["origins"] = column(s.layers, [](const layer& l) { return numbers(l.at); });
+    made["areas"] = column(s.layers, [](const layer& l) { return l.area; });
+    made["lengths"] = column(s.layers, [](const layer& l) { return l.length; });
+    made["open_counts"] = column(s.layers, [](const layer& l) { return l.open_count; });
+    loops["first_loop"] = column(s.layers, [](const layer& l) { return l.first_loop; });
+    loops["first_point"] =
+        column(s.loops, [](const loop& l) { return static_cast<std::uint64_t>(l.first_point); });
+    loops["closed"] = column(s.loops, [](const loop& l) { return std::uint8_t{l.closed}; });
+    loops["oriented"] = column(s.loops, [](const loop& l) { return std::uint8_t{l.oriented}; });
+    loops["parent"] = column(s.loops, [](const loop& l) { return l.parent; });
+    loops["depth"] = column(s.loops, [](const loop& l) { return l.depth; });
+    loops["loop_areas"] = column(s.loops, [](const loop& l) { return l.area; });
+    loops["loop_lengths"] = column(s.loops, [](const loop& l) { return l.length; });
+    made["points"] = as_array<double>(std::vector(s.points));
+    made["faces"] = as_array(std::vector(s.faces));
+    made["frame"] = column(std::array{s.frame.x, s.frame.y, s.frame.normal},
+                           [](const tf::point3& axis) { return numbers(axis); });
+    made["_loops"] = loops;
+    made["_data"] = std::move(s);
+    return object_of("treeform._cuts", "Section", made);
+}
+
+py::object object(of_result, tf::cut_result&& from, const carrying& attributes) {
+    const py::object made = py::module_::import("treeform._cuts")
+                                .attr("CutPieces")(as_python(std::move(from.pieces), attributes));
+    made.attr("certificate") = as_python(std::move(from.certificate));
+    made.attr("resolved") = from.resolved;
+    return made;
+}
+
+py::object object(of_result, tf::intersection_regions&& from) {
+    const py::object regions = as_python(std::move(from.regions));
+    return py::make_tuple(regions, as_array(std::move(from.region_of_pair)));
+}
+
+py::object object(of_result, tf::curve_network&& from) {
+    py::list paths;
+    for (tf::curve_path& one : from.paths)
+        paths.append(py::make_tuple(as_array(std::move(one.points)), one.closed));
+    return py::make_tuple(
+        column(from.points,
+               [](const tf::curve_point& p) {
+                   return std::array<double, 3>{p.position.x, p.position.y, p.position.z};
+               }),
+        paths);
+}
+
+py::object object(of_result, tf::rounding_defects&& from) {
+    return py::make_tuple(from.collapsed, from.meeting);
+}
+
+py::object with_fields(tf::placement&& at, const held_mesh& moving,
+                       std::initializer_list<std::pair<const char*, double>> more) {
+    const py::object made = as_python(std::move(at), moving);
+    const py::dict fields = made.attr("__dict__");
+    for (const auto& [name, value] : more) fields[name] = value;
+    return made;
+}
+
+py::object object(of_result, tf::turn_result&& from, const held_mesh& moving) {
+    return with_fields(std::move(from.at), moving,
+                       {{"angle", from.angle}, {"tolerance", from.tolerance}});
+}
+
 py::object mesh_object(tf::mesh&& mesh, const py::object& certificate, const py::object& data) {
     return py::module_::import("treeform._mesh")
         .attr("Mesh")
-        .attr("_of")(as_array(std::move(mesh.points)), as_array(std::move(mesh.faces)), certificate,
-                     data);
+        .attr("_of")(as_array(std::move(mesh.points)), as_array(std::move(mesh.faces)), data,
+                     certificate);
 }
 
 py::object moved_mesh(std::vector<tf::point3>&& points, const held_mesh& body,
@@ -75,7 +148,7 @@ py::object moved_mesh(std::vector<tf::point3>&& points, const held_mesh& body,
         points.empty() ? py::object(body.points()) : as_array(std::move(points));
     return py::module_::import("treeform._mesh")
         .attr("Mesh")
-        .attr("_of")(there, turned[0], certificate, turned[1]);
+        .attr("_of")(there, turned[0], turned[1], certificate);
 }
 
 }  // namespace binding

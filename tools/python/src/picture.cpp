@@ -1,22 +1,8 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
 #include "tools/page/page.hpp"
 #include "tools/page/scene.hpp"
 #include "tools/picture/png.hpp"
 #include "tools/picture/sheet.hpp"
-#include <treeform/tree/version.hpp>
-
-#include <pybind11/stl.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -166,8 +152,8 @@ void add_pictures(py::module_& module) {
         py::cast(std::vector<std::string>(tools::view_names.begin(), tools::view_names.end()));
     module.attr("PICTURE_SIDES") = py::make_tuple(tools::least_side, tools::most_side);
     module.def("colors", &colors_of);
-    module.def("picture", &picture);
-    module.def("page", &page);
+    add_job(module, "picture", &picture, job_kind::long_work);
+    add_job(module, "page", &page, job_kind::long_work);
 }
 
 }  // namespace binding

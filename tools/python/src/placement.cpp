@@ -1,37 +1,7 @@
 #include "bindings.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
-#include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/slide.hpp>
-#include <treeform/mesh/time_of_impact.hpp>
-
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
-
-/// A placement with fields that only its operation has.
-template <class... More>
-py::object placed(tf::placement&& at, const held_mesh& moving, const More&... more) {
-    const py::object made = as_python(std::move(at), moving);
-    const py::dict fields = made.attr("__dict__");
-    (..., (fields[more.first] = more.second));
-    return made;
-}
-
-py::object turn(const held_mesh& moving, const held_meshes& fixed, const array_of<double>& axis,
-                const array_of<double>& origin, tf::turn_options options) {
-    const tf::turn_axis about{point_of(origin), point_of(axis)};
-    tf::turn_result turned = run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::turn(moving.ref(), refs_of(fixed), about, options);
-    });
-    return placed(std::move(turned.at), moving, std::pair("angle", turned.angle),
-                  std::pair("tolerance", turned.tolerance));
-}
 
 py::object mate_features(const held_mesh& moving, const held_meshes& fixed, const std::string& kind,
                          const array_of<double>& origin, const array_of<double>& direction,
@@ -51,8 +21,8 @@ py::object mate_features(const held_mesh& moving, const held_meshes& fixed, cons
         options.progress = report;
         return tf::mate_features(moving.ref(), refs_of(fixed), mine, other, options);
     });
-    return placed(std::move(mated.at), moving, std::pair("angle", mated.turn_angle),
-                  std::pair("offset", mated.offset));
+    return with_fields(std::move(mated.at), moving,
+                       {{"angle", mated.turn_angle}, {"offset", mated.offset}});
 }
 
 py::object pack(const held_meshes& parts, tf::pack_options options) {
@@ -71,9 +41,8 @@ py::object pack(const held_meshes& parts, tf::pack_options options) {
 }  // namespace
 
 void add_placement(py::module_& module) {
-    module.def("turn", &turn);
-    module.def("mate_features", &mate_features);
-    module.def("pack", &pack);
+    add_job(module, "mate_features", &mate_features);
+    add_job(module, "pack", &pack, job_kind::long_work);
 }
 
 }  // namespace binding

@@ -1,32 +1,7 @@
 #include "bindings.hpp"
-#include "carrying.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "words.hpp"
-#include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/convex_hull.hpp>
-#include <treeform/mesh/offset.hpp>
-#include <treeform/mesh/repair.hpp>
-
-#include <pybind11/stl.h>
-
-#include <numeric>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
-
-py::tuple find_rounding_defects(const held_mesh& mesh, const points_array& placed) {
-    const tf::points_view to = points_of(placed);
-    const tf::rounding_defects found = run([&](const tf::progress_callback& report) {
-        return tf::find_rounding_defects(mesh.view(), to, report);
-    });
-    return py::make_tuple(found.collapsed, found.meeting);
-}
 
 py::tuple join_equal_points(const held_mesh& mesh) {
     const carrying attributes({&mesh});
@@ -43,9 +18,6 @@ py::tuple join_equal_points(const held_mesh& mesh) {
 
 }  // namespace
 
-void add_repair(py::module_& module) {
-    module.def("find_rounding_defects", &find_rounding_defects);
-    module.def("join_equal_points", &join_equal_points);
-}
+void add_repair(py::module_& module) { add_job(module, "join_equal_points", &join_equal_points); }
 
 }  // namespace binding

@@ -1,19 +1,4 @@
-#include "arrays.hpp"
 #include "bindings.hpp"
-#include "job.hpp"
-#include "made/words.hpp"
-#include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/read.hpp>
-
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -87,7 +72,7 @@ py::array_t<double> poses(const robot& of, const std::vector<std::string>& joint
 
 void add_robots(py::module_& module) {
     py::class_<robot>(module, "RobotData").def("poses", &poses);
-    module.def("read_urdf", &read_urdf);
+    add_job(module, "read_urdf", &read_urdf, job_kind::long_work);
 }
 
 }  // namespace binding

@@ -2,37 +2,21 @@
 /// \file
 /// Values as bytes and back, for Python's pickle and copy.
 
-#include <pybind11/pybind11.h>
-
-#include <cstring>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
+#include "made/states.hpp"
 
 namespace binding {
 
-namespace py = pybind11;
-
-/// Takes the fields of values one after the other: `all_fields(state, value)` names those of a
-/// struct.
+/// Takes the fields of values one after the other; `made/states.hpp` has those of structs.
 class state_writer {
   public:
-    template <class... Values>
-    void operator()(Values&... values) {
-        (put(values), ...);
-    }
     [[nodiscard]] py::bytes bytes() const { return {bytes_}; }
 
-  private:
     template <class T>
     void put(T& value) {
         if constexpr (std::is_trivially_copyable_v<T>)
             bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
         else
-            all_fields(*this, value);
+            each_field(value, [&](const char*, auto& field) { put(field); });
     }
     template <class T>
     void put(std::optional<T>& value) {
@@ -55,6 +39,7 @@ class state_writer {
         bytes_ += text;
     }
 
+  private:
     std::string bytes_;
 };
 
@@ -63,24 +48,12 @@ class state_reader {
   public:
     explicit state_reader(std::string_view bytes) : rest_(bytes) {}
 
-    template <class... Values>
-    void operator()(Values&... values) {
-        (get(values), ...);
-    }
-
-  private:
-    std::string_view take(std::size_t count, std::size_t width) {
-        if (count > rest_.size() / width) throw std::invalid_argument("state: too short");
-        const std::string_view taken = rest_.substr(0, count * width);
-        rest_.remove_prefix(taken.size());
-        return taken;
-    }
     template <class T>
     void get(T& value) {
         if constexpr (std::is_trivially_copyable_v<T>)
             std::memcpy(&value, take(1, sizeof(T)).data(), sizeof(T));
         else
-            all_fields(*this, value);
+            each_field(value, [&](const char*, auto& field) { get(field); });
     }
     template <class T>
     void get(std::optional<T>& value) {
@@ -106,22 +79,30 @@ class state_reader {
         text = take(size, 1);
     }
 
+  private:
+    std::string_view take(std::size_t count, std::size_t width) {
+        if (count > rest_.size() / width) throw std::invalid_argument("state: too short");
+        const std::string_view taken = rest_.substr(0, count * width);
+        rest_.remove_prefix(taken.size());
+        return taken;
+    }
+
     std::string_view rest_;
 };
 
-/// What `py::class_<T>::def` takes to make T picklable.
-template <class T>
-auto pickled() {
+/// What `py::class_<T>::def` takes to make T picklable; `part_of(value)` is all of it.
+template <class T, class PartOf>
+auto pickled(const PartOf& part_of) {
     return py::pickle(
-        [](T& value) {
+        [=](T& value) {
             state_writer state;
-            state(value);
+            state.put(part_of(value));
             return state.bytes();
         },
-        [](const py::bytes& bytes) {
+        [=](const py::bytes& bytes) {
             T value;
             state_reader state{std::string_view(bytes)};
-            state(value);
+            state.get(part_of(value));
             return value;
         });
 }

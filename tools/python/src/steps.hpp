@@ -2,20 +2,7 @@
 /// \file
 /// Work in a folder that is done step by step, as a job each.
 
-#include "job.hpp"
-#include <treeform/mesh/mesh_file.hpp>
-
-#include <pybind11/stl.h>
-
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
+#include "bindings.hpp"
 
 namespace binding {
 
@@ -103,5 +90,23 @@ class work_in_steps {
     std::mutex mutex_;
     std::optional<Work> work_;
 };
+
+/// A method of `Work` as a step; a status is not looked at, for the job says what went wrong.
+template <class Work, class Result, class... Arguments>
+auto step_of(Result (Work::*method)(Arguments...)) {
+    return [method](work_in_steps<Work>& all, const std::remove_cvref_t<Arguments>&... given) {
+        if constexpr (std::is_void_v<Result>)
+            all.step([&](Work& one) {
+                (one.*method)(given...);
+                return true;
+            });
+        else if constexpr (std::is_same_v<Result, tf::status>)
+            all.step([&](Work& one) { return (one.*method)(given...); });
+        else if constexpr (requires(Result made) { object(of_result{}, std::move(made)); })
+            return as_python(all.step([&](Work& one) { return (one.*method)(given...); }));
+        else
+            return all.step([&](Work& one) { return (one.*method)(given...); });
+    };
+}
 
 }  // namespace binding

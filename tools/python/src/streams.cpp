@@ -1,23 +1,5 @@
-#include "arrays.hpp"
 #include "bindings.hpp"
-#include "file_data.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
 #include "steps.hpp"
-#include <treeform/mesh/weld_stream.hpp>
-
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -89,12 +71,21 @@ struct shared_weld {
         if (take_survey() != tf::status::ok || work.scatter() != tf::status::ok) return 0;
         return work.survey().tiles;
     }
-    [[nodiscard]] tf::weld_stream_result finish(const tf::weld_stream_outputs& outputs) {
+    [[nodiscard]] std::size_t tiles() {
+        work.check_tiles();
+        return work.survey().tiles;
+    }
+    [[nodiscard]] tf::status weld_tile(std::size_t tile) { return work.weld_tile(tile); }
+    void remove_folder() { work.remove_folder(); }
+    [[nodiscard]] tf::weld_stream_result finish(const std::filesystem::path& output,
+                                                const std::string& removed,
+                                                const std::string& label, bool withhold) {
         work.check_tiles();
         tf::weld_stream_result result;
         result.status = take_survey();
         if (result.status == tf::status::ok) result.status = work.weld();
-        if (result.status == tf::status::ok) result.status = work.write(outputs);
+        if (result.status == tf::status::ok)
+            result.status = work.write(outputs_of(output, removed, label, withhold));
         result.survey = work.survey();
         result.counts = work.counts();
         result.written = work.written();
@@ -117,44 +108,21 @@ std::unique_ptr<weld_in_steps> weld_of(const stream_settings& settings) {
 
 void add_weld_in_steps(py::module_& module) {
     py::class_<weld_in_steps>(module, "WeldInSteps")
-        .def("scatter",
-             [](weld_in_steps& all) {
-                 return all.step([](shared_weld& one) { return one.scatter(); });
-             })
-        .def("tiles",
-             [](weld_in_steps& all) {
-                 return all.step([](shared_weld& one) {
-                     one.work.check_tiles();
-                     return one.work.survey().tiles;
-                 });
-             })
-        .def("weld_tile",
-             [](weld_in_steps& all, std::size_t tile) {
-                 all.step([=](shared_weld& one) { return one.work.weld_tile(tile); });
-             })
-        .def("finish",
-             [](weld_in_steps& all, const std::filesystem::path& output, const std::string& removed,
-                const std::string& label, bool withhold) {
-                 return as_python(all.step([&](shared_weld& one) {
-                     return one.finish(outputs_of(output, removed, label, withhold));
-                 }));
-             })
-        .def("remove_folder",
-             [](weld_in_steps& all) {
-                 all.step([](shared_weld& one) {
-                     one.work.remove_folder();
-                     return true;
-                 });
-             })
+        .def("scatter", step_of(&shared_weld::scatter))
+        .def("tiles", step_of(&shared_weld::tiles))
+        .def("weld_tile", step_of(&shared_weld::weld_tile))
+        .def("finish", step_of(&shared_weld::finish))
+        .def("remove_folder", step_of(&shared_weld::remove_folder))
         .def("close", &weld_in_steps::close);
-    module.def("weld_of", &weld_of);
+    make_jobs(module.attr("WeldInSteps"), {"scatter", "weld_tile", "finish"}, job_kind::writes);
+    add_job(module, "weld_of", &weld_of, job_kind::long_work);
 }
 
 }  // namespace
 
 void add_streams(py::module_& module) {
     py::class_<stream_settings>(module, "StreamSettings").def(py::init(&settings_of));
-    module.def("weld_stream", &weld_stream);
+    add_job(module, "weld_stream", &weld_stream, job_kind::writes);
     add_weld_in_steps(module);
 }
 

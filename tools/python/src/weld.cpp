@@ -1,17 +1,4 @@
 #include "bindings.hpp"
-#include "carrying.hpp"
-#include "file_data.hpp"
-#include "held_mesh.hpp"
-#include "job.hpp"
-#include "made/made.hpp"
-#include <treeform/mesh/weld.hpp>
-
-#include <pybind11/stl.h>
-
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace binding {
 namespace {
@@ -69,8 +56,8 @@ py::object weld_cloud(const points_array& points, const file_data* data, tf::wel
 }  // namespace
 
 void add_weld(py::module_& module) {
-    module.def("weld_mesh", &weld_mesh);
-    module.def("weld_cloud", &weld_cloud);
+    add_job(module, "weld_mesh", &weld_mesh);
+    add_job(module, "weld_cloud", &weld_cloud);
 }
 
 }  // namespace binding

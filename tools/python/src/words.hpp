@@ -3,13 +3,6 @@
 /// Words for enumerators, and other small arguments.
 
 #include "arrays.hpp"
-#include <treeform/mesh/mesh.hpp>
-#include <treeform/tree/aabb.hpp>
-
-#include <cstddef>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 
 namespace binding {
 
@@ -60,6 +53,13 @@ inline tf::transform<3> transform_of(const double* matrix) {
 inline tf::transform<3> transform_of(const array_of<double>& matrix) {
     if (matrix.size() != 16) throw std::invalid_argument("treeform: a matrix has 4 rows of 4");
     return transform_of(matrix.data());
+}
+
+/// The maps of matrices [n][4][4].
+inline std::vector<tf::transform<3>> transforms_of(const array_of<double>& matrices) {
+    std::vector<tf::transform<3>> all(static_cast<std::size_t>(matrices.size()) / 16);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = transform_of(matrices.data() + i * 16);
+    return all;
 }
 
 /// The matrix [4][4] of a map.

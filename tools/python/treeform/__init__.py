@@ -11,61 +11,57 @@ given; what operations return has been checked in the numbers returned.
 """
 
 from . import _core, _exit
+
+# made of names:
+from ._core import Attributes
 from ._arrays import NONE
-from ._assembly import (RELATIONS, ClashResult, NearestPoints, PartClash, PoseClashes, check_poses,
+from ._assembly import (ClashResult, NearestPoints, PartClash, PoseClashes, RELATIONS, check_poses,
                         clash, closest_points, distance, intersects)
-from ._attributes import Attributes
 from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
                         symmetric_difference, union)
-from ._core import Certificate
 from ._cuts import (CutPiece, CutPieces, MassProperties, MeshPart, Section, SectionLoop, components,
                     concatenate, cut, cut_along, cut_to_fit, layer_heights, mass_properties,
                     section, submesh, transformed)
-from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
-                      NotSolidError)
+from ._errors import Cancelled, CertificateError, Error, FileError, NotCertifiedError, NotSolidError
 from ._files import Written, read, write
 from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, from_vtk
-from ._intersections import (KINDS, FacePairs, FilePairs, Region, StreamSearch, faces_in_box,
+from ._intersections import (FacePairs, FilePairs, KINDS, Region, StreamSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
                              self_intersections, self_intersections_of_file)
 from ._mesh import Mesh, MeshLike
 from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_point, contains,
                         deviation, locate, raycast, raycast_all, raycast_any, signed_distance,
                         winding_number)
-from ._placement import (Alignment, Contacts, Depth, Impact, LaidFlat, Measure, PackedPart,
-                        Packing, Placement, SearchEffort, align, drop, lay_flat, mate,
-                        mate_features, measure, pack, penetration_depth, separate, slide,
-                        time_of_impact, turn)
+from ._placement import (Alignment, Contacts, Depth, Impact, LaidFlat, Measure, PackedPart, Packing,
+                         Placement, SearchEffort, align, drop, lay_flat, mate, mate_features,
+                         measure, pack, penetration_depth, separate, slide, time_of_impact, turn)
 from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_inside_out,
                           count_topology, face_components, find_defects, find_features,
                           find_solid_defects)
 from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, WrapResult, convex_hull,
-                      find_rounding_defects, join_equal_points, repair,
-                      resolve_self_intersections, rounded, wrap)
+                      find_rounding_defects, join_equal_points, repair, resolve_self_intersections,
+                      rounded, wrap)
+from ._results import Certificate
 from ._robots import Joint, Robot, read_urdf
 from ._shapes import (Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness,
                       hollow, isolines, offset, oriented_box, simplify, thicken, wall_thickness)
 from ._show import Picture, View, plot, show
 from ._threads import thread_count, threads
 from ._trees import BoxTree, Neighbors, PointTree
-from ._weld import (StreamWeld, WeldResult, WeldStreamResult, count_nearly_equal, weld,
-                    weld_stream)
-
-__version__: str = _core.version()
+from ._weld import StreamWeld, WeldResult, WeldStreamResult, count_nearly_equal, weld, weld_stream
 
 __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
            "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
            "ConvexHull", "CutPiece", "CutPieces", "Depth", "Deviation", "Error", "FacePairs",
-           "Feature",
-           "FileError", "FilePairs", "Impact", "Isoline", "Isolines", "Joint", "KINDS",
+           "Feature", "FileError", "FilePairs", "Impact", "Isoline", "Isolines", "Joint", "KINDS",
            "LaidFlat", "MadeMesh", "MassProperties", "Measure", "Mesh", "MeshDefects", "MeshLike",
            "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
            "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash", "Picture",
-           "Placement", "PointTree", "PoseClashes", "RayHits", "Region", "RepairResult",
-           "ResolveResult", "Robot", "RELATIONS", "SearchEffort", "Section", "SectionLoop",
-           "SimplifyResult", "SolidDefects", "StreamSearch", "StreamWeld", "Thickness",
-           "Topology", "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "align",
-           "boolean", "check_poses", "check_solid", "clash", "clip", "closest_point",
+           "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
+           "RepairResult", "ResolveResult", "Robot", "SearchEffort", "Section", "SectionLoop",
+           "SimplifyResult", "SolidDefects", "StreamSearch", "StreamWeld", "Thickness", "Topology",
+           "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "__version__",
+           "align", "boolean", "check_poses", "check_solid", "clash", "clip", "closest_point",
            "closest_points", "components", "concatenate", "contains", "convex_hull",
            "count_inside_out", "count_nearly_equal", "count_topology", "cut", "cut_along",
            "cut_to_fit", "deviation", "difference", "distance", "drop", "face_components",
@@ -79,5 +75,7 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "section", "self_intersections", "self_intersections_of_file", "separate", "show",
            "signed_distance", "simplify", "slide", "split", "submesh", "symmetric_difference",
            "thicken", "thread_count", "threads", "time_of_impact", "transformed", "turn", "union",
-           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write",
-           "__version__"]
+           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write"]
+# end
+
+__version__: str = _core.version()

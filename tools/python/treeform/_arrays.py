@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+import os
+from typing import Any, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Floats", "Ids", "NONE", "faces", "floats", "ids", "is_pair", "matrix", "number",
-           "points", "rows", "several", "triangles_of", "vector", "word"]
+__all__ = ["NONE"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint32]
@@ -104,6 +104,14 @@ def ids(values: ArrayLike, name: str) -> Ids:
     return np.require(array, np.uint32, ["C", "A"])
 
 
+def labels(values: ArrayLike | None, name: str) -> Ids:
+    """`values` as (n,) numbers; None is an empty array."""
+    array = ids(() if values is None else values, name)
+    if array.ndim != 1:
+        raise ValueError(f"{name}: the shape is {array.shape}, not (n,)")
+    return array
+
+
 def faces(values: ArrayLike, name: str = "faces") -> Ids:
     """`values` as faces: (n, 3), or the flat [3, a, b, c, 4, ...] of PyVista and VTK."""
     array = ids(values, name)
@@ -178,6 +186,33 @@ def several(values: Any, name: str) -> list[Any]:
         return list(values)
     except TypeError:
         raise ValueError(f"{name}: several are needed, not {values!r}") from None
+
+
+def words(values: Any, name: str) -> list[str]:
+    """`values`, which have to be words."""
+    return [word(one, name) for one in several(values, name)]
+
+
+def conditions(same: Mapping[str, float] | None, name: str) -> list[tuple[str, float]]:
+    """Names, and numbers for them."""
+    if same is not None and not isinstance(same, Mapping):
+        raise ValueError(f"{name}: Mapping is needed, not {same!r}")
+    return [(word(key, name), number(within, f"{name}[{key!r}]"))
+            for key, within in (same or {}).items()]
+
+
+def columns_of(columns: Mapping[str, str | int] | None, name: str) -> list[tuple[str, str]]:
+    """New names of columns, and those that they had; `rename` has them the other way round."""
+    pairs = [(a, str(b)) for a, b in (columns or {}).items()]
+    return [(b, a) for a, b in pairs] if name == "rename" else pairs
+
+
+def path_of(path: str | os.PathLike[str], name: str = "path") -> str:
+    """`path` as the library takes it."""
+    text = os.fspath(path)
+    if "\0" in text:
+        raise ValueError(f"{name}: {text!r} has a zero in it")
+    return text
 
 
 def word(value: Any, name: str) -> str:

@@ -4,7 +4,7 @@ poses."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable, NamedTuple, Sequence, Union
+from typing import Any, Iterable, NamedTuple, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import options
-from ._mesh import MeshLike, held, held_body
+from ._mesh import Body, MeshLike, held, held_body
 from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
@@ -24,7 +24,7 @@ __all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATION
 RELATIONS = tuple(_core.RELATIONS)
 
 
-def _poses(values: ArrayLike | None, name: str) -> Floats:
+def poses_of(values: ArrayLike | None, name: str) -> Floats:
     """Affine maps as (n, 4, 4)."""
     if values is None:
         return _arrays.matrix(None, name)[None]
@@ -43,17 +43,24 @@ def _poses(values: ArrayLike | None, name: str) -> Floats:
     return array
 
 
-def _one(a: ArrayLike | None, b: ArrayLike | None) -> bool:
-    """Whether neither is a batch."""
-    return all(one is None or np.ndim(one) == 2 for one in (a, b))
+def one_or_all(found: NDArray[Any], *moves: ArrayLike | None) -> Any:
+    """The only one, where there is no batch of maps."""
+    is_one = all(move is None or np.ndim(move) == 2 for move in moves)
+    return found[0].item() if is_one else found
 
 
+# made of functions:
+#   intersects distance
 def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
                move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
-    """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact.
+    """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns
+    as soon as one pair is found. Of what is no `Mesh`, only faces that reach, as moved, into the
+    intersection of both bounding boxes are indexed.
 
-    move_a, move_b: an affine map (4, 4), or many (n, 4, 4): then the answer is (n,) bool, found in
-    parallel. Moved corners are rounded to float64, and then exact. Surfaces count, not solids.
+    move_a: an affine map of `a` (4, 4), or many (n, 4, 4): then the answer is an array (n,).
+    move_b: the same of `b`.
+
+    Raises ValueError as `mesh_intersections`.
 
     >>> import numpy as np, treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -63,16 +70,19 @@ def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     >>> treeform.intersects(cube, cube, move_b=np.stack([np.eye(4), away]))
     array([ True, False])
     """
-    found = _core.intersects(held(a), held(b), _poses(move_a, "move_a"), _poses(move_b, "move_b"),
-                             progress=progress).view(np.bool_)
-    return bool(found[0]) if _one(move_a, move_b) else found
+    return one_or_all(_core.intersects(held(a), held(b), poses_of(move_a, "move_a"),
+                                       poses_of(move_b, "move_b"),
+                                       progress=progress).view(np.bool_), move_a, move_b)
 
 
 def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
              move_b: ArrayLike | None = None, radius: float = np.inf,
              progress: Progress = None) -> Any:
-    """The distance of the surfaces of `a` and `b`; exactly 0 if and only if they meet; infinite
-    beyond `radius`. With many maps (n, 4, 4), (n,) float64. Surfaces count, not solids.
+    """The distance of the surfaces `a` and `b`; infinite when `closest_points` finds none.
+
+    move_a: an affine map of `a` (4, 4), or many (n, 4, 4): then the answer is an array (n,).
+    move_b: the same of `b`.
+    radius: beyond it, the distance is infinite.
 
     >>> import numpy as np, treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -80,9 +90,10 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     >>> treeform.distance(cube, cube, move_b=away)
     0.5
     """
-    found = _core.distance(held(a), held(b), _poses(move_a, "move_a"), _poses(move_b, "move_b"),
-                           radius, progress=progress)
-    return float(found[0]) if _one(move_a, move_b) else found
+    return one_or_all(_core.distance(held(a), held(b), poses_of(move_a, "move_a"),
+                                     poses_of(move_b, "move_b"), radius,
+                                     progress=progress), move_a, move_b)
+# end
 
 
 # made of results:
@@ -102,16 +113,37 @@ class NearestPoints(NamedTuple):
     distance: float
     face_a: int
     face_b: int
-# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
+# end
 
 
+# made of functions:
+#   closest_points
 def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
-                   move_b: ArrayLike | None = None,
-                   radius: float = np.inf, progress: Progress = None) -> NearestPoints | None:
-    """The nearest points of the surfaces; None where one has no faces, or beyond `radius`.
+                   move_b: ArrayLike | None = None, radius: float = np.inf,
+                   progress: Progress = None) -> NearestPoints | None:
+    """The nearest points of the surfaces `a` and `b`; none when one has no faces, or when they are
+    further apart than the radius. Surfaces count, not solids: a mesh inside a closed one has the
+    distance to its surface.
+
+    Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If they do
+    not, the distance is within 16 u L of the true one, where u = 2^-53 and L is the largest
+    distance of two corners of the faces named. Of several pairs of faces at the same computed
+    distance, the lowest numbers are named. When the meshes meet, it may be any pair that meets, but
+    the same one in every run.
+
+    A `Mesh` keeps tight bounds of their surfaces. That makes later calls several times as fast
+    where surfaces are nearly flat and not along the axes. A transform other than a rotation,
+    uniform scaling or mirror makes a call slower, not wrong.
+
+    move_a: (4, 4) an affine map of `a`, applied first.
+    move_b: (4, 4) the same of `b`.
+    radius: beyond it, the answer is None.
+
+    Raises ValueError naming the mesh and its lowest face with a corner out of range or not finite,
+    when a transform is not finite, or the radius is negative or NaN.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -120,6 +152,7 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     """
     return _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
                                 _arrays.matrix(move_b, "move_b"), radius, progress=progress)
+# end
 
 
 # made of results:
@@ -181,7 +214,10 @@ class ClashResult(Result):
 # end
 
 
-def _pairs(pairs: Iterable[Sequence[int]]) -> Ids:
+PartPairs = Iterable[Sequence[int]]
+
+
+def _pairs(pairs: PartPairs) -> Ids:
     array = _arrays.ids(_arrays.several(pairs, "ignored"), "ignored")
     if array.size and (array.ndim != 2 or array.shape[1] != 2):
         raise ValueError(f"ignored: the shape is {array.shape}, not (n, 2)")
@@ -200,21 +236,52 @@ def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
     return _core.HeldMesh(points, faces, True)
 
 
-def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *,
-          poses: ArrayLike | None = None, volumes: bool = True, depths: bool = True,
-          limit: int = 1000,
-          ignored: Iterable[Sequence[int]] = (), vertices: str = "by_coordinates",
+def _held(parts: Iterable[Body]) -> list[_core.HeldMesh]:
+    return [held_body(part) for part in _arrays.several(parts, "parts")]
+
+
+def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOptions,
+            ignored: PartPairs, progress: Progress) -> ClashResult:
+    """`clash` of parts where they are."""
+    bodies = _held(parts)
+    if poses is not None:
+        maps = poses_of(poses, "poses")
+        if np.ndim(poses) != 3 or len(maps) != len(bodies):
+            raise ValueError(f"poses: the shape is {np.shape(poses)}, not ({len(bodies)}, 4, 4)")
+        bodies = [_at(body, pose) for body, pose in zip(bodies, maps)]
+    return _core.clash_parts(bodies, how, _pairs(ignored), progress=progress)
+
+
+# made of functions:
+#   clash
+def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True,
+          depths: bool = True, limit: int = 1000, vertices: str = "by_coordinates",
+          poses: ArrayLike | None = None, ignored: PartPairs = (),
           progress: Progress = None) -> ClashResult:
-    """Which parts of an assembly penetrate each other, touch, or are nearer than `clearance`;
-    where, and how deep. Exact: boxes only say which pairs need not be looked at.
+    """How all parts of an assembly lie to each other, two by two.
 
+    Exact, as `measure`: parts penetrate, touch, or are separate. Boxes decide nothing but which
+    pairs need not be looked at: rings in each other, or an L around a corner, whose boxes overlap,
+    are clear if they do not meet. Parts without faces are clear of all. A distance is that of
+    `distance`, and only looked for with a clearance. A part is indexed when its box comes near
+    another's.
+
+    clearance: Parts that are nearer than this are too close.
+    volumes: Of what two closed parts have in common.
+    depths: Of penetrating parts.
+    limit: Faces listed for each region and part.
+    vertices: 'by_coordinates' or 'by_index'. As in `measure`.
     poses: (N, 4, 4) an affine map for each of the N parts: where it is. Corners are rounded to
-    float64 after it, and then exact; what is returned is where the parts are. `check_poses` is for
-    many poses of all. volumes: of what two closed parts have in common. depths: of those that
-    penetrate. limit: faces listed for each region. ignored: pairs of numbers that are not looked
-    at.
+        float64 after it, and then exact; what is returned is where the parts are. `check_poses` is
+        for many poses of all.
+    ignored: pairs of numbers of parts that are not looked at.
 
-    Raises ValueError naming the part and face.
+    Raises ValueError naming the part and its lowest face with a corner out of range or not finite,
+    for a clearance that is negative or not finite, an ignored pair with a number out of range.
+
+    Cost: O(N log N + P) for N parts, P pairs of them whose boxes are within the clearance; and for
+    each of these `measure`, `distance` with a clearance, `mesh_intersections` where they meet,
+    `intersection` and `penetration_depth` where they penetrate.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -228,14 +295,9 @@ def clash(parts: Iterable[Union[MeshLike, ArrayLike]], clearance: float = 0.0, *
     >>> treeform.clash([cube, cube], poses=poses).pairs[0].volume
     0.5
     """
-    bodies = [held_body(part) for part in _arrays.several(parts, "parts")]
-    if poses is not None:
-        maps = _poses(poses, "poses")
-        if np.ndim(poses) != 3 or len(maps) != len(bodies):
-            raise ValueError(f"poses: the shape is {np.shape(poses)}, not ({len(bodies)}, 4, 4)")
-        bodies = [_at(body, pose) for body, pose in zip(bodies, maps)]
     how = options(_core.ClashOptions, locals())
-    return _core.clash(bodies, how, _pairs(ignored), progress=progress)
+    return clashes(parts, poses, how, ignored, progress)
+# end
 
 
 # made of results:
@@ -266,16 +328,46 @@ class PoseClashes(Result):
         return bad
 
 
-def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
-                clearance: float = 0.0, *, first_only: bool = False,
-                ignored: Iterable[Sequence[int]] = (), vertices: str = "by_coordinates",
+def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.PoseOptions,
+                     ignored: PartPairs, progress: Progress) -> PoseClashes:
+    """`check_poses`, of all parts or of the first."""
+    bodies = _held(parts)
+    array = _arrays.floats(poses, "poses")
+    if array.ndim == 3 and array.shape[1:] == (4, 4):
+        moves = np.tile(np.eye(4), (len(array), max(1, len(bodies)), 1, 1))
+        moves[:, 0] = array
+        array = moves
+    if array.ndim != 4 or array.shape[1:] != (len(bodies), 4, 4):
+        raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
+    return _core.clash_in_poses(bodies, poses_of(array.reshape(-1, 4, 4), "poses"), how,
+                                _pairs(ignored), progress=progress)
+
+
+# made of functions:
+#   check_poses
+def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0, *,
+                first_only: bool = False, vertices: str = "by_coordinates", ignored: PartPairs = (),
                 progress: Progress = None) -> PoseClashes:
-    """What clashes in each of many poses. `poses` is (P, N, 4, 4): an affine map for each of the N
-    parts, or (P, 4, 4) for a single one beside parts that stay: then it moves the first.
+    """What clashes in each of many poses.
 
-    first_only: name only the first clash of each pose. ignored: pairs that are not looked at.
+    Exact, as `clash` and `measure`, for the corners that the transforms give, rounded to double. No
+    part is copied or indexed anew, except where two moved parts touch, or a corner of one is so
+    near the surface of another that rounding might put it on the other side, or a transform is no
+    motion: then these two are looked at as they are moved.
 
-    Exact for the corners that the maps give, rounded to float64. No part is copied or indexed anew.
+    poses: (P, N, 4, 4) an affine map for each of the N parts, or (P, 4, 4) for a single one beside
+        parts that stay: then it moves the first.
+    clearance: Parts that are nearer than this are too close.
+    first_only: Name only the first clash of each pose.
+    vertices: 'by_coordinates' or 'by_index'. As in `measure`.
+    ignored: pairs of numbers of parts that are not looked at.
+
+    Raises ValueError naming the part and its lowest face with a corner out of range or not finite,
+    the pose with a transform that is not finite, for a number of transforms that is no multiple of
+    that of parts, and as `clash`.
+
+    Cost: the indexes of the parts; then, for each pose, O(N^2) comparisons of boxes, and an
+    `intersects` for pairs whose boxes overlap.
 
     >>> import numpy as np, treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -287,14 +379,6 @@ def check_poses(parts: Iterable[Union[MeshLike, ArrayLike]], poses: ArrayLike,
     >>> found.in_collision(3)
     array([ True, False, False])
     """
-    bodies = [held_body(part) for part in _arrays.several(parts, "parts")]
-    array = _arrays.floats(poses, "poses")
-    if array.ndim == 3 and array.shape[1:] == (4, 4):
-        moves = np.tile(np.eye(4), (len(array), max(1, len(bodies)), 1, 1))
-        moves[:, 0] = array
-        array = moves
-    if array.ndim != 4 or array.shape[1:] != (len(bodies), 4, 4):
-        raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
     how = options(_core.PoseOptions, locals())
-    return _core.check_poses(bodies, _poses(array.reshape(-1, 4, 4), "poses"), how,
-                             _pairs(ignored), progress=progress)
+    return clashes_in_poses(parts, poses, how, ignored, progress)
+# end

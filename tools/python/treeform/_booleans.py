@@ -7,15 +7,15 @@ from typing import Any, Iterable, Union
 
 import numpy as np
 
-from . import _arrays, _core
+from . import _core
 from ._arrays import Ids
-from ._core import Certificate
-from ._errors import options, require
+from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, held, listed
 from ._progress import Progress
+from ._results import Certificate
 
-__all__ = ["BooleanResult", "MeshesLike", "boolean", "check_solid", "clip", "difference",
-           "intersection", "split", "symmetric_difference", "union"]
+__all__ = ["BooleanResult", "boolean", "check_solid", "clip", "difference", "intersection", "split",
+           "symmetric_difference", "union"]
 
 
 # made of results:
@@ -43,17 +43,11 @@ class BooleanResult(MeshResult):
 # end
 
 
-def _checked(made: BooleanResult, check: bool) -> BooleanResult:
-    if check:
-        require(made.certificate)
-    return made
-
-
 #: What set operations take: a mesh, or several in whatever can be gone through.
 MeshesLike = Union[MeshLike, Iterable[MeshLike]]
 
 
-def _operands(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
+def operands_of(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
     """Those of `union(a, b, c)`, `union([a, b, c])` or `difference(a, [b, c])`."""
     all: list[_core.HeldMesh] = []
     for one in meshes:
@@ -62,25 +56,70 @@ def _operands(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
     return all
 
 
-def _combine(operation: str, meshes: tuple[Any, ...], arguments: dict[str, Any]) -> BooleanResult:
-    how = options(_core.BooleanOptions, arguments)
-    operands = _operands(meshes)
+def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
+             progress: Progress) -> BooleanResult:
+    """Of one mesh, its objects, but for the union."""
+    operands = operands_of(meshes)
     if len(operands) == 1 and operation != "union":
         operands = _core.objects_of(operands[0]) or operands
-    return _checked(_core.boolean(operands, operation, "", [], how,
-                                  progress=arguments["progress"]), arguments["check"])
+    return _core.boolean_of(operands, operation, "", [], how, progress=progress)
 
 
+def by_formula(expression: str, operands: tuple[Any, ...], meshes: dict[str, Any],
+               how: _core.BooleanOptions, progress: Progress) -> BooleanResult:
+    """Of operands without a name, which are a, b, c, and of those with one."""
+    unnamed = operands_of(operands)
+    names = [*(chr(ord("a") + i) for i in range(len(unnamed))), *meshes]
+    return _core.boolean_of([*unnamed, *(held(mesh) for mesh in meshes.values())], "", expression,
+                            names, how, progress=progress)
+
+
+def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.BooleanOptions,
+            progress: Progress) -> BooleanResult:
+    """The pieces of a sheet outside of all solids, or inside."""
+    if keep not in ("outside", "inside"):
+        raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
+    operation = "difference" if keep == "outside" else "intersection"
+    return _core.clip_by([held(sheet), *operands_of(solids)], operation, how, progress=progress)
+
+
+# made of functions:
+#   union intersection difference symmetric_difference boolean clip split check_solid
 def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
-          keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-          max_displacement: float = np.inf, min_volume: float = 0.0, gap: float = 0.0,
-          check: bool = True, progress: Progress = None) -> BooleanResult:
+          max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
+          volumes: bool = False, min_volume: float = 0.0, gap: float = 0.0, check: bool = True,
+          progress: Progress = None) -> BooleanResult:
     """What is in any of the solids: `union(a, b, ...)`, or `union([a, b, ...])` as in trimesh. Of
     one mesh, the solid that it winds around, without self-intersections. See `boolean`.
 
+    meshes: each a mesh, or a list of meshes.
+    inside: 'nonzero', 'odd' or 'positive'. What is solid.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
+        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
+        largest coordinate. Not negative.
+    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    simplify: Merge all coplanar faces of the result, also those not cut.
+    volumes: compute those of two operands, of what is in either, and of what is in both.
+    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
+        are dropped, and voids are filled, with all that is in them. A part is a component connected
+        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
     gap: the widest gap to fill between faces of different solids, where they lie over each other.
-    Faces of what fills it, the last, have the face that they stand on, or lie opposite of, as
-    `face_source`; `filled_faces` of `statistics` counts the faces at such gaps. No volumes then.
+        Faces of what fills it, the last, have the face that they stand on, or lie opposite of, as
+        `face_source`; `filled_faces` of `statistics` counts the faces at such gaps. No volumes
+        then.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    certified; ValueError when the expression has another number of operands, or naming a face with
+    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000; for a
+    `gap` when it is not a union of all operands.
+
+    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
+    that meet in few places, that of finding these (prepared meshes: once) and of a copy. With a
+    `gap`, O(P) more for the P pairs of faces whose boxes are that near.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -88,34 +127,80 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     >>> both.mesh.volume, both.certificate
     (1.875, Certificate(ok))
     """
-    return _combine("union", meshes, locals())
+    how = options(_core.BooleanOptions, locals())
+    return checked(combined("union", meshes, how, progress), check)
 
 
 def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
-                 keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-                 max_displacement: float = np.inf, min_volume: float = 0.0, check: bool = True,
+                 max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
+                 volumes: bool = False, min_volume: float = 0.0, check: bool = True,
                  progress: Progress = None) -> BooleanResult:
     """What is in all of the solids. Of one mesh that a file of several objects was read to, its
     objects are the solids, as in `difference`. See `boolean`.
+
+    meshes: each a mesh, or a list of meshes.
+    inside: 'nonzero', 'odd' or 'positive'. What is solid.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
+        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
+        largest coordinate. Not negative.
+    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    simplify: Merge all coplanar faces of the result, also those not cut.
+    volumes: compute those of two operands, of what is in either, and of what is in both.
+    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
+        are dropped, and voids are filled, with all that is in them. A part is a component connected
+        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    certified; ValueError when the expression has another number of operands, or naming a face with
+    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+
+    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
+    that meet in few places, that of finding these (prepared meshes: once) and of a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
     >>> treeform.intersection(a, (a.vertices + 0.5, a.faces)).mesh.volume
     0.125
     """
-    return _combine("intersection", meshes, locals())
+    how = options(_core.BooleanOptions, locals())
+    return checked(combined("intersection", meshes, how, progress), check)
 
 
 def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
-               keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-               max_displacement: float = np.inf, min_volume: float = 0.0, check: bool = True,
+               max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
+               volumes: bool = False, min_volume: float = 0.0, check: bool = True,
                progress: Progress = None) -> BooleanResult:
-    """The first solid without all others: `difference(a, b, c)`, or `difference(a, [b, c])`. See
-    `boolean`.
+    """The first solid without all others: `difference(a, b, c)`, or `difference(a, [b, c])`. One
+    mesh that a file of several objects was read to (`attributes.parts`) is the first object without
+    the others, as in tf-boolean; `face_source` and `vertex_source` count in each object. One mesh
+    without such objects is one solid, and nothing is taken from it. See `boolean`.
 
-    One mesh that a file of several objects was read to (`attributes.parts`) is the first object
-    without the others, as in tf-boolean; `face_source` and `vertex_source` count in each object.
-    One mesh without such objects is one solid, and nothing is taken from it.
+    meshes: each a mesh, or a list of meshes.
+    inside: 'nonzero', 'odd' or 'positive'. What is solid.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
+        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
+        largest coordinate. Not negative.
+    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    simplify: Merge all coplanar faces of the result, also those not cut.
+    volumes: compute those of two operands, of what is in either, and of what is in both.
+    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
+        are dropped, and voids are filled, with all that is in them. A part is a component connected
+        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    certified; ValueError when the expression has another number of operands, or naming a face with
+    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+
+    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
+    that meet in few places, that of finding these (prepared meshes: once) and of a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -123,55 +208,95 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     >>> treeform.difference(a, cutters).mesh.volume
     0.75
     """
-    return _combine("difference", meshes, locals())
+    how = options(_core.BooleanOptions, locals())
+    return checked(combined("difference", meshes, how, progress), check)
 
 
 def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
-                         keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-                         max_displacement: float = np.inf, min_volume: float = 0.0,
+                         max_displacement: float = np.inf, keep_cuts: bool = False,
+                         simplify: bool = False, volumes: bool = False, min_volume: float = 0.0,
                          check: bool = True, progress: Progress = None) -> BooleanResult:
     """What is in an odd number of the solids. Of one mesh that a file of several objects was read
     to, its objects are the solids, as in `difference`. See `boolean`.
+
+    meshes: each a mesh, or a list of meshes.
+    inside: 'nonzero', 'odd' or 'positive'. What is solid.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
+        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
+        largest coordinate. Not negative.
+    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    simplify: Merge all coplanar faces of the result, also those not cut.
+    volumes: compute those of two operands, of what is in either, and of what is in both.
+    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
+        are dropped, and voids are filled, with all that is in them. A part is a component connected
+        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    certified; ValueError when the expression has another number of operands, or naming a face with
+    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+
+    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
+    that meet in few places, that of finding these (prepared meshes: once) and of a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
     >>> treeform.symmetric_difference(a, (a.vertices + 0.5, a.faces)).mesh.volume
     1.75
     """
-    return _combine("xor", meshes, locals())
+    how = options(_core.BooleanOptions, locals())
+    return checked(combined("xor", meshes, how, progress), check)
 
 
 def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
-            precision: str = "float64",
-            keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-            max_displacement: float = np.inf, min_volume: float = 0.0, check: bool = True,
-            progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
-    """The solid that a formula makes of meshes, all cut along each other at once:
-    `boolean("(a - b) * c", cube, ball, box)`, or with names of your own, as below.
+            precision: str = "float64", max_displacement: float = np.inf, keep_cuts: bool = False,
+            simplify: bool = False, volumes: bool = False, min_volume: float = 0.0,
+            check: bool = True, progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
+    """The solid that `expression` makes of the operands. All of them are cut along each other at
+    once.
 
-    expression: `a`, `b`, `c`, ... for `operands`, names of `meshes`, `+` or `|` union, `*` or `&`
-    intersection, `-` difference, `^` exclusive or, and brackets. `*` and `&` bind tighter than the
-    others, which go from left to right.
-    inside: what is solid, by how often the surface winds around it: 'nonzero', 'odd', 'positive'.
-    precision: of the coordinates returned; 'float32' for STL and GLB.
-    keep_cuts: leave coplanar faces apart that were cut, or overlap; they are merged otherwise.
-    simplify: merge all coplanar faces. volumes: compute those of two operands.
-    max_displacement: where rounding makes faces meet, nothing longer is taken out at once.
-    min_volume: parts of the result with less are left out, and voids with less filled;
-    `small_parts` and `small_volume` of `statistics` say how many, and of what volume.
-    check: raise where the result is not certified; False returns it with its certificate.
+    The surface is decided exactly, on the coordinates as given. Then points on cuts are rounded,
+    and the rounded surface is checked. Where rounding makes faces meet, thin faces are taken out,
+    and what still meets is cut and rounded again, in rounds. Vertices of operands stay bit for bit,
+    except next to such a place, or when float32 is asked for.
 
-    The surface is decided exactly on the coordinates as given. Then points on cuts are rounded, and
-    the rounded surface is checked: it is closed, manifold, outward, and no two faces meet but in a
-    corner or an edge. Operands may overlap themselves, touch, be equal, be inside out or empty.
+    Each operand has to bound a solid: after cutting, the signed face count of every edge is zero.
+    Operands may overlap themselves, touch, be nested, be equal, consist of parts, be inside out or
+    empty. Their corners with equal coordinates are one vertex. Where parts of the result touch in
+    an edge or at a vertex, each part has vertices of its own there, with equal coordinates, so that
+    every edge has two faces.
 
     Attributes of operands are carried over: a face has the values of the face that it lies in, a
     new vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. Only faces of
     equal values are merged; where vertices have values, only with `simplify`.
 
-    Raises NotSolidError where an operand is open, NotCertifiedError where the result cannot be
-    certified, ValueError naming the face that is out of range or not finite, or the operand that
-    has points but no faces.
+    expression: `a`, `b`, `c`, ... for `operands`, names of `meshes`, `+` or `|` union, `*` or `&`
+        intersection, `-` difference, `^` exclusive or, and brackets. `*` and `&` bind tighter than
+        the others, which go from left to right.
+    inside: 'nonzero', 'odd' or 'positive'. What is solid.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
+        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
+        largest coordinate. Not negative.
+    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    simplify: Merge all coplanar faces of the result, also those not cut.
+    volumes: compute those of two operands, of what is in either, and of what is in both.
+    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
+        are dropped, and voids are filled, with all that is in them. A part is a component connected
+        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    certified; ValueError when the expression has another number of operands, or naming a face with
+    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+
+    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
+    that meet in few places, that of finding these (prepared meshes: once) and of a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -180,22 +305,32 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
     0.375
     """
     how = options(_core.BooleanOptions, locals())
-    unnamed = _operands(operands)
-    names = [*(chr(ord("a") + i) for i in range(len(unnamed))), *meshes]
-    return _checked(_core.boolean([*unnamed, *(held(mesh) for mesh in meshes.values())], "",
-                                  expression, names, how, progress=progress), check)
+    return checked(by_formula(expression, operands, meshes, how, progress), check)
 
 
 def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: str = "nonzero",
-         precision: str = "float64", keep_cuts: bool = False, max_displacement: float = np.inf,
+         precision: str = "float64", max_displacement: float = np.inf, keep_cuts: bool = False,
          check: bool = True, progress: Progress = None) -> BooleanResult:
     """An open surface cut by solids, one by one or in a list: the pieces of `sheet` outside all of
-    them, or inside all.
+    them, or inside all. The sheet may end anywhere, overlap itself, and even be closed. Edges are
+    not checked, since the result is open.
 
     keep: 'outside' or 'inside'. A piece on the surface of a solid is inside it, so both together
-    are the sheet. Edges are not checked, since the result is open.
+        are the sheet.
+    inside: 'nonzero', 'odd' or 'positive'. What is solid.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
+        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
+        largest coordinate. Not negative.
+    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
+        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
+        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    check: False returns what could not be certified, too, with its `certificate`.
 
-    Raises NotSolidError where a solid is open, and as `boolean`.
+    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    certified.
+
+    Cost: faces of solids that do not reach into the box of a face of the sheet are not looked at.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -203,31 +338,41 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
     >>> round(treeform.clip(sheet, cube, keep="inside").mesh.area, 12)
     0.5
     """
-    if keep not in ("outside", "inside"):
-        raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
-    operation = "difference" if keep == "outside" else "intersection"
     how = options(_core.BooleanOptions, locals())
-    return _checked(_core.clip([held(sheet), *_operands(solids)], operation, how,
-                               progress=progress), check)
+    return checked(clipped(sheet, solids, keep, how, progress), check)
 
 
 def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: float = np.inf,
           check: bool = True, progress: Progress = None) -> BooleanResult:
-    """All faces of the meshes, cut along each other and along themselves, each piece once. They
-    need not bound solids.
+    """All faces of the operands, cut along each other and along themselves, each piece once. Any
+    two pieces have a corner, an edge or nothing in common. Operands need not bound solids, and the
+    certificate does not check edges. Where faces of several operands lie on each other, one piece
+    stands for all; its source is the lowest of them. Nothing is simplified.
+
+    meshes: each a mesh, or a list of meshes.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
+        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
+        largest coordinate. Not negative.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotCertifiedError where the result could not be certified.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
     >>> treeform.split(a, (a.vertices + 0.5, a.faces)).certificate
     Certificate(ok)
     """
-    how = options(_core.BooleanOptions, locals(), keep_cuts=True)
-    return _checked(_core.split(_operands(meshes), how, progress=progress), check)
+    how = options(_core.BooleanOptions, locals())
+    return checked(_core.split(operands_of(meshes), how, progress=progress), check)
 
 
 def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
-    """Whether a mesh bounds a solid, as operands of `boolean` have to: True, or says where the
-    surface ends. Raises ValueError for points without a face.
+    """Whether a mesh bounds a solid, as an operand of `boolean` has to. The certificate is ok, or
+    says where the surface ends. When the edges as they are leave the mesh open, it is cut along
+    itself first: its faces may still fit together piece by piece.
+
+    Raises ValueError as `boolean`.
 
     >>> import treeform
     >>> bool(treeform.check_solid(treeform.read("data/cube.stl")))
@@ -236,3 +381,4 @@ def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
     3
     """
     return _core.check_solid(held(mesh), progress=progress)
+# end

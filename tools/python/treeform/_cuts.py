@@ -11,12 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import NONE, Floats, Ids
-from ._core import Certificate
-from ._errors import options, require
+from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held, listed
 from ._progress import Progress
 from ._repair import MadeMesh
-from ._results import Result
+from ._results import Certificate, Result
 
 __all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "SectionLoop",
            "components", "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights",
@@ -118,21 +117,45 @@ class Section(Result):
         _core.write_section(os.fspath(path), self._data, format, unit, progress=progress)
 
 
-def _heights(heights: ArrayLike | None) -> Floats:
+def heights_of(heights: ArrayLike | None) -> Floats:
     """Without any, the plane itself."""
     return np.zeros(1) if heights is None else np.atleast_1d(_arrays.floats(heights, "heights"))
 
 
+# made of functions:
+#   section layer_heights
 def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
             heights: ArrayLike | None = None, progress: Progress = None) -> Section:
-    """The loops in which planes meet a mesh: closed where the mesh is, outer ones
-    counter-clockwise, holes clockwise, nested. What makes a loop, and what lies in it, is decided
-    exactly.
+    """Sections of a mesh by the planes at `heights` above a plane.
 
-    normal, at: (3,) of the plane. A vertex in a plane counts as above it: the section is that just
-    below.
-    heights: (K,) of planes above that one, along its normal at length 1: thousands take little
-    longer than one. None is the plane itself.
+    Which side of a plane a vertex is on, which segments make a loop, and which loop lies in which
+    are decided exactly, on the coordinates as given. Then points are rounded.
+
+    A vertex in a plane counts as above it. So a section is that of a plane just below: a box from
+    height 0 to 1 has none at 0, and its full top at 1. A point or line in which the mesh only
+    touches the plane from below gives no loop. A face in the plane counts where the mesh goes on
+    below it.
+
+    Of a mesh that is closed and agrees in its orientation, all polylines are closed. Loops may
+    touch where faces do; at an edge of four faces or more, those that bound one wedge of the solid
+    are joined. Where the mesh has a border, polylines are open; where neighbors disagree, they go
+    on, not `oriented`. Loops of faces that cross each other do, too: `parent` is then that of one
+    of their points, and areas are added up as often as the surface winds around them. Corners with
+    equal coordinates are one.
+
+    Where a loop goes straight on from one face to another in the same plane, exactly, there is no
+    point: a box has four. The side from a point on lies in the face named, and may go on in others.
+
+    Loops are in the order of their lowest faces.
+
+    normal: (3,) of the plane, of any length.
+    at: (3,) a point of the plane.
+    heights: (K,) of planes above that one, along its normal at length 1; None is the plane itself.
+
+    Raises ValueError naming a face with a corner out of range or not finite, for a plane or height
+    that is not finite, or a normal that is zero.
+
+    Cost: O(V log K + F + S log L) for K planes and L loops in one of S sides.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -140,21 +163,26 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
     >>> layers.areas.tolist(), layers.lengths.tolist()
     ([1.0, 1.0, 1.0, 1.0], [4.0, 4.0, 4.0, 4.0])
     """
-    return _core.section(held(mesh), _arrays.vector(at, "at"), _arrays.vector(normal, "normal"),
-                         _heights(heights), progress=progress)
+    return _core.section(held(mesh), _arrays.vector(normal, "normal"), _arrays.vector(at, "at"),
+                         heights_of(heights), progress=progress)
 
 
 def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1),
                   at: ArrayLike = (0, 0, 0), *, progress: Progress = None) -> Floats:
     """(K,) heights for `section`: the middles of layers of this thickness, from the lowest vertex
-    to the highest.
+    to the highest: half a thickness above the lowest is the first. Vertices that are not finite do
+    not count.
+
+    normal: (3,) of the plane, of any length.
+    at: (3,) a point of the plane.
 
     >>> import treeform
     >>> treeform.layer_heights(treeform.read("data/cube.stl"), 0.5).tolist()
     [0.25, 0.75]
     """
-    return _core.layer_heights(held(mesh), _arrays.vector(at, "at"),
-                               _arrays.vector(normal, "normal"), thickness, progress=progress)
+    return _core.layer_heights(held(mesh), thickness, _arrays.vector(normal, "normal"),
+                               _arrays.vector(at, "at"), progress=progress)
+# end
 
 
 # made of results:
@@ -186,29 +214,40 @@ class CutPieces(List[CutPiece]):
     resolved: bool
 
 
-def _checked(made: tuple[list[CutPiece], Certificate, bool], check: bool) -> CutPieces:
-    pieces = CutPieces(made[0])
-    pieces.certificate, pieces.resolved = made[1:]
-    if check:
-        require(pieces.certificate, of_one=True)
-    return pieces
-
-
+# made of functions:
+#   cut cut_to_fit cut_along
 def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
-        heights: ArrayLike | None = None, caps: bool = True, precision: str = "float64",
-        max_displacement: float = np.inf, check: bool = True,
+        heights: ArrayLike | None = None, precision: str = "float64",
+        max_displacement: float = np.inf, caps: bool = True, check: bool = True,
         progress: Progress = None) -> CutPieces:
-    """A solid below and above a plane; with `heights`, between planes: K + 1 pieces, from the
-    lowest up. Each is closed by caps. Some may have no faces.
+    """The mesh below, between and above planes at `heights` above a plane.
 
-    normal, at: (3,) of the plane. heights: (K,) above it, as for `section`.
-    caps: False cuts a surface, which may end anywhere, and leaves it open.
-    precision, max_displacement, check: as for `boolean`.
+    Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face
+    that lies in a plane belongs to the side that its solid is on. What the solid has in the plane
+    is then closed by a cap, the same for both sides. Only points on cuts are rounded, once; each
+    piece is checked as results of `boolean` are. Caps between axes stay flat and alike when
+    rounded; others may bend by a step of the precision.
 
-    On which side a vertex is, is decided exactly; points on cuts are rounded, and pieces are
-    checked as booleans are. A mesh that meets itself is cut as the solid that it winds around.
+    The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has
+    parts that are inside out or hidden in others, it is first made the solid that it winds around,
+    rounded: then all that is said here is of that one. Equal planes are one.
 
-    Raises NotSolidError where the mesh is open, NotCertifiedError.
+    So a solid is cut into what is below and above a plane; with `heights`, K + 1 pieces, from the
+    lowest up. Some may have no faces.
+
+    normal: (3,) of the plane, of any length.
+    at: (3,) a point of the plane.
+    heights: (K,) of planes above that one, along its normal at length 1; None is the plane itself.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: As in `boolean`: how far what rounding has broken is joined.
+    caps: Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    certified; ValueError as `section` and `boolean`.
+
+    Cost: as `boolean` of the mesh with itself, and O(n log n) for the n faces that are cut; caps of
+    n points O(n^1.5).
 
     >>> import treeform
     >>> below, above = treeform.cut(treeform.read("data/cube.stl"), (1, 1, 1), (0.5, 0.5, 0.5))
@@ -216,36 +255,55 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
     (True, 0.5, 0.5)
     """
     how = options(_core.CutOptions, locals())
-    return _checked(_core.cut(held(mesh), _arrays.vector(at, "at"),
-                              _arrays.vector(normal, "normal"), _heights(heights), how,
-                              progress=progress), check)
+    return checked(_core.cut(held(mesh), _arrays.vector(normal, "normal"), _arrays.vector(at, "at"),
+                             heights_of(heights), how, progress=progress), check, of_one=True)
 
 
-def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, caps: bool = True, precision: str = "float64",
-               max_displacement: float = np.inf, check: bool = True,
+def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
+               max_displacement: float = np.inf, caps: bool = True, check: bool = True,
                progress: Progress = None) -> CutPieces:
-    """Pieces of a solid that fit into a box of this size (3,), as the bed of a printer: as few
-    along each axis as there can be, of equal length. An infinite size is not cut along. For the
-    rest, see `cut`.
+    """Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
+    each axis as there can be, and equally far apart, to rounding. A size that is infinite is not
+    cut along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x
+    first, then y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
+
+    size: (3,) of the box, as the bed of a printer.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: As in `boolean`: how far what rounding has broken is joined.
+    caps: Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    certified; ValueError as `cut`, for a size that is not positive, or where there would be more
+    than 2^16 planes across an axis, or might be more than 2^20 pieces.
 
     >>> import treeform
     >>> len(treeform.cut_to_fit(treeform.read("data/cube.stl"), (0.5, 0.4, 2)))
     6
     """
     how = options(_core.CutOptions, locals())
-    return _checked(_core.cut_to_fit(held(mesh), _arrays.vector(size, "size"), how,
-                                     progress=progress), check)
+    return checked(_core.cut_to_fit(held(mesh), _arrays.vector(size, "size"), how,
+                                    progress=progress), check, of_one=True)
 
 
 def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bool = True,
               progress: Progress = None) -> CutPieces:
-    """A mesh cut along its isolines: pieces with values below, between and from the levels on, from
-    the lowest up, open where they were cut. Levels that repeat count once.
+    """The mesh cut along its isolines (`isolines`): pieces with values below, between and from the
+    levels on, K + 1 for K levels in ascending order, equal ones counted once. Pieces are open
+    surfaces that end in the same points; together they are the mesh, for it is not moved: only new
+    points are rounded, by less than a step of their largest coordinate.
 
-    values: (V,) of the vertices, linear in each face. levels: (K,).
+    The certificate says whether faces meet beyond common corners and edges in what is returned, all
+    pieces together: where those of the mesh do, or rounding makes some do. `faces` of its pairs are
+    numbered through all pieces.
 
-    Raises NotCertifiedError where faces meet in the pieces, as those of the mesh do or rounding
-    makes them.
+    values: (V,) of the vertices, linear in each face.
+    levels: (K,)
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotCertifiedError where the result could not be certified; ValueError as `isolines`.
+
+    Cost: as `isolines` and `self_intersections`.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -253,10 +311,10 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
     >>> round(low.mesh.area, 12), round(high.mesh.area, 12)
     (2.0, 4.0)
     """
-    how = _core.CutOptions()
-    return _checked(_core.cut_along(held(mesh), _arrays.floats(values, "values"),
-                                    np.atleast_1d(_arrays.floats(levels, "levels")), how,
-                                    progress=progress), check)
+    return checked(_core.cut_along(held(mesh), _arrays.floats(values, "values"),
+                                   np.atleast_1d(_arrays.floats(levels, "levels")),
+                                   progress=progress), check, of_one=True)
+# end
 
 
 # made of results:
@@ -280,13 +338,34 @@ class MeshPart(MeshResult):
 # end
 
 
+def chosen_of(mesh: MeshLike, faces: ArrayLike) -> Ids:
+    """Numbers of faces, or those that a mask has."""
+    chosen = np.asarray(faces)
+    if chosen.dtype == bool:
+        count = len(as_mesh(mesh).faces)
+        if chosen.shape != (count,):
+            raise ValueError(f"faces: the shape of the mask is {chosen.shape}, not ({count},)")
+        chosen = np.flatnonzero(chosen)
+    return _arrays.ids(chosen, "faces")
+
+
+# made of functions:
+#   components submesh
 def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None = None,
                progress: Progress = None) -> list[MeshPart]:
-    """The faces that vertices link, as meshes, in the order of their lowest faces. A closed part
-    that is inside out is a cavity, and goes with the part around it.
+    """The faces that corners link, as meshes, in the order of their lowest faces. Corners with
+    equal coordinates are one. A closed part that is inside out is a cavity, and goes with the
+    smallest closed part that it is in, if any. Volumes count without their sign, those of open
+    parts as 0.
 
-    min_volume: parts with less are left out, in cubic units; open ones have none.
-    largest: so many of the greatest volume are kept.
+    min_volume: Parts with less are left out, in cubic units. Not negative.
+    largest: So many parts of the greatest volume are kept; of equal ones, those of the greatest
+        area.
+
+    Raises ValueError naming the lowest face with a corner out of range, and for a `min_volume` that
+    is negative or NaN.
+
+    Cost: O(V + F); for cavities, as `contains`.
 
     >>> import treeform
     >>> spheres = treeform.components(treeform.read("data/two_spheres.stl"))
@@ -298,40 +377,68 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None =
 
 
 def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> MeshPart:
-    """The faces of these numbers (n,), in this order, with their vertices and attributes. A mask
-    (F,) of True and False will do.
+    """The faces of these numbers, in this order, and the points that they use, in the order of
+    `mesh`.
+
+    Vertices keep their attributes.
+
+    faces: (n,) numbers; or a mask (F,) of True and False.
+
+    Raises ValueError naming the number that is no face of the mesh, or a face with a corner out of
+    range.
+
+    Cost: O(V + F).
 
     >>> import treeform
     >>> treeform.submesh(treeform.read("data/cube.stl"), [0, 1]).mesh
     Mesh(4 vertices, 2 faces)
     """
-    chosen = np.asarray(faces)
-    if chosen.dtype == bool:
-        count = len(as_mesh(mesh).faces)
-        if chosen.shape != (count,):
-            raise ValueError(f"faces: the shape of the mask is {chosen.shape}, not ({count},)")
-        chosen = np.flatnonzero(chosen)
-    return _core.submesh(held(mesh), _arrays.ids(chosen, "faces"), progress=progress)
+    return _core.submesh(held(mesh), chosen_of(mesh, faces), progress=progress)
+# end
 
 
+def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
+    """The meshes of a list, one after the other."""
+    several = listed(meshes)
+    if several is None:
+        raise ValueError("meshes: several meshes are needed")
+    return Mesh._of(*_core.concatenate([held(one) for one in several], progress=progress))
+
+
+# made of functions:
+#   concatenate
 def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mesh:
-    """Vertices, faces and attributes of all meshes, one after the other; nothing is joined.
+    """Points and faces of all meshes, one after the other; nothing is joined.
+
+    Their attributes are put together likewise.
+
+    Raises ValueError for more points or faces than 32 bits can number.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> treeform.concatenate([cube, cube])
     Mesh(16 vertices, 24 faces)
     """
-    several = listed(meshes)
-    if several is None:
-        raise ValueError("meshes: several meshes are needed")
-    points, faces, data = _core.concatenate([held(one) for one in several], progress=progress)
-    return Mesh._of(points, faces, None, data)
+    return joined(meshes, progress)
+# end
 
 
+def moved(mesh: MeshLike, matrix: ArrayLike, progress: Progress) -> Mesh:
+    """With its attributes, normals turned."""
+    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
+    faces, data = _core.turned(own, move)
+    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, data)
+
+
+# made of functions:
+#   transformed
 def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None) -> Mesh:
-    """The mesh moved by a matrix (4, 4), with its attributes, normals turned. Where the matrix
-    mirrors, faces are turned over, so that they look outward as before.
+    """The mesh with its points moved. Where `matrix` mirrors, faces are turned over, so that they
+    look outward as before.
+
+    It keeps its attributes, with normals turned.
+
+    matrix: (4, 4)
 
     >>> import numpy as np
     >>> import treeform
@@ -340,9 +447,8 @@ def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None)
     >>> mirrored.volume, mirrored.bounds.tolist()
     (2.0, [[-2.0, 0.0, 0.0], [0.0, 1.0, 1.0]])
     """
-    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
-    faces, data = _core.turned(own, move)
-    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, None, data)
+    return moved(mesh, matrix, progress)
+# end
 
 
 # made of results:
@@ -363,9 +469,22 @@ class MassProperties(Result):
 # end
 
 
+# made of functions:
+#   mass_properties
 def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
-    """Volume, center of mass and inertia of what a closed mesh encloses, rounded once from twice
-    the precision; None where the volume is 0, or noise beside what cancels in it.
+    """Volume, center of mass and inertia of what a closed mesh encloses. Where it is inside out,
+    volume and inertia have the opposite sign. A region that the surface winds around several times
+    counts that often. None where the volume is 0, as of an empty mesh, or so small beside what
+    cancels in its sum that the center would be noise, or not finite; of an open one, they mean
+    little.
+
+    Coordinates are first taken from the middle of the box, which rounds them by at most 2^-53 of
+    its diagonal; sums are then made in twice the precision of double, of products that are off by
+    2^-50 at most.
+
+    Raises ValueError naming the lowest face with a corner out of range.
+
+    Cost: O(V + F).
 
     >>> import treeform
     >>> cube = treeform.mass_properties(treeform.read("data/cube.stl"))
@@ -373,3 +492,4 @@ def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassPropert
     ([0.5, 0.5, 0.5], 0.166666666667)
     """
     return _core.mass_properties(held(mesh), progress=progress)
+# end

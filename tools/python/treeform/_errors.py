@@ -8,15 +8,15 @@ import re
 import sys
 from numbers import Real
 from types import FrameType
-from typing import Any, Callable, Mapping, TypeVar, cast
+from typing import Any, Callable, Mapping, Protocol, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import Certificate
+from ._results import Certificate
 
-__all__ = ["Cancelled", "CertificateError", "Error", "FileError", "file_error", "NotCertifiedError",
-           "NotSolidError", "name_argument", "need", "options", "require", "settings"]
+__all__ = ["Cancelled", "CertificateError", "Error", "FileError", "NotCertifiedError",
+           "NotSolidError"]
 
 _Made = TypeVar("_Made")
 
@@ -112,6 +112,21 @@ def require(certificate: Certificate, *also: str, of_one: bool = False) -> None:
     if certificate.status == "open_input":
         raise NotSolidError(certificate, of_one)
     raise NotCertifiedError(certificate, of_one)
+
+
+class _Certified(Protocol):
+    @property
+    def certificate(self) -> Certificate: ...
+
+
+_Result = TypeVar("_Result", bound=_Certified)
+
+
+def checked(made: _Result, check: bool, of_one: bool = False) -> _Result:
+    """A result; with `check`, raises what its certificate says."""
+    if check:
+        require(made.certificate, "sheet", of_one=of_one)
+    return made
 
 
 #: What annotations ask for, and how that is said.

@@ -10,50 +10,95 @@ from functools import partial
 from typing import IO, Any, Iterable, Mapping, Sequence, Union
 
 from . import _arrays, _core
-from ._attributes import Attributes
-from ._errors import FileError, file_error
+from ._arrays import path_of
+from ._errors import FileError, file_error, options
 from ._mesh import Mesh, MeshLike, as_mesh, listed
 from ._progress import Progress
 from ._results import Result
 
-__all__ = ["Columns", "PartsLike", "Path", "Written", "named_columns", "path_of", "read", "write"]
+__all__ = ["Written", "read", "write"]
 
 Path = Union[str, "os.PathLike[str]"]
 Columns = Mapping[str, Union[str, int]]
 
 
-def path_of(path: Path) -> str:
-    """`path` as the library takes it."""
-    text = os.fspath(path)
-    if "\0" in text:
-        raise ValueError(f"path: {text!r} has a zero in it")
-    return text
+def read_from(path: Path | IO[bytes], format: str, join: bool, how: _core.ReadOptions,
+              progress: Progress) -> Mesh:
+    """Of a path, or of what is open."""
+    if isinstance(path, (str, os.PathLike)):
+        return Mesh._of(*_core.read(path_of(path), format, join, how, progress=progress))
+    return Mesh._of(*_core.read_bytes(_content(path), _name_of(path), format, join, how,
+                                      progress=progress))
 
 
-def named_columns(columns: Columns | None) -> list[tuple[str, str]]:
-    return [(a, str(b)) for a, b in (columns or {}).items()]
+# made of functions:
+#   read
+def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
+         columns: Columns | None = None, drop_nan: bool = False, progress: Progress = None) -> Mesh:
+    """Reads the file at `path`; "-" is standard input. `format` is an extension without its dot
+    ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "3mf", "glb", ...). When it is empty, the
+    content decides, then the extension.
 
+    Coordinates are as stored: float32 widened to double, decimal text rounded once to the nearest
+    double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
 
-def read(path: Union[Path, IO[bytes]], format: str = "", *, join: bool = True,
-         columns: Columns | None = None, drop_nan: bool = False,
-         progress: Progress = None) -> Mesh:
-    """The mesh or cloud in a file, or in what is open for reading bytes, such as BytesIO: STL, OBJ,
-    PLY, OFF, 3MF, GLB, glTF, PCD, LAS, LAZ, XYZ, CSV, PTS; DAE and others where treeform was built
-    with assimp.
+    - OBJ: `vt` and `vn` are in `Attributes.corners`. The material files that it names are read
+      where they are there and the OBJ has a path: the diffuse colors of its materials become
+      columns red, green, blue and, where one is not opaque (`d`), alpha of faces; faces without one
+      are white.
+    - STL: a binary file with a wrong count of triangles is read where all of it is whole triangles,
+      and one with bytes behind those of the header. Text may have zero bytes between words, and
+      words after `endloop` and `endfacet`. `Attributes.warnings` says so.
+    - PLY: triangle strips, the element "tristrips", come as faces, those that repeat a vertex too.
+    - PLY: the list "texcoord" of faces is in `Attributes.corners` when it has two numbers a corner,
+      or none.
+    - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
+      any columns, also such as easting, northing and elevation, which a warning says; latitude and
+      longitude are refused. `columns` says which is which. An empty cell, or one with a word, is
+      NaN. Whole numbers beyond 2^53 are 64-bit integers where a column has nothing else. Colors are
+      of 8 or 16 bits where they are whole numbers of these.
+    - PTS: as XYZ. Where the first line is the number of points, 4 columns are x y z intensity, 6
+      are x y z red green blue, and 7 have both. More points than it says are read with a warning;
+      fewer are an error. The format is then called "xyz".
+    - PCD: a field of several values becomes columns "name[0]", "name[1]", ...
+    - LAS and LAZ: columns are the fields of its records. LAZ of LASzip 1 to 3, COPC included; extra
+      bytes as described in the file.
+    - 3MF: the build. Each mesh that an item shows, itself or through components, is a part with a
+      name of its own ("gear", "gear (2)"), where the transforms put it; mirrored ones have their
+      faces turned, so that they are not inside out. Supports and surfaces are read as models are,
+      objects of the type "other" and those outside the build are not. Items and components may be
+      in other model parts of the package. Base materials are materials of parts, and their colors
+      and those of color groups become columns red, green, blue and alpha of faces, or of points
+      where corners have colors of their own. Texture coordinates are in `Attributes.corners`;
+      images are not read. Extensions that a file requires and that would change its shape are
+      refused.
+    - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene.
+      Each mesh that a node shows, also as an instance of EXT_mesh_gpu_instancing, is a part with a
+      name of its own, that of the node or of the mesh, where the transforms, composed in double,
+      put it; mirrored ones have their faces turned. Strips and fans are triangles. COLOR_0 becomes
+      columns red, green, blue and alpha of points, in the type and with the numbers of the file;
+      NORMAL nx, ny and nz, turned with the node; the texture coordinates that the color of the
+      material takes, with KHR_texture_transform, s and t = 1 - v, since t counts from the lower
+      edge elsewhere. Colors of materials become columns red, green, blue and alpha of faces, of 8
+      bits. Textures, other attributes and lines are not read, morph targets and skins not applied.
+      Files that a glTF names are read from its folder and those in it. Extensions that a file
+      requires are refused by name, except for KHR_mesh_quantization and those that only change how
+      a surface looks. glTF 1.0 is left to assimp.
 
+    Polygons are cut into triangles (`Attributes.stored_face`). A cloud has no faces. DAE and others
+    are read where treeform was built with assimp. Where there is no such file, the error is a
+    FileNotFoundError, too, and so on.
+
+    path: of the file; or what is open for reading bytes, such as BytesIO.
     format: an extension without its dot; empty: the content decides, then the extension.
     join: in a format that does not number its vertices (STL) or repeats them (GLB), corners with
-    equal coordinates become one vertex, with the attributes of the first of them. Faces keep the
-    order and the numbers that they have in the file, and vertices, too, in other formats.
+        equal coordinates become one vertex, with the attributes of the first of them. Faces keep
+        the order and the numbers that they have in the file, and vertices, too, in other formats.
     columns: of XYZ, PTS and CSV, what columns are: {'x': 'E', 'y': 'N', 'z': 'H'}; a number counts
-    them from 1.
+        them from 1.
     drop_nan: drop points with a NaN or infinite coordinate, and their faces.
 
-    Coordinates are float64: those of the file, decimal text rounded once. NaN and infinities are
-    kept. Polygons are cut into triangles (`Attributes.stored_face`). A cloud has no faces.
-
-    Raises FileError, an OSError, naming the path, the line or byte, and the reason; where there is
-    no such file, it is a FileNotFoundError, too, and so on.
+    Raises FileError naming path, line or byte, and reason.
 
     >>> import io, treeform
     >>> treeform.read("data/cube.stl")
@@ -61,14 +106,9 @@ def read(path: Union[Path, IO[bytes]], format: str = "", *, join: bool = True,
     >>> treeform.read(io.BytesIO(b"v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n"), format="obj")
     Mesh(3 vertices, 1 faces)
     """
-    named = named_columns(columns)
-    if isinstance(path, (str, os.PathLike)):
-        points, faces, data = _core.read(path_of(path), format, join, named, drop_nan,
-                                         progress=progress)
-    else:
-        points, faces, data = _core.read_bytes(_content(path), _name_of(path), format, join, named,
-                                               drop_nan, progress=progress)
-    return Mesh._of(points, faces, None, Attributes(data))
+    how = options(_core.ReadOptions, locals())
+    return read_from(path, format, join, how, progress)
+# end
 
 
 def _content(file: Any) -> bytes:
@@ -110,38 +150,10 @@ class Written(Result):
 PartsLike = Union[MeshLike, Iterable[MeshLike], Mapping[str, MeshLike]]
 
 
-def write(path: Union[Path, IO[bytes]], mesh: PartsLike, format: str = "", *, ascii: bool = False,
-          precision: str | None = None, round: bool = False, drop: Iterable[str] = (),
-          rename: Mapping[str, str] | None = None, las_scale: Sequence[float] | None = None,
-          las_offset: Sequence[float] | None = None, progress: Progress = None) -> Written:
-    """Writes a mesh or a result, with its attributes as far as the format holds them.
-
-    path: of the file; or what is open for writing bytes, such as BytesIO, with `format`.
-    mesh: one; or several, which become the parts of the file, named "1", "2", ...; or a dict of
-    names and meshes. 3MF and OBJ hold parts; in other formats they are one mesh, and a warning says
-    so. Of several, columns of vertices and faces are left out.
-    format: stl, obj, ply, off, 3mf, glb, pcd, las, laz, xyz, csv; empty: that of the path.
-    ascii: text where the format has text and binary.
-    precision: 'float32' or 'float64'; None: as in the file that was read, else 'float64'. Binary
-    STL and GLB hold float32 only.
-    round: a mesh whose coordinates were certified (`Mesh.certificate`) may be rounded further,
-    which can undo what was certified. Otherwise that is an error: ask the operation for `precision=
-    'float32'` instead.
-    drop, rename: columns of points that are not written, or under another name: {'old': 'new'}.
-    las_scale, las_offset: three numbers for LAS and LAZ; None: those of the file, else chosen.
-
-    The file appears whole or not at all. Raises FileError.
-
-    >>> import tempfile, treeform
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     treeform.write(folder + "/cube.ply", treeform.read("data/cube.stl"))
-    Written(format='ply-binary-le', precision='float32', max_displacement=0, warnings=[])
-    """
-    put = partial(_write, mesh, format, (ascii, precision, round, list(drop),
-                                         [(b, a) for a, b in (rename or {}).items()],
-                                         None if las_scale is None else list(las_scale),
-                                         None if las_offset is None else list(las_offset)),
-                  progress)
+def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.WriteOptions,
+            progress: Progress) -> Written:
+    """To a path, or to what is open."""
+    put = partial(_write, mesh, how, progress)
     if isinstance(path, (str, os.PathLike)):
         return put(path_of(path))
     if not hasattr(path, "write"):
@@ -160,8 +172,92 @@ def write(path: Union[Path, IO[bytes]], mesh: PartsLike, format: str = "", *, as
     return written
 
 
-def _write(mesh: PartsLike, format: str, options: tuple[Any, ...], progress: Progress,
-           path: str) -> Written:
+# made of functions:
+#   write
+def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: bool = False,
+          precision: str | None = None, drop: Iterable[str] = (), rename: Columns | None = None,
+          las_scale: Sequence[float] | None = None, las_offset: Sequence[float] | None = None,
+          round: bool = False, progress: Progress = None) -> Written:
+    """Writes `mesh` to `path`; "-" is standard output, which needs `format`.
+
+    A file appears whole or not at all: it is written under another name and then renamed. Numbers
+    in text are the shortest that read back as the same double, float32 values included. Polygons
+    are written as polygons where the format has them. Newlines in names become blanks.
+
+    Of `Attributes`, each format takes what it can hold:
+    - PLY: all elements in their order; texture coordinates of corners, as the list "texcoord" of
+      faces with two numbers a corner, in float32 unless the file has that list as double (NaN where
+      a corner has none); names of texture files, behind the comments.
+    - OBJ: parts, material files, texture coordinates and normals of corners, or those of points,
+      vertex colors.
+    - OFF: normals, colors and texture coordinates of points.
+    - STL: its header, without a leading "solid" and with a NUL as its last byte where it has none;
+      the names of solids, the column "stl_attribute".
+    - XYZ and CSV: further columns.
+    - LAS and LAZ: what their records hold; further columns as extra bytes. Columns red, green and
+      blue of 8 bits are multiplied by 256; points that no column says it of are returns 1 of 1;
+      intensities that are no whole numbers are rounded, or multiplied by 65535 where all are from 0
+      to 1; scan_angle_rank becomes scan_angle in formats from 6 on. Coordinates that the file's
+      scale and offset do not hold are rounded (`max_displacement`). A file that was not LAS gets
+      the smallest format that holds its columns, and for each axis the coarsest scale of 1, 0.1,
+      0.01, ... that gives all coordinates back within two units in their last place, else the
+      finest that 32 bits allow.
+    - GLB: a node and a mesh with the points that they use for faces of one object and group in a
+      row, with their name; in these, one primitive for each color of faces (columns red, green,
+      blue and alpha, if any, of the element "face"), which materials have. Columns of points: red,
+      green, blue and alpha become COLOR_0, of 8 and 16 bits as they are, others as floats from 0 to
+      1; nx, ny and nz NORMAL, with length 1; s and t, u and v or texture_u and texture_v
+      TEXCOORD_0, with v = 1 - t. Those of corners go ahead of these, and a point gets a copy for
+      each that it has.
+
+    Polygons are written as triangles. A number in text is that of the double, so that readers of
+    floats and of doubles get the same.
+
+    Columns of points that several formats know have the names and types of the format that is
+    written: colors are red, green and blue of 8 bits, but in LAS of 16, in PCD the packed `rgb`, in
+    OBJ numbers from 0 to 1; normals are nx, ny, nz, in PCD normal_x, ..., in OBJ `vn`. A file is
+    not translated to its own format.
+
+    Warnings say what is scaled, what is rounded, and all that is left out.
+
+    A mesh without points and faces can be written in every format of meshes, and read again.
+
+    path: of the file; or what is open for writing bytes, such as BytesIO, with `format`.
+    mesh: one; or several, which become the parts of the file, named "1", "2", ...; or a dict of
+        names and meshes. 3MF and OBJ hold parts; in other formats they are one mesh, and a warning
+        says so. Of several, columns of vertices and faces are left out.
+    format: Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
+        that of the path.
+    ascii: Write text when the format has text and binary. Binary PLY is little endian unless the
+        file was read from a big endian one. PCD is compressed only when it was read from a
+        compressed one.
+    precision: 'float32' or 'float64'. Precision of the coordinates; None: as they were stored.
+        Binary STL and GLB hold float32 only. 3MF holds doubles, but its readers make floats of
+        them: none is float32 there.
+    drop: Columns of points that are not written; "normal", "uv" or "color" for all of that kind,
+        also those of corners.
+    rename: columns of points under another name: {'old': 'new'}.
+    las_scale: Of LAS and LAZ; None: those of the file, else as below.
+    las_offset: likewise.
+    round: a mesh whose coordinates were certified (`Mesh.certificate`) may be rounded further,
+        which can undo what was certified. Otherwise that is an error: ask the operation for
+        `precision='float32'` instead.
+
+    Raises FileError when the format cannot hold the file or the file cannot be written; ValueError
+    when a corner is out of range, when the element "vertex" or "face" has not one row for each
+    point or stored face, or when a number in `Attributes.corners` is out of range.
+
+    >>> import tempfile, treeform
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     treeform.write(folder + "/cube.ply", treeform.read("data/cube.stl"))
+    Written(format='ply-binary-le', precision='float32', max_displacement=0, warnings=[])
+    """
+    how = options(_core.WriteOptions, locals())
+    return written(path, mesh, format, how, progress)
+# end
+
+
+def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: str) -> Written:
     parts = mesh if isinstance(mesh, Mapping) else listed(mesh)
     if parts is None:
         made = as_mesh(mesh)
@@ -169,9 +265,7 @@ def _write(mesh: PartsLike, format: str, options: tuple[Any, ...], progress: Pro
     else:
         made, certified = _scene_of(parts if isinstance(parts, Mapping) else {
             str(number): part for number, part in enumerate(parts, 1)})
-    data = None if made._attributes is None else made._attributes._data
-    put: Any = _core.write
-    written: Written = put(path, made._held, data, certified, format, *options, progress=progress)
+    written = _core.write(path, made._held, made._attributes, certified, how, progress=progress)
     if parts is not None and not written.format.startswith(("3mf", "obj")):
         written.warnings.append(f"parts are one mesh now: {written.format} does not hold them")
     return written
@@ -182,7 +276,7 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
     if not parts:
         raise ValueError("mesh: there is none in the list")
     meshes = [as_mesh(part) for part in parts.values()]
-    data = [None if one._attributes is None else one._attributes._data for one in meshes]
-    points, faces, all = _core.scene([one._held for one in meshes], data,
-                                     [_arrays.word(name, "mesh") for name in parts])
-    return Mesh._of(points, faces, None, all), any(one._certificate for one in meshes)
+    data = [one._attributes for one in meshes]
+    made = Mesh._of(*_core.scene([one._held for one in meshes], data,
+                                 [_arrays.word(name, "mesh") for name in parts]))
+    return made, any(one._certificate for one in meshes)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable
+from typing import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
-from ._arrays import Floats, Ids
+from ._arrays import Floats, Ids, path_of
 from ._errors import need, options
-from ._files import Path, path_of
+from ._files import Path
 from ._mesh import Mesh, MeshLike, held
 from ._progress import Progress
 from ._results import Result
@@ -23,13 +23,6 @@ __all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "StreamSearch", "faces_i
 
 #: How two faces meet; a number in `kinds` is a place in this list.
 KINDS = tuple(_core.KINDS)
-_ALL = list(KINDS)
-
-
-def _kinds(kinds: Iterable[str] | None) -> list[str]:
-    if kinds is None:
-        return _ALL
-    return [_arrays.word(kind, "kinds") for kind in _arrays.several(kinds, "kinds")]
 
 
 # made of results:
@@ -62,40 +55,62 @@ class FacePairs(Result):
         return self.pairs[np.isin(self.kinds, [KINDS.index(kind) for kind in kinds])]
 
 
-def self_intersections(mesh: MeshLike, *, kinds: Iterable[str] | None = None,
-                       vertices: str = "by_coordinates", first_only: bool = False,
+# made of functions:
+#   self_intersections mesh_intersections
+def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
+                       first_only: bool = False, kinds: Iterable[str] | None = None,
                        limit: int | None = None, progress: Progress = None) -> FacePairs:
-    """All pairs of faces of a mesh that meet where they should not: in a point that is neither a
-    shared corner nor on a shared edge. Exact on the coordinates as given.
+    """All pairs of faces that meet where they should not: in a point that is neither a shared
+    corner nor on a shared edge. A mesh that repeats its vertices, as an STL does, gives the same
+    pairs as one that does not (`vertices`).
 
+    Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
+    segment or point that it is; its pairs have a kind of their own.
+
+    vertices: 'by_coordinates' or 'by_index'. Which corners two faces share: those with equal
+        coordinates, or with the same number.
+    first_only: Stop at the first pair found: the same pair on any number of threads.
     kinds: those to look for, of `KINDS`; None is all. 'crossing': interiors pass through each
-    other, no shared corner; 'pierce': the same with one shared corner; 'overlap': coplanar, with a
-    common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the same three
-    corners; 'touching': contact without crossing; 'degenerate': one of them has no area.
-    vertices: 'by_coordinates': corners with equal coordinates are shared, also where a file repeats
-    them; 'by_index': those with the same number.
-    first_only: stop at the first pair found. limit: list at most so many; all are counted.
+        other, no shared corner; 'pierce': the same with one shared corner; 'overlap': coplanar,
+        with a common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the
+        same three corners; 'touching': contact without crossing; 'degenerate': one of them has no
+        area.
+    limit: List at most this many pairs, those of the lowest face numbers. All are counted.
 
-    Raises ValueError naming the face or vertex that is out of range or not finite.
+    Cost: O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face.
 
     >>> import treeform
     >>> m = treeform.read("data/two_spheres.stl")
     >>> treeform.self_intersections(m)
     FacePairs(pairs=uint32[78, 2], kinds=uint8[78], counts={'crossing': 78})
     """
-    how = options(_core.SelfIntersectionOptions, locals(), kinds=_kinds(kinds))
+    how = options(_core.SelfIntersectionOptions, locals())
     return _core.self_intersections(held(mesh), how, progress=progress)
 
 
-def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None = None,
-                       first_only: bool = False, limit: int | None = None,
-                       move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
+def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
+                       move_b: ArrayLike | None = None, first_only: bool = False,
+                       kinds: Iterable[str] | None = None, limit: int | None = None,
                        progress: Progress = None) -> FacePairs:
-    """All pairs of a face of `a` and a face of `b` that have a common point. Exact.
+    """All pairs of a face of `a` and a face of `b` that have a common point.
 
-    move_a, move_b: (4, 4) affine maps, applied first; corners are rounded to float64 and then
-    exact. The kinds are 'crossing', 'overlap', 'touching' and 'degenerate', as the meshes share no
-    corners. Surfaces count, not solids: a mesh inside the other gives no pair.
+    Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
+    degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`, and
+    equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not touch
+    it gives no pair. `a` and `b` may be the same mesh. Of what is no `Mesh`, only faces that reach,
+    as moved, into the intersection of both bounding boxes are indexed.
+
+    move_a: (4, 4) an affine map of `a`, applied first.
+    move_b: (4, 4) the same of `b`.
+    first_only: Stop at the first pair found: the same pair on any number of threads.
+    kinds: those to look for, of `KINDS`; None is all.
+    limit: List at most this many pairs, those of the lowest face numbers. All are counted.
+
+    Raises ValueError when a transform is not finite, or naming the mesh and its face with a corner
+    out of range or, as moved, not finite.
+
+    Cost: O(F log F) for indexes that are not built yet; O(B) time for the B pairs whose boxes
+    overlap and the nodes above them. Of a `Mesh` up to twice as fast.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -103,9 +118,9 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, kinds: Iterable[str] | None 
     >>> treeform.mesh_intersections(a, b).counts["crossing"]
     6
     """
-    how = options(_core.MeshIntersectionOptions, locals(), kinds=_kinds(kinds),
-                  move_a=_arrays.matrix(move_a, "move_a"), move_b=_arrays.matrix(move_b, "move_b"))
+    how = options(_core.MeshIntersectionOptions, locals())
     return _core.mesh_intersections(held(a), held(b), how, progress=progress)
+# end
 
 
 # made of results:
@@ -134,40 +149,46 @@ class FilePairs(FacePairs):
         return self.face_in_file[self.pairs]
 
 
-def _search_options(arguments: dict[str, Any]) -> _core.StreamSearchOptions:
-    return options(
-        _core.StreamSearchOptions, arguments, kinds=_kinds(arguments["kinds"]),
-        format=_arrays.word(arguments["format"], "format"),
-        memory=_arrays.number(arguments["memory"], "memory", 0),
-        folder=path_of(arguments["folder"]),
-        faces_per_tile=_arrays.number(arguments["faces_per_tile"], "faces_per_tile", 0))
-
-
-def self_intersections_of_file(path: Path, *, kinds: Iterable[str] | None = None,
-                               vertices: str | None = None, format: str = "", memory: int = 0,
-                               folder: Path = "", faces_per_tile: int = 0,
+# made of functions:
+#   self_intersections_of_file
+def self_intersections_of_file(path: Path, *, vertices: str | None = None,
+                               kinds: Iterable[str] | None = None, format: str = "",
+                               memory: int = 0, folder: Path = "", faces_per_tile: int = 0,
                                communicator: Communicator | None = None,
                                progress: Progress = None) -> FilePairs:
-    """The same for a file that may be larger than memory: binary STL, and PLY whose vertices come
-    ahead of its faces. Space is cut into tiles on the disk.
+    """The pairs that `self_intersections` finds in the usable part of a file, for files larger than
+    memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut into tiles;
+    each gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A
+    pair counts in the tile that holds the lowest corner of the common part of the boxes of its
+    faces, so it counts once.
+
+    The folder stays when the process is killed, and the same call goes on from there. With several
+    ranks, rank 0 makes the tiles, all search them, and rank 0 gets the result.
 
     vertices: None: 'by_coordinates' for STL, else 'by_index'.
-    memory: bytes that the process may take; 0: three quarters of the machine's.
+    kinds: as for `self_intersections`.
+    format: Of the input, as for `read`.
+    memory: Bytes to take; 0: three quarters of the machine's.
     folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
-    faces_per_tile: at most about so many; 0: as the memory allows.
+    faces_per_tile: At most about this many; 0: as the memory allows.
     communicator: ranks that do it together, as for `weld_stream`; the first one gets the result,
-    all others an empty one.
+        all others an empty one.
 
-    Raises FileError, ValueError.
+    Raises FileError when the file cannot be read or is of another format; FileError for the folder;
+    ValueError for more than 2^32 - 1 triangles.
+
+    Cost: time as `self_intersections`; memory as the options say, plus what is found; 60 to 100
+    bytes on the disk for each tile that a face reaches into, and 24 a vertex of a PLY.
 
     >>> import treeform
     >>> found = treeform.self_intersections_of_file("data/two_spheres.stl")
     >>> found.counts["crossing"], found.pairs_in_file.shape
     (78, (78, 2))
     """
-    how = _search_options(locals())
+    how = options(_core.StreamSearchOptions, locals())
     return in_communicator(communicator, lambda all: _core.self_intersections_of_file(
         path_of(path), how, all, progress=progress))
+# end
 
 
 class StreamSearch(InSteps[_core.SearchInSteps]):
@@ -201,21 +222,13 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
     def __init__(self, path: Path, *, kinds: Iterable[str] | None = None,
                  vertices: str | None = None, format: str = "", memory: int = 0, folder: Path = "",
                  faces_per_tile: int = 0, progress: Progress = None) -> None:
-        kinds = None if kinds is None else _kinds(kinds)
-        how = _search_options(locals())
-        super().__init__(
-            _core.search_of(path_of(path), how, progress=progress),
-            path, kinds=kinds, vertices=vertices, format=format, memory=memory, folder=folder,
-            faces_per_tile=faces_per_tile)
+        kinds = None if kinds is None else _arrays.words(kinds, "kinds")
+        how = options(_core.StreamSearchOptions, locals())
+        super().__init__(_core.search_of(path_of(path), how, progress=progress), locals())
 
     def scatter(self, *, progress: Progress = None) -> int:
         """Gives each tile its faces, unless they have them. Returns the number of tiles."""
         return self._work.scatter(progress=progress)
-
-    @property
-    def tiles(self) -> int:
-        """The number of tiles, once they are there."""
-        return self._work.tiles()
 
     @property
     def unfinished(self) -> list[int]:
@@ -229,10 +242,6 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
     def finish(self, *, progress: Progress = None) -> FilePairs:
         """Puts together what was found, when all tiles are searched."""
         return self._work.finish(progress=progress)
-
-    def remove_folder(self) -> None:
-        """Removes the folder of the tiles."""
-        self._work.remove_folder()
 
 
 # made of results:
@@ -252,10 +261,31 @@ class Region(Result):
 # end
 
 
+def pairs_of(found: FacePairs) -> tuple[Ids, NDArray[np.uint8]]:
+    """The pairs, and their kinds."""
+    need(found, "found", FacePairs)
+    return found.pairs, found.kinds
+
+
+def curves(points: Floats, paths: list[tuple[Ids, bool]]) -> list[Floats]:
+    """Of paths by numbers of points; closed ones end where they begin."""
+    return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
+
+
+# made of functions:
+#   intersection_regions intersection_curves faces_in_box
 def intersection_regions(mesh: MeshLike, found: FacePairs, *,
                          progress: Progress = None) -> tuple[list[Region], Ids]:
-    """Where pairs of faces meet: regions of faces that hang together by pairs or shared corners, in
-    the order of their lowest face, and (n,) the region of each pair.
+    """Groups the faces in `found` into regions. Two of these faces are in one region when a pair or
+    a shared corner links them, directly or through other such faces.
+
+    Returns regions in the order of their lowest face, and (n,) the region of each pair.
+
+    Raises ValueError naming a pair with a face out of range, or the lowest face with a corner out
+    of range.
+
+    Cost: O(V + F + pairs) time except for an inverse Ackermann factor, about 8 bytes a face and 4 a
+    point.
 
     >>> import treeform
     >>> m = treeform.read("data/two_spheres.stl")
@@ -263,18 +293,20 @@ def intersection_regions(mesh: MeshLike, found: FacePairs, *,
     >>> len(regions), regions[0].pairs
     (1, 78)
     """
-    need(found, "found", FacePairs)
-    regions, of_pair = _core.group_pairs(held(mesh), found.pairs, found.kinds,
-                                         progress=progress)
-    return regions, of_pair
+    return _core.group_pairs(held(mesh), *pairs_of(found), progress=progress)
 
 
 def intersection_curves(mesh: MeshLike, found: FacePairs, *,
                         progress: Progress = None) -> list[Floats]:
     """The curves along which pairs of faces meet, each (n, 3); the last point of a closed curve is
-    the first again. Which segments there are is exact; points are rounded to nearest.
+    the first again. Which segments there are is exact; points are rounded to nearest. A segment
+    that several pairs have is there once.
 
     found: pairs of faces of `mesh` that are not degenerate.
+
+    Raises ValueError as `intersection_curves`, and for a face without area.
+
+    Cost: O(P log P) for P pairs.
 
     >>> import treeform
     >>> m = treeform.read("data/two_spheres.stl")
@@ -282,16 +314,23 @@ def intersection_curves(mesh: MeshLike, found: FacePairs, *,
     >>> [len(curve) for curve in curves]
     [79]
     """
-    need(found, "found", FacePairs)
-    points, paths = _core.intersection_paths(held(mesh), found.pairs, found.kinds,
-                                             progress=progress)
-    return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
+    return curves(*_core.intersection_paths(held(mesh), *pairs_of(found), progress=progress))
 
 
 def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike, *,
                  progress: Progress = None) -> Ids:
-    """(n,) the faces, ascending, that have a point in the closed box from `min` (3,) to `max` (3,).
-    Exact: faces are tested, not their boxes.
+    """The faces, ascending, that have a point in the closed box from `min` to `max`.
+
+    Exact: faces are tested, not their boxes. A face that only touches the box is included. The box
+    may be flat, a line or a point.
+
+    min: (3,)
+    max: (3,)
+
+    Raises ValueError when a coordinate of the box is not finite or min exceeds max, or naming the
+    lowest face with a corner out of range.
+
+    Cost: O(F) time.
 
     >>> import treeform
     >>> treeform.faces_in_box(treeform.read("data/cube.stl"), [0, 0, 0], [0, 0, 0]).size
@@ -299,3 +338,4 @@ def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike, *,
     """
     return _core.faces_in_box(held(mesh), _arrays.vector(min, "min"), _arrays.vector(max, "max"),
                               progress=progress)
+# end

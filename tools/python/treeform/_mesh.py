@@ -9,17 +9,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _others
 from ._arrays import Floats, Ids
-from ._attributes import Attributes
-from ._core import Certificate
+from ._core import Attributes
 from ._errors import require
 from ._others import arrays_of
-from ._results import Result
+from ._results import Certificate, Result
 
 if TYPE_CHECKING:
     from ._show import View
 
-__all__ = ["HasCells", "HasFaces", "HasMesh", "HasPolys", "HasTensors", "HasTriangles", "Mesh",
-           "MeshLike", "MeshResult", "as_mesh", "cloud_of", "held", "held_body", "listed"]
+__all__ = ["Mesh", "MeshLike"]
 
 
 class HasFaces(Protocol):
@@ -114,15 +112,13 @@ class Mesh:
         self._attributes = attributes
         self._certificate = certificate
         self._held = _core.HeldMesh(vertices, faces, True)
-        self._held.data = None if attributes is None else attributes._data
+        self._held.data = attributes
         self._solid: Certificate | None = None
 
     @classmethod
-    def _of(cls, vertices: Floats, faces: Ids, certificate: Certificate | None = None,
-            attributes: Attributes | _core.FileData | None = None) -> Mesh:
+    def _of(cls, vertices: Floats, faces: Ids, attributes: Attributes | None = None,
+            certificate: Certificate | None = None) -> Mesh:
         """Of arrays that the library has made."""
-        if isinstance(attributes, _core.FileData):
-            attributes = Attributes(attributes)
         made = cls.__new__(cls)
         made._formula = None
         made._set(vertices, faces, attributes, certificate)
@@ -199,30 +195,11 @@ class Mesh:
 
         return show(self, *others, **look)
 
-    def to_trimesh(self) -> Any:
-        """A `trimesh.Trimesh` with copies of the arrays, as all that follow; the library has to be
-        installed. A cloud becomes a cloud there."""
-        return _others.to_trimesh(*self._own())
-
-    def to_open3d(self, *, tensor: bool = False) -> Any:
-        """An `open3d.geometry.TriangleMesh`; with `tensor`, one of `open3d.t.geometry`."""
-        return _others.to_open3d(*self._own(), tensor)
-
-    def to_pyvista(self) -> Any:
-        """A `pyvista.PolyData`."""
-        return _others.to_pyvista(*self._own())
-
-    def to_vtk(self) -> Any:
-        """A `vtkPolyData`."""
-        return _others.to_vtk(*self._own())
-
-    def to_meshio(self) -> Any:
-        """A `meshio.Mesh`."""
-        return _others.to_meshio(*self._own())
-
-    def _own(self) -> tuple[Floats, Ids]:
-        mesh = self._ready()
-        return mesh._vertices, mesh._faces
+    to_trimesh = _others.to_trimesh
+    to_open3d = _others.to_open3d
+    to_pyvista = _others.to_pyvista
+    to_vtk = _others.to_vtk
+    to_meshio = _others.to_meshio
 
     def __or__(self, other: MeshLike) -> Mesh:
         return _operation("|", self, other)
@@ -258,7 +235,7 @@ class Mesh:
 
     def __reduce__(self) -> Any:
         mesh = self._ready()
-        return Mesh._of, (mesh._vertices, mesh._faces, mesh._certificate, mesh._attributes)
+        return Mesh._of, (mesh._vertices, mesh._faces, mesh._attributes, mesh._certificate)
 
     def __copy__(self) -> Mesh:
         return self
@@ -271,6 +248,8 @@ class Mesh:
 
 MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, HasCells, HasTensors, HasPolys,
                  Tuple[ArrayLike, ArrayLike]]
+#: A mesh, or a cloud (n, 3).
+Body = Union[MeshLike, ArrayLike]
 
 
 _Array = TypeVar("_Array", Floats, Ids)
@@ -332,6 +311,21 @@ def held_body(body: Any) -> _core.HeldMesh:
     """The same for a mesh or a cloud."""
     points = cloud_of(body)
     return held(body) if points is None else _core.HeldMesh(points)
+
+
+def bodies(fixed: Any) -> list[_core.HeldMesh]:
+    """One body, or a list of them."""
+    if fixed is None:
+        return []
+    if isinstance(fixed, (list, tuple)) and not _arrays.is_pair(fixed):
+        return [held_body(one) for one in fixed]
+    return [held_body(fixed)]
+
+
+def points_of(body: Body) -> Floats:
+    """Those of a cloud, or the vertices of a mesh."""
+    points = cloud_of(body)
+    return as_mesh(body).vertices if points is None else points
 
 
 class _Formula:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, Union
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import NotSolidError, options, require
-from ._mesh import MeshLike, as_mesh, held, held_body
+from ._mesh import Body, MeshLike, as_mesh, held, held_body
 from ._progress import Progress
 from ._results import Result, tuple_repr
 
@@ -37,17 +37,23 @@ class ClosestPoints(NamedTuple):
         return tuple_repr(self)
 
 
+# made of functions:
+#   closest_point
 def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
                   progress: Progress = None) -> ClosestPoints:
-    """The point of the surface that is nearest to each of `points` (n, 3).
+    """The point of the surface that is nearest to each of `points` (n, 3). Distances are within 16
+    u L of the true ones, where u = 2^-53 and L is the larger of the distance and the diagonal of
+    the face's box. Of several faces at the same computed distance, the lowest number is named. A
+    Mesh keeps the index for the next call.
 
-    radius: ignore what is further away; inclusive.
+    radius: what is further away is ignored; inclusive.
 
-    Distances are within 16 u L of the true ones, u = 2**-53, L the larger of the distance and the
-    diagonal of the face's box. Of faces at the same computed distance, the lowest is named. A Mesh
-    keeps the index for the next call.
+    Raises ValueError naming the face with a corner out of range or not finite, or the query that is
+    not finite; for a radius that is negative or NaN.
 
-    Raises ValueError naming the point that is not finite, or the face.
+    Cost: O(F log F) and 128 bytes a face for the index, which a `Mesh` keeps. A query opens O(log
+    F) nodes in most cases; more when much of the mesh is about equally far; many when the query is
+    further away than 1e5 times the extent of the mesh.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -57,13 +63,14 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
     """
     return ClosestPoints(*_core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
                                               progress=progress))
+# end
 
 
-_OUTSIDE, _INSIDE, _BOUNDARY = 0, 1, 2
+OUTSIDE = 0
 
 
-def _located(mesh: MeshLike, points: ArrayLike,
-             progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
+def located(mesh: MeshLike, points: ArrayLike,
+            progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
     """Raises NotSolidError where the mesh is open."""
     try:
         return _core.locate(held(mesh), _arrays.points(points, "points"), progress=progress)
@@ -73,57 +80,60 @@ def _located(mesh: MeshLike, points: ArrayLike,
         raise
 
 
+# made of functions:
+#   contains locate winding_number
 def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
-    """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface. Exact,
-    for every point.
-
-    Raises NotSolidError where the mesh is open, ValueError naming what is not finite.
+    """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface: inside
+    is where the winding number is not 0. Exact, for every point. Raises NotSolidError where the
+    mesh is open. For other errors and cost, see `locate`.
 
     >>> import treeform
     >>> treeform.contains(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
     array([ True,  True, False])
     """
-    where, _ = _located(mesh, points, progress)
-    return np.asarray(where != _OUTSIDE)
+    return np.asarray(located(mesh, points, progress)[0] != OUTSIDE)
 
 
 def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.int8]:
-    """(n,) int8: 1 where a point is strictly inside a closed mesh, 0 on its surface, -1 outside.
-    Exact.
+    """Where a point is with respect to a closed mesh.
+
+    Exact on the coordinates as given, for every point. The crossings of one ray along x are
+    counted. An edge that the ray grazes is treated as lying to one side, by a rule that all faces
+    share, so no second ray is needed. Points with equal coordinates are one vertex.
+
+    Returns (n,) int8: 1 where a point is strictly inside, 0 on the surface, -1 outside. Raises
+    NotSolidError where the mesh is open.
+
+    points: (n, 3)
+
+    Raises ValueError when the mesh is open, naming an open edge, or naming a face with a corner out
+    of range or not finite, or the point that is not finite.
+
+    Cost: O(F log F) for the indexes, which a `Mesh` keeps; O(log F + B) a point, for the B faces
+    whose boxes meet the ray from the point along +x.
 
     >>> import treeform
     >>> treeform.locate(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
     array([ 1,  0, -1], dtype=int8)
     """
-    where, _ = _located(mesh, points, progress)
-    return np.array([-1, 1, 0], np.int8)[where]
+    return np.array([-1, 1, 0], np.int8)[located(mesh, points, progress)[0]]
 
 
 def winding_number(mesh: MeshLike, points: ArrayLike, *,
                    progress: Progress = None) -> NDArray[np.int32]:
     """(n,) int32: how often a closed mesh winds around each of `points` (n, 3); 0 on the surface.
-    Exact.
+    Exact. Raises NotSolidError where the mesh is open.
 
     >>> import treeform
     >>> treeform.winding_number(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [2, 0, 0]])
     array([1, 0], dtype=int32)
     """
-    _, winding = _located(mesh, points, progress)
-    return np.asarray(winding)
+    return np.asarray(located(mesh, points, progress)[1])
+# end
 
 
-def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
-    """(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; positive
-    inside, as in trimesh, and exactly 0 on the surface. The sign is exact.
-
-    `deviation` has the other sign, that of metrology: negative inside.
-
-    Raises NotSolidError where the mesh is open.
-
-    >>> import treeform
-    >>> treeform.signed_distance(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.75], [0, 0, 3]])
-    array([ 0.25, -2.  ])
-    """
+def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
+    """Positive inside."""
     cloud = _arrays.points(points, "points")
     if len(cloud) == 0:
         return np.empty(0)
@@ -134,6 +144,28 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     if not made.is_signed:
         raise NotSolidError(as_mesh(mesh).solid_certificate, True)
     return np.asarray(-made.distances + 0.0)
+
+
+# made of functions:
+#   signed_distance
+def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
+    """(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; positive
+    inside, as in trimesh, and exactly 0 on the surface. The sign is exact. `deviation` has the
+    other sign, that of metrology: negative inside. Raises NotSolidError where the mesh is open.
+
+    Raises ValueError for a point of `a` that is not finite, a face of `b` as `closest_point`, a
+    band that is NaN or the wrong way round, or more bins than 2^20.
+
+    Cost: `closest_point` for each point, in an order of space; and for signs a winding number for
+    one point in 1024, and the faces between neighbors for the others. A copy of `b` where there are
+    several.
+
+    >>> import treeform
+    >>> treeform.signed_distance(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.75], [0, 0, 3]])
+    array([ 0.25, -2.  ])
+    """
+    return distances(mesh, points, progress)
+# end
 
 
 class RayHits(NamedTuple):
@@ -152,30 +184,38 @@ class RayHits(NamedTuple):
         return tuple_repr(self)
 
 
-def _rays(origins: ArrayLike, directions: ArrayLike) -> tuple[Floats, Floats]:
-    start, along = _arrays.points(origins, "origins"), _arrays.points(directions, "directions")
-    if len(start) != len(along):
-        raise ValueError(f"directions: {len(along)} for {len(start)} origins")
-    return start, along
-
-
+# made of functions:
+#   raycast
 def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
             t_max: float = np.inf, progress: Progress = None) -> RayHits:
-    """The face that each ray hits first. `origins` and `directions` (of any length) are (n, 3).
+    """The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
+    lowest number.
 
-    Which face a ray hits, on which corner, edge or interior, is exact; only t is rounded. Of faces
-    at one point, the lowest number. Faces include their edges and are hit from both sides.
+    Which faces a ray hits, on which corner, edge or interior, and in which order, is exact. Only
+    the numbers t are rounded. A ray that hits an edge or a corner hits every face that has it:
+    through a vertex of six faces it has six hits at equal t, and each names the vertex as a corner
+    of its own face. Faces include their edges and are hit from both sides.
 
-    Raises ValueError naming the ray or face; so it does where a direction is so short that t is no
-    number of float64.
+    origins: (n, 3)
+    directions: (n, 3) of any length.
+    t_min: what is hit before origin + t_min direction does not count.
+    t_max: nor what is hit beyond this.
+
+    Raises ValueError for a ray with a direction of zero or a number that is not finite (t_min and
+    t_max may be infinite); naming a face with a corner out of range or not finite.
+
+    Cost: O(F log F) for the index, which a `Mesh` keeps; for most rays O(log F) and the faces at
+    the hit.
 
     >>> import treeform
     >>> hits = treeform.raycast(treeform.read("data/cube.stl"), [[0.5, 0.25, 3]], [[0, 0, -1]])
     >>> hits.t.tolist(), hits.at.tolist()
     ([2.0], [6])
     """
-    return RayHits(*_core.raycast(held(mesh), *_rays(origins, directions), t_min, t_max,
+    return RayHits(*_core.raycast(held(mesh), _arrays.points(origins, "origins"),
+                                  _arrays.points(directions, "directions"), t_min, t_max,
                                   progress=progress))
+# end
 
 
 class AllRayHits(NamedTuple):
@@ -195,9 +235,25 @@ class AllRayHits(NamedTuple):
         return tuple_repr(self)
 
 
+def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float,
+             progress: Progress) -> AllRayHits:
+    """With the points hit."""
+    start, along = _arrays.points(origins, "origins"), _arrays.points(directions, "directions")
+    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max,
+                                    progress=progress)
+    return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
+
+
+# made of functions:
+#   raycast_all raycast_any
 def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
                 t_max: float = np.inf, progress: Progress = None) -> AllRayHits:
     """All faces that each ray hits, in the exact order along the ray, then by number.
+
+    origins: (n, 3)
+    directions: (n, 3) of any length.
+    t_min: what is hit before origin + t_min direction does not count.
+    t_max: nor what is hit beyond this.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -205,23 +261,27 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     >>> locations.tolist()
     [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
     """
-    start, along = _rays(origins, directions)
-    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max,
-                                    progress=progress)
-    return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
+    return all_hits(mesh, origins, directions, t_min, t_max, progress)
 
 
 def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
                 t_max: float = np.inf, progress: Progress = None) -> NDArray[np.bool_]:
     """(n,) bool: whether each ray hits any face. Exact.
 
+    origins: (n, 3)
+    directions: (n, 3) of any length.
+    t_min: what is hit before origin + t_min direction does not count.
+    t_max: nor what is hit beyond this.
+
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> treeform.raycast_any(cube, [[0.5, 0.5, 3], [5, 5, 5]], [[0, 0, -1], [0, 0, -1]])
     array([ True, False])
     """
-    return _core.raycast_any(held(mesh), *_rays(origins, directions), t_min, t_max,
+    return _core.raycast_any(held(mesh), _arrays.points(origins, "origins"),
+                             _arrays.points(directions, "directions"), t_min, t_max,
                              progress=progress).view(np.bool_)
+# end
 
 
 # made of results:
@@ -276,16 +336,33 @@ class Deviation(Result):
 # end
 
 
-def deviation(a: Union[MeshLike, ArrayLike], b: Union[MeshLike, ArrayLike], *,
-              band: tuple[float, float] | None = None, bins: int = 40, both_ways: bool = True,
-              progress: Progress = None) -> Deviation:
-    """How far the points of `a`, a mesh or a cloud (n, 3), are from the surface of `b`.
+# made of functions:
+#   deviation
+def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,
+              both_ways: bool = True, progress: Progress = None) -> Deviation:
+    """How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of
+    all meshes in it as one. Faces are numbered through, mesh after mesh.
 
-    band: signed distances that are within tolerance. bins: of the histogram.
+    The side is exact: that of the exact winding number of `b` about the point (`locate`). Corners
+    of `b` with equal coordinates are one vertex, as in a file that repeats them. When `b` is open,
+    or a cloud, it has no inside, and distances have no sign. A magnitude is within 16 u L of the
+    true distance, as `closest_point` says. A point that rounding puts at distance 0 keeps that as
+    its magnitude, and the sign of 0.
 
-    The sign is exact, that of the winding number; magnitudes are as for `closest_point`.
+    None when `a` has no points or `b` no faces.
 
-    Raises ValueError naming what is not finite, or where `a` has no points or `b` no faces.
+    `a` and `b` are a mesh or a cloud (n, 3) each.
+
+    band: signed distances that are within tolerance.
+    bins: Of the histogram; 0: none.
+    both_ways: Also look from the points of `b` to `a`.
+
+    Raises ValueError for a point of `a` that is not finite, a face of `b` as `closest_point`, a
+    band that is NaN or the wrong way round, or more bins than 2^20.
+
+    Cost: `closest_point` for each point, in an order of space; and for signs a winding number for
+    one point in 1024, and the faces between neighbors for the others. A copy of `b` where there are
+    several.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -298,3 +375,4 @@ def deviation(a: Union[MeshLike, ArrayLike], b: Union[MeshLike, ArrayLike], *,
     if made is None:
         raise ValueError("deviation: a has no points, or b no faces")
     return made
+# end

@@ -12,8 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays
 from ._arrays import Floats, Ids
 
-__all__ = ["arrays_of", "to_meshio", "to_open3d", "to_pyvista", "to_trimesh", "to_vtk"]
-
 
 def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
     """Vertices and faces of whatever is taken for a mesh."""
@@ -77,16 +75,19 @@ def _arrays_of_vtk(mesh: Any) -> tuple[Floats, Ids]:
     return vertices, _arrays.triangles_of(corners, begin[:-1], np.diff(begin), "faces")
 
 
-def to_trimesh(vertices: Floats, faces: Ids) -> Any:
-    """A trimesh.Trimesh, or a PointCloud."""
+def to_trimesh(mesh: Any) -> Any:
+    """A `trimesh.Trimesh` with copies of the arrays, as all that follow; the library has to be
+    installed. A cloud becomes a cloud there."""
+    vertices, faces = mesh
     trimesh = importlib.import_module("trimesh")
     if _is_cloud(vertices, faces):
         return trimesh.PointCloud(vertices.copy())
     return trimesh.Trimesh(vertices=vertices.copy(), faces=faces.astype(np.int64), process=False)
 
 
-def to_open3d(vertices: Floats, faces: Ids, tensor: bool) -> Any:
-    """A TriangleMesh of open3d.geometry, or of open3d.t.geometry; or a PointCloud."""
+def to_open3d(mesh: Any, *, tensor: bool = False) -> Any:
+    """An `open3d.geometry.TriangleMesh`; with `tensor`, one of `open3d.t.geometry`."""
+    vertices, faces = mesh
     open3d = importlib.import_module("open3d")
     if tensor:
         points = open3d.core.Tensor(vertices.copy())
@@ -100,8 +101,9 @@ def to_open3d(vertices: Floats, faces: Ids, tensor: bool) -> Any:
                                         open3d.utility.Vector3iVector(faces.astype(np.int32)))
 
 
-def to_pyvista(vertices: Floats, faces: Ids) -> Any:
-    """A pyvista.PolyData."""
+def to_pyvista(mesh: Any) -> Any:
+    """A `pyvista.PolyData`."""
+    vertices, faces = mesh
     pyvista = importlib.import_module("pyvista")
     if _is_cloud(vertices, faces):
         return pyvista.PolyData(vertices.copy())
@@ -109,8 +111,9 @@ def to_pyvista(vertices: Floats, faces: Ids) -> Any:
     return pyvista.PolyData(vertices.copy(), flat)
 
 
-def to_vtk(vertices: Floats, faces: Ids) -> Any:
-    """A vtkPolyData."""
+def to_vtk(mesh: Any) -> Any:
+    """A `vtkPolyData`."""
+    vertices, faces = mesh
     core = importlib.import_module("vtkmodules.vtkCommonCore")
     model = importlib.import_module("vtkmodules.vtkCommonDataModel")
     support = importlib.import_module("vtkmodules.util.numpy_support")
@@ -131,8 +134,9 @@ def to_vtk(vertices: Floats, faces: Ids) -> Any:
     return made
 
 
-def to_meshio(vertices: Floats, faces: Ids) -> Any:
-    """A meshio.Mesh."""
+def to_meshio(mesh: Any) -> Any:
+    """A `meshio.Mesh`."""
+    vertices, faces = mesh
     if _is_cloud(vertices, faces):
         cells = [("vertex", np.arange(len(vertices))[:, None])]
     else:

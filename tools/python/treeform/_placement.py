@@ -3,28 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable, NamedTuple, Union
+from typing import Any, Iterable, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._core import Certificate
 from ._errors import need, options
-from ._mesh import Mesh, MeshLike, MeshResult, held, held_body
+from ._mesh import Body, Mesh, MeshLike, MeshResult, bodies, held, held_body
 from ._progress import Progress
 from ._properties import Feature
-from ._results import Result, tuple_repr
+from ._results import Certificate, Result, tuple_repr
 
-__all__ = ["Alignment", "Body", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "PackedPart",
+__all__ = ["Alignment", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "PackedPart",
            "Packing", "Placement", "SearchEffort", "align", "drop", "lay_flat", "mate",
            "mate_features", "measure", "pack", "penetration_depth", "separate", "slide",
            "time_of_impact", "turn"]
-
-#: A mesh, or a cloud (n, 3).
-Body = Union[MeshLike, ArrayLike]
-
 
 # made of results:
 #   search_effort
@@ -41,6 +36,9 @@ class SearchEffort(NamedTuple):
     pairs: int
     bound: int
     cut: int
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
 # end
 
 
@@ -145,25 +143,62 @@ class Placement(MeshResult):
         return bool(self.certificate)
 
 
-def _bodies(fixed: Any) -> list[_core.HeldMesh]:
-    """Fixed bodies: one, or a list of them."""
-    if fixed is None:
-        return []
-    if isinstance(fixed, (list, tuple)) and not _arrays.is_pair(fixed):
-        return [held_body(one) for one in fixed]
-    return [held_body(fixed)]
+def mated(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature,
+          how: _core.FeatureMateOptions, progress: Progress) -> Placement:
+    """`mate_features`, of features of one kind."""
+    need(of_moving, "of_moving", Feature)
+    need(of_fixed, "of_fixed", Feature)
+    if of_moving.kind != of_fixed.kind:
+        raise ValueError(f"of_fixed: {of_fixed.kind!r}, but of_moving is {of_moving.kind!r}")
+    return _core.mate_features(
+        held_body(moving), bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
+        of_fixed.origin, of_fixed.direction, how, progress=progress)
 
 
+def scale_of(scale: bool | tuple[float, float]) -> dict[str, Any]:
+    """Options of `align`: whether to scale, and the bounds."""
+    if isinstance(scale, (bool, np.bool_)):
+        return {"scale": bool(scale)}
+    least, most = _arrays.pair(scale, "scale")
+    return {"scale": True, "least_scale": least, "most_scale": most}
+
+
+def extent_of(size: ArrayLike) -> Floats:
+    """(3,) of a plate without a height, too."""
+    extent = _arrays.floats(size, "size")
+    return np.append(extent, np.inf) if extent.shape == (2,) else extent
+
+
+# made of functions:
+#   slide drop mate separate turn mate_features
 def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0, *,
-          max_travel: float | None = None, bed: float | None = None, precision: str = "float64",
+          max_travel: float | None = None, precision: str = "float64", bed: float | None = None,
           progress: Progress = None) -> Placement:
-    """Moves a mesh along a direction until it first meets others, or comes as near as the
-    clearance. It does not penetrate in the coordinates returned: they are checked exactly.
+    """Moves `moving` along `direction` (of any length) until it first meets one of `onto`, or comes
+    as near to one as the clearance.
 
-    moving: a mesh, or points (n, 3). onto: a fixed body, or a list of them.
-    direction: (3,) of any length. max_travel: a length. bed: z of a bed that also stops it.
+    The coordinates returned are checked again. Where rounding made them penetrate, or come nearer
+    than the clearance, they are moved back by units in the last place. A mesh that touches at the
+    start stays there. One that penetrates has no place. Points that no face uses move along and are
+    otherwise ignored.
 
-    Raises ValueError naming the operand and face.
+    Only fixed meshes on the way are looked at and indexed. For many calls, keep them as prepared
+    meshes.
+
+    onto: a fixed body, or a list of them.
+    direction: (3,) of any length.
+    clearance: The gap to leave, a distance; 0: until contact.
+    max_travel: A length; whatever is further along is ignored.
+    precision: 'float32' or 'float64'. Of the points returned.
+    bed: Z of a bed, which also stops the mesh. Points that rest on it have exactly its z (with
+        float32, the least one not below it), and no point is below.
+
+    Raises ValueError for a direction that is zero or not finite, a clearance that is negative or
+    not finite, a bed that is not finite or beyond float32, and naming the operand and its lowest
+    face with a corner out of range or not finite.
+
+    Cost: O(V + F) of all to check the input; the search in motion; and for each attempt at
+    coordinates a tree over `moving` and a `measure` to what is near.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -172,17 +207,26 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     (True, 4.0, 'touching')
     """
     how = options(_core.SlideOptions, locals())
-    return _core.slide(held_body(moving), _bodies(onto), _arrays.vector(direction, "direction"),
-                       how,
+    return _core.slide(held_body(moving), bodies(onto), _arrays.vector(direction, "direction"), how,
                        progress=progress)
 
 
-def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
-         max_travel: float | None = None, bed: float | None = None,
-         direction: ArrayLike = (0.0, 0.0, -1.0), precision: str = "float64",
-         progress: Progress = None) -> Placement:
-    """Moves a mesh down until it rests on the bed (z = 0 unless told), or on `onto`; from below the
-    bed it goes up. The lowest points then have exactly the z of the bed.
+def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0, max_travel: float | None = None,
+         precision: str = "float64", bed: float | None = None,
+         direction: ArrayLike = (0.0, 0.0, -1.0), progress: Progress = None) -> Placement:
+    """Moves `moving` down until it rests on the bed. From below the bed it goes up, back along the
+    direction.
+
+    onto: a fixed body, or a list of them.
+    clearance: As of `slide`.
+    max_travel: As of `slide`.
+    precision: As of `slide`.
+    bed: Z of the bed. None: 0 without fixed meshes, no bed with them.
+    direction: (3,) has to lead down.
+
+    Raises ValueError as `slide`, and for a direction that does not lead down.
+
+    Cost: O(V).
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -190,13 +234,24 @@ def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0,
     >>> low.travel, low.mesh.bounds[:, 2].tolist()
     (3.25, [0.0, 1.0])
     """
-    how = options(_core.DropOptions, locals(), direction=_arrays.vector(direction, "direction"))
-    return _core.drop(held_body(moving), _bodies(onto), how, progress=progress)
+    how = options(_core.DropOptions, locals())
+    return _core.drop(held_body(moving), bodies(onto), how, progress=progress)
 
 
 def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
          precision: str = "float64", progress: Progress = None) -> Placement:
-    """Translates a mesh so that its nearest points to others come together, or to the clearance.
+    """Translates `moving` so that its nearest points to `onto` come together, or to the clearance.
+    Coordinates are checked as in `slide`. A mesh that touches stays; one that penetrates has no
+    place.
+
+    onto: a fixed body, or a list of them.
+    clearance: The gap to leave, a distance; 0: until contact.
+    max_travel: A length.
+    precision: 'float32' or 'float64'. Of the points returned.
+
+    Raises ValueError as `slide`.
+
+    Cost: `measure` for the fixed meshes that may be the nearest, and a `slide`.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -204,15 +259,31 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     2.0
     """
     how = options(_core.MateOptions, locals())
-    return _core.mate(held_body(moving), _bodies(onto), how, progress=progress)
+    return _core.mate(held_body(moving), bodies(onto), how, progress=progress)
 
 
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
-             effort: int = 0, precision: str = "float64", progress: Progress = None) -> Placement:
-    """Translates a mesh to where it penetrates none of the others and keeps the clearance; it stays
-    where it already does. Some fifty directions are tried.
+             precision: str = "float64", effort: int = 0, progress: Progress = None) -> Placement:
+    """Translates `moving` to where it penetrates none of `fixed` and keeps the clearance. It stays
+    when it already does.
 
-    effort: pairs of faces to look at, at most; 0: 20 million and 200 for each face.
+    Some fifty directions are tried: the axes, away from the nearest points, the normals of faces
+    that meet, and others around the best. Of the places found, the nearest is returned whose
+    coordinates pass the check of `slide`. It need not be the nearest place of all: that one is on
+    the boundary of a set with O(n^2 m^2) faces. The search ends by its effort, and passes over
+    places that take much of it, as that of `penetration_depth` does: `Placement.effort` says so.
+
+    fixed: a fixed body, or a list of them.
+    clearance: The least distance wanted; 0: only not to penetrate.
+    max_travel: A length.
+    precision: 'float32' or 'float64'. Of the points returned.
+    effort: Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20
+        million and 200 for each face. Distances for a clearance do not count.
+
+    Raises ValueError as `slide`.
+
+    Cost: for each direction up to a dozen `intersects` or `distance`, a tree over `moving` and a
+    search in motion.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -221,17 +292,40 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     (0.25, 'penetrating', 'touching')
     """
     how = options(_core.SeparateOptions, locals())
-    return _core.separate(held_body(moving), _bodies(fixed), how, progress=progress)
+    return _core.separate(held_body(moving), bodies(fixed), how, progress=progress)
 
 
 def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
          clearance: float = 0.0, max_angle: float = 360.0, tolerance: float | None = None,
          precision: str = "float64", progress: Progress = None) -> Placement:
-    """Turns a mesh about an axis, counter-clockwise seen against it, until it comes within the
-    tolerance of others, or of the clearance from them. `angle` is in degrees.
+    """Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or
+    of the clearance from one.
 
-    axis: (3,) of any length. origin: (3,) a point on it. tolerance: the gap that counts as contact;
-    None: 2**-32 of the largest distance from the axis.
+    On the way there it meets nothing, up to the rounding of distances: each step is one that no
+    pair of faces can have met in, by bounds on how fast their corners approach. At the place, the
+    coordinates returned are looked at exactly: they penetrate nothing, and keep the clearance as
+    `distance` computes it. Where rounding has it otherwise, the turn goes back by units in the last
+    place. A mesh that touches at the start stays; one that penetrates has no place. With
+    `nothing_met`, all of `max_angle` is free. With `too_many_steps` it was not found out: something
+    is passed at a distance that is very small against the size, over a long way.
+
+    Points that no face uses turn along and are otherwise ignored.
+
+    fixed: a fixed body, or a list of them.
+    axis: (3,) of any length.
+    origin: (3,) a point of the axis.
+    clearance: The gap to leave, a distance; 0: until contact.
+    max_angle: In degrees; greater than 0, up to 360.
+    tolerance: The gap, beyond the clearance, that counts as contact; greater than 0. None: 2^-32 of
+        the largest distance of a point from the axis.
+    precision: 'float32' or 'float64'. Of the points returned.
+
+    Raises ValueError for an axis that is zero or not finite, an angle out of range, a tolerance
+    that is not positive, and as `slide`.
+
+    Cost: for each step the pairs of faces near each other. Some ten to a hundred steps where it
+    comes to meet something head on; in the order of sqrt(length / gap) for each radian in which it
+    passes something at a gap.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -240,16 +334,34 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     (True, True)
     """
     how = options(_core.TurnOptions, locals())
-    return _core.turn(held_body(moving), _bodies(fixed), _arrays.vector(axis, "axis"),
+    return _core.turn(held_body(moving), bodies(fixed), _arrays.vector(axis, "axis"),
                       _arrays.vector(origin, "origin"), how, progress=progress)
 
 
 def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
                   clearance: float = 0.0, flip: bool = False, precision: str = "float64",
                   progress: Progress = None) -> Placement:
-    """Brings two planes face to face, or two axes on one line, and slides until first contact.
+    """Turns `moving` by the least angle that makes the two features' directions opposite (planes)
+    or parallel (axes), puts center above center, and slides it from outside along the direction of
+    the fixed feature until first contact with any of `onto`, or the clearance, exactly as `slide`
+    does. Planes come from the side that the fixed one looks to; axes from the side where `moving`
+    is.
 
-    of_moving, of_fixed: of `find_features`. flip: planes look the same way; axes are turned around.
+    A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
+    that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
+    coordinates returned.
+
+    onto: a fixed body, or a list of them.
+    of_moving: a plane or an axis of `find_features`.
+    of_fixed: one of the same kind.
+    clearance: The gap to leave, a distance; 0: until contact.
+    flip: Planes look the same way rather than at each other; axes are turned around.
+    precision: 'float32' or 'float64'. Of the points returned.
+
+    Raises ValueError for features of two kinds, or with a direction that is not of length 1 or an
+    origin that is not finite, and as `slide`.
+
+    Cost: that of `slide`, and two trees over `moving`.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -258,14 +370,9 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     >>> treeform.mate_features(other, cube, side, top).at_place
     'touching'
     """
-    need(of_moving, "of_moving", Feature)
-    need(of_fixed, "of_fixed", Feature)
-    if of_moving.kind != of_fixed.kind:
-        raise ValueError(f"of_fixed: {of_fixed.kind!r}, but of_moving is {of_moving.kind!r}")
     how = options(_core.FeatureMateOptions, locals())
-    return _core.mate_features(
-        held_body(moving), _bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
-        of_fixed.origin, of_fixed.direction, how, progress=progress)
+    return mated(moving, onto, of_moving, of_fixed, how, progress)
+# end
 
 
 # made of results:
@@ -304,28 +411,50 @@ class LaidFlat(MeshResult):
 # end
 
 
+# made of functions:
+#   lay_flat
 def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.0, 0.0, 0.0),
              keep_spin: bool = False, tolerance: float = 0.0, bed: float = 0.0,
              overhang_angle: float = 45.0, precision: str = "float64",
              progress: Progress = None) -> LaidFlat:
-    """Turns a mesh so that a flat side of its convex hull is on the bed.
+    """Turns `mesh` so that a flat side of its convex hull is on the bed. The center of its box
+    keeps x and y. None when there is no side: fewer than three points, or all on a line.
+
+    Every point in the plane of the side, exactly or within the tolerance, then has exactly the z of
+    the bed, and no point is below. Areas and angles are rounded; those within 2^-40 of the best are
+    treated as equal. Of equal sides, one that is exactly down already is chosen, else the largest,
+    else the first in `sides`. Points that no face uses move along and are otherwise ignored; a mesh
+    without faces uses all its points.
 
     choose: 'largest' area, 'nearest_normal' to the direction `toward`, 'holding_point' `toward`, or
-    'most_stable'. keep_spin: only bring the side down. tolerance: points this far from the plane of
-    a side belong to it. overhang_angle: in degrees from the vertical.
+        'most_stable'.
+    toward: (3,) a direction of any length, or a point, in the coordinates of the mesh.
+    keep_spin: Only bring the side down. Otherwise the mesh is also turned about the vertical, by at
+        most 45 degrees, until the longest edge of the side runs along x or y.
+    tolerance: Points at most this far from the plane of a side belong to it. With 0, a side is
+        exactly in one plane. That fits models in round numbers. A flat face that was turned and
+        rounded before then falls into many sides; about 1e-6 of the size joins them again.
+    bed: Z of the bed.
+    overhang_angle: In degrees from the vertical, 0 to 90.
+    precision: 'float32' or 'float64'. Of the points returned.
 
-    Raises ValueError where there is no side: fewer than three points, or all on a line.
+    Raises ValueError naming a point that is not finite or a face with a corner out of range; for a
+    direction that is zero where one is needed; for options not finite, a negative tolerance, and an
+    overhang angle out of range; OverflowError for coordinates too large to be turned.
+
+    Cost: that of `convex_hull`, and O(F) for the center of mass and each side with an overhang.
 
     >>> import treeform
     >>> laid = treeform.lay_flat(treeform.read("data/cube.stl"))
     >>> laid.message, laid.mesh.bounds[0, 2]
     ('on side 0 of 6, of area 1', 0.0)
     """
-    how = options(_core.LayFlatOptions, locals(), toward=_arrays.vector(toward, "toward"))
+    how = options(_core.LayFlatOptions, locals())
     made = _core.lay_flat(held(mesh), how, progress=progress)
     if made is None:
         raise ValueError("lay_flat: no side: fewer than three points, or all on a line")
     return made
+# end
 
 
 # made of results:
@@ -378,24 +507,63 @@ class Alignment(MeshResult):
         return self.converged
 
 
-def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float = 1.0,
-          weights: str = "welsch", max_distance: float = np.inf,
-          scale: bool | tuple[float, float] = False,
-          max_iterations: int = 100, tolerance: float = 1e-6, starts: int = 1,
-          samples: int = 100_000, start: ArrayLike | None = None, precision: str = "float64",
-          progress: Progress = None) -> Alignment:
-    """The rigid motion that brings a mesh or cloud (n, 3) near another one: iterative closest
-    point, from where it is or from several places.
+# made of functions:
+#   align
+def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False,
+          method: str = "automatic", overlap: float = 1.0, weights: str = "welsch",
+          max_distance: float = np.inf, max_iterations: int = 100, tolerance: float = 1e-6,
+          starts: int = 1, samples: int = 100_000, start: ArrayLike | None = None,
+          precision: str = "float64", progress: Progress = None) -> Alignment:
+    """The rigid motion, with a uniform scale if asked for, that brings the moving points near the
+    fixed mesh, or near its points when it has no faces.
 
-    method: 'point_to_plane', 'point_to_point', 'plane_to_plane' (of two clouds) or 'automatic'
-    (planes of a mesh, planes of both clouds). overlap: the share of the moving points that have a
-    partner. weights: 'welsch', by which far pairs count less, or 'equal'.
-    max_distance: ignore partners further apart. scale: find a uniform scale, too; a pair is its
-    bounds, in addition to the scale of `start`.
-    starts: places to start from, turned all around. samples: points used in the steps; 0 is all.
-    start: (4, 4) applied first.
+    From each start it is a local optimum: the right one when the motion is small compared with the
+    features of the shape. The result is never worse than the present position; when nothing better
+    is found, it is `start`, grown or shrunk about its center to the bounds of the scale. To
+    compare, the squared distances of all moving points to the nearest fixed points are cut off at
+    `max_distance` squared, and the mean is taken over the `overlap` share that is nearest. With
+    weights, and with an overlap below 1, it is Welsch's function of the distances, by the v of the
+    end: a share that is somewhat too large does no harm. Directions in which the points may slide
+    freely (a plane on a plane) are left alone. Equal points count once on a cloud.
 
-    True where it has converged and nothing speaks against the place.
+    Along motions that are little held (a stiffness below 0.02, as of a cogwheel about its axis),
+    places up to 6% of the diagonal away are tried, too.
+
+    Whether it is the right place, distances alone do not tell. At the right place they are noise;
+    at a wrong one, regions are off to one side. From 4000 moving points on, every fourth is not
+    fitted, and is what is looked at. Where they are off, by more than noise, places around the
+    start are tried: shifts by 8% of the diagonal, turns by 14 degrees. Where they still are, a
+    cloud is in doubt when they are off by more than 0.6 times of how thick both sides are around
+    their planes. On a mesh, `converged` needs that other starts, tried with few points, do not end
+    better, and that what is off is below 0.2% of the diagonal.
+
+    Without moving or without fixed points, the result is `start`, not converged.
+
+    scale: find a uniform scale, too; a pair is its bounds, in addition to the scale of `start`.
+    method: 'point_to_plane', 'point_to_point', 'automatic' or 'plane_to_plane'.
+    overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share,
+        the nearest ones, and ignores the rest.
+    weights: 'equal' or 'welsch'.
+    max_distance: Ignore partners further apart. Not squared, not negative.
+    max_iterations: From each start.
+    tolerance: Converged when in 5 steps in a row the cost falls by less than this share of itself,
+        or when a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of its
+        box.
+    starts: Places to start from, at least 1. The first is the present position; then the principal
+        axes of both sides on each other, in their 4 ways; then turns spread evenly over all turns,
+        small ones first, with the centers on each other. The best end wins; of equals the first.
+    samples: Use at most this many moving points in the steps, spread evenly over space; 0 is all.
+    start: (4, 4) Applied to the moving points first: any affine map.
+    precision: 'float32' or 'float64'. Of the points returned.
+
+    Raises ValueError naming a point that is not finite or a face with a corner out of range, and
+    for an option that is out of its range; OverflowError when the matrix, a point as written, or
+    the square of a distance, in about the diagonals of the fixed mesh, is beyond the range of
+    double.
+
+    Cost: the index of `closest_point` over the fixed mesh, a search for all moving points at the
+    start and at the end, and for the samples in each step; of a fixed cloud, only for those whose
+    nearest point may have changed. Each further start: some 20 steps of 1000 points.
 
     >>> import treeform
     >>> part = treeform.read("data/two_spheres.stl")
@@ -403,14 +571,9 @@ def align(moving: Body, onto: Body, *, method: str = "automatic", overlap: float
     >>> bool(found), abs(found.matrix[:3, 3] + [0.02, 0.01, 0]).max() < 1e-6
     (True, True)
     """
-    arguments = locals()
-    least, most = 0.0, np.inf
-    if not isinstance(scale, (bool, np.bool_)):
-        least, most = _arrays.pair(scale, "scale")
-        scale = True
-    how = options(_core.AlignOptions, arguments, scale=bool(scale), least_scale=least,
-                  most_scale=most, start=_arrays.matrix(start, "start"))
+    how = options(_core.AlignOptions, locals(), **scale_of(scale))
     return _core.align(held_body(moving), held_body(onto), how, progress=progress)
+# end
 
 
 # made of results:
@@ -430,6 +593,9 @@ class PackedPart(NamedTuple):
     plate: int
     matrix: Floats
     mesh: Mesh
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
 # end
 
 
@@ -460,31 +626,65 @@ class Packing(Result):
         return len(self.not_placed) == 0
 
 
-def pack(parts: Iterable[MeshLike], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.0, 0.0),
+# made of functions:
+#   pack measure
+def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.0, 0.0),
          spacing: float = 2.0, turns: str = "quarter", stack: bool = False, plates: int = 1,
          plate_step: ArrayLike = (0.0, 0.0, 0.0), seed: int = 0, tries: int = 32,
-         seconds: float = np.inf, precision: str = "float64",
-         progress: Progress = None) -> Packing:
-    """Puts parts on plates, at least `spacing` apart, each turned about the vertical.
+         seconds: float = np.inf, precision: str = "float64", progress: Progress = None) -> Packing:
+    """Puts the parts on plates, each turned about z by one of `turns`. Unless they are stacked,
+    each stands on the bed with its lowest point.
 
-    size: (2,) or (3,): length, depth and height. turns: 'none', 'quarter', 'eighth' or 'any'.
-    stack: fill the box up to its height. plates: most that are used, `plate_step` (3,) apart.
+    For the coordinates in `points`, as written:
+    - The lowest z of a placed part is exactly that of the bed (with float32, the least one not
+      below it); of a stacked part, not below it.
+    - No coordinate is outside the plate or above its height.
+    - Any two placed parts of a plate are at least `spacing` apart, by their exact boxes or by
+      `distance` less its error, and none is inside another's solid. With a spacing of 0, parts may
+      touch only in a plane that separates their boxes.
 
-    Distances are checked in the coordinates returned. This is a search: a part without a place may
-    have had one. Same input, same result, unless `seconds` ends the search.
+    A void that is closed all around stays empty.
+
+    This is a search, and a part that is not placed may have had a place. In the first try, parts
+    are taken in the order of the area that they cover (stacked, of their volume). Each goes to the
+    first plate that has room, there to the free place of the least (z, then) y, then x, on a raster
+    of about 512 cells a side (stacked, 96), and is then moved down (z,) y and x until something is
+    in the way. While not all are placed, other orders and turns are tried: at random by the seed,
+    and with parts that found no place brought forward. With several plates, tries also go on while
+    more plates are used than the area asks for. The result is the try with the most parts placed,
+    then with the least area left, then with the fewest plates, then the first.
+
+    Parts without faces take no room: they are placed where they are. Points that no face uses move
+    along with their part and are otherwise ignored. Equal parts are prepared once.
+
+    size: (2,) or (3,): length, depth and height of a plate.
+    corner: (3,) corner of the first plate with the lowest x and y; its z is the bed.
+    spacing: Least distance of any two parts; parts may touch the plate's rim.
+    turns: 'none', 'quarter', 'eighth' or 'any'.
+    stack: Fill the box up to its height: parts also come above, below and inside one another, and
+        hang in the air. Otherwise each stands on the bed. The height has to be finite.
+    plates: Most plates used; at least 1.
+    plate_step: (3,) from the corner of a plate to that of the next; its z is ignored.
+    seed: Of the orders and turns that are tried when not all parts fit.
+    tries: At most; at least 1.
+    seconds: No more tries begin after this many seconds. Where that ends the search, the result
+        depends on the speed of the machine.
+    precision: 'float32' or 'float64'. Of the points returned.
+
+    Raises ValueError naming the part with a corner out of range or not finite, and for options that
+    are negative, NaN, or (except for the height and the seconds) not finite.
+
+    Cost: for each part and turn a raster, O(F); in each try for each part and turn a few
+    milliseconds to search a free place, and for the place chosen a tree over the part and some
+    `distance` to each neighbor. Tries run in parallel.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> treeform.pack([cube, cube, cube], [4, 4], spacing=0.5).message
     '3 of 3 parts placed'
     """
-    extent = _arrays.floats(size, "size")
-    if extent.shape == (2,):
-        extent = np.append(extent, np.inf)
-    how = options(_core.PackOptions, locals(), size=_arrays.vector(extent, "size"),
-                  corner=_arrays.vector(corner, "corner"),
-                  plate_step=_arrays.vector(plate_step, "plate_step"))
-    return _core.pack([held(part) for part in _arrays.several(parts, "parts")], how,
+    how = options(_core.PackOptions, locals(), size=extent_of(size))
+    return _core.pack([held_body(one) for one in _arrays.several(parts, "parts")], how,
                       progress=progress)
 
 
@@ -492,7 +692,16 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
             progress: Progress = None) -> Measure | None:
     """How two bodies lie to each other: separate, touching or penetrating, how far apart, and
     where. Each is a mesh or a cloud (n, 3). None where one has no faces, or they are further apart
-    than `radius`. The relation is exact, and so is whether a distance is 0.
+    than `radius`. The relation is exact, and so is whether a distance is 0. Other distances are
+    rounded as `distance` says.
+
+    radius: Inclusive.
+    vertices: 'by_coordinates': corners with equal coordinates are shared; 'by_index': those with
+        the same number.
+
+    Raises ValueError as `measure`, and for a radius that is negative or NaN.
+
+    Cost: that of `distance`, and of `measure` where the boxes of the meshes meet.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -502,6 +711,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     """
     how = options(_core.MeasureOptions, locals())
     return _core.measure(held_body(a), held_body(b), how, progress=progress)
+# end
 
 
 # made of results:
@@ -511,7 +721,7 @@ class Depth(NamedTuple):
 
     depth: The length of `move`, rounded.
     move: (3,) Adding this to every point of `a`, each coordinate rounded, takes `a` out of `b`:
-        then `relation` does not find them penetrating.
+        then `measure` does not find them penetrating.
     effort: What the search took. Where some of its questions were cut, one more reason why a
         shorter way may exist.
     """
@@ -519,18 +729,37 @@ class Depth(NamedTuple):
     depth: float
     move: Floats
     effort: SearchEffort
-# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
+# end
 
 
+# made of functions:
+#   penetration_depth
 def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort: int = 0,
                       progress: Progress = None) -> Depth | None:
     """The length of a short translation that takes `a` out of `b`: an upper bound of the depth of
-    penetration. None where they do not penetrate. `directions` are tried beside those of faces.
+    penetration, which is the length of the shortest. None when they do not penetrate each other, or
+    one is a cloud.
 
-    effort: pairs of faces to look at, at most; 0: 20 million and 200 for each face.
+    The translation is verified exactly, in the coordinates that it leads to. It starts from what
+    `separate` finds, is shortened wherever one of `directions` other directions leads out sooner,
+    and then turned little by little, by less and less, as long as that makes it shorter. Among
+    shapes that are not convex, a shorter one may exist.
+
+    The search ends by its effort: a place of which it takes more than a 32nd of that to say whether
+    it is out is passed over. So faces whose boxes overlap in great numbers, as those of long thin
+    triangles do, give a longer way, but at least the one along an axis past the box of `b`.
+
+    directions: Spread over the sphere, tried beside those of faces that meet.
+    effort: Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20
+        million and 200 for each face.
+
+    Raises ValueError as `measure`.
+
+    Cost: `separate`; an `intersects` for each direction, and a `time_of_impact` for those that lead
+    out sooner; not more than `effort`.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -539,6 +768,7 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
     """
     how = options(_core.DepthOptions, locals())
     return _core.penetration_depth(held(a), held(b), how, progress=progress)
+# end
 
 
 # made of results:
@@ -557,25 +787,41 @@ class Impact(NamedTuple):
     time: float
     faces: Ids
     points: Floats
-# end
 
     def __repr__(self) -> str:
         return tuple_repr(self)
+# end
 
 
-def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *,
-                   move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
-                   latest: float = np.inf, progress: Progress = None) -> Impact:
-    """The least t >= 0 at which `a`, moved by t times `motion` (3,), has a point in common with
-    `b`.
-    Exact: meshes that only graze each other have a contact. Surfaces count, not solids.
+# made of functions:
+#   time_of_impact
+def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: ArrayLike | None = None,
+                   move_b: ArrayLike | None = None, latest: float = np.inf,
+                   progress: Progress = None) -> Impact:
+    """The least t >= 0 at which `a`, moved by t times `motion`, has a point in common with `b`.
+
+    Exact on the coordinates as given, or as moved by the options. Times of pairs of faces are
+    compared as exact quotients of determinants, so all contacts at equal times are found, even of
+    parallel or coplanar faces. Surfaces count, not solids: inside a closed mesh, `a` moves until it
+    meets the wall. Meshes that only graze each other have a contact.
+
+    motion: (3,)
+    move_a: (4, 4) an affine map of `a`, applied first.
+    move_b: (4, 4) the same of `b`.
+    latest: Ignore contacts after this time.
+
+    Raises ValueError for a motion that is zero or not finite, a time that is negative or NaN, and
+    naming the mesh and its lowest face with a corner out of range or not finite.
+
+    Cost: that of `intersects`, and of a search along the motion, which most boxes never enter;
+    serial.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> treeform.time_of_impact((cube.vertices + [0, 0, 4], cube.faces), cube, [0, 0, -1]).time
     3.0
     """
-    how = options(_core.ImpactOptions, locals(), move_a=_arrays.matrix(move_a, "move_a"),
-                  move_b=_arrays.matrix(move_b, "move_b"))
+    how = options(_core.ImpactOptions, locals())
     return _core.time_of_impact(held(a), held(b), _arrays.vector(motion, "motion"), how,
                                 progress=progress)
+# end

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any, Callable, Optional, Union
 
-__all__ = ["Progress", "of_bar", "part"]
 
 #: Called now and then with the share of the work that is done, 0 to 1, in the thread that called.
 #: Where it returns False, the operation stops and raises Cancelled. A bar of tqdm will do as well.

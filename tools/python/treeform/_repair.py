@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable, TypeVar, Union
+from typing import Any, Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._core import Certificate
-from ._errors import options, require
-from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of, held
+from ._errors import checked, options
+from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
-from ._results import Result
+from ._results import Certificate, Result
 
 __all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "WrapResult", "convex_hull",
            "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",
@@ -83,35 +82,48 @@ class WrapResult(MadeMesh):
 # end
 
 
-_Made = TypeVar("_Made", bound=MadeMesh)
-
-
-def _checked(made: _Made, check: bool, *also: str) -> _Made:
-    if check:
-        require(made.certificate, *also, of_one=True)
-    return made
-
-
+# made of functions:
+#   resolve_self_intersections
 def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: str = "nonzero",
                                precision: str = "float64", max_displacement: float = np.inf,
                                keep_cuts: bool = False, touching: bool = False,
                                max_loss: float = 0.05, check: bool = True,
                                progress: Progress = None) -> ResolveResult:
-    """The mesh without self-intersections.
+    """`mesh` without self-intersections. Look at the certificate: it says whether this was
+    possible.
+
+    `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
+    Then they round the points on cuts. Faces that meet nothing stay as they are.
+
+    `remove` is for surfaces that bound no solid. It works locally. It deletes the faces that meet
+    or are degenerate. It closes each hole by triangles of the least total area between the vertices
+    of its rim, but not beyond where the mesh ended. Where the new triangles meet other faces, the
+    hole is made wider. A part is a set of faces linked by edges:
+    - In a part that has a border, a hole stays open where widening does not help, or where the hole
+      would surround the border. Then of each pair only one face is deleted.
+    - A closed part stays as it is where a part with a border passes through it.
+    - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
 
     mode: 'outer' cuts faces along each other and keeps what bounds the solid; 'split' keeps every
-    piece; 'remove' deletes faces that meet and fills the holes, for surfaces that bound no solid.
-    inside: for 'outer', what is solid: 'nonzero', 'odd' or 'positive' winding numbers.
-    keep_cuts: for 'outer', leave coplanar faces apart that were cut, or overlap; they are merged
-    otherwise, but not where vertices have values, or faces different ones.
-    touching: for 'remove', delete faces that only touch, too.
-    max_loss: more than this share of the volume (or area) lost is an error; 1 allows any loss.
-    precision, max_displacement, check: as for `boolean`.
+        piece; 'remove' deletes faces that meet and fills the holes, for surfaces that bound no
+        solid.
+    inside: 'nonzero', 'odd' or 'positive'. For `outer`: what is solid.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: For `split` and `outer`: as in `boolean`.
+    keep_cuts: For `outer`: as in `boolean`; `split` keeps all cuts.
+    touching: For `remove`: delete faces that only touch, too; else they stay.
+    max_loss: For `outer` and `remove`: losing more than this share of the solid's volume, or of the
+        area of a mesh that bounds none, has the status `excessive_loss`. 1 allows any loss. What
+        the solid is, is found by `repair` without filling holes: faces agree, and overlaps count
+        once.
+    check: False returns what could not be certified, too, with its `certificate`.
 
-    What is cut and what is inside is decided exactly, on the coordinates as given. Points on cuts
-    are rounded, and the result is checked in the rounded numbers.
+    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    certified; ValueError as `boolean`; for `remove`, a coordinate may be beyond 2^1000.
 
-    Raises NotSolidError where 'outer' is asked of an open mesh, NotCertifiedError.
+    Cost: as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
+    where a component is inward; for `remove`, one `self_intersections` a round, and for a hole of n
+    vertices O(n^3) when n <= 200, else O(n^2).
 
     >>> import treeform
     >>> solid = treeform.resolve_self_intersections(treeform.read("data/two_spheres.stl"))
@@ -119,55 +131,104 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     (Mesh(326 vertices, 648 faces), Certificate(ok), 0)
     """
     how = options(_core.ResolveOptions, locals())
-    return _checked(_core.resolve(held(mesh), mode, how, progress=progress), check)
+    return checked(_core.resolve_self_intersections(held(mesh), mode, how,
+                                                    progress=progress), check, of_one=True)
+# end
 
 
-_STEPS = ("join", "orient", "fill", "resolve", "detach")
+STEPS = ("join", "orient", "fill", "resolve", "detach")
 
 
-def repair(mesh: MeshLike, *, steps: Iterable[str] = _STEPS, gap: float | None = None,
+def steps_of(steps: Iterable[str]) -> dict[str, bool]:
+    """Whether each step is taken."""
+    taken = _arrays.words(steps, "steps")
+    for step in taken:
+        if step not in STEPS:
+            raise ValueError(f"steps: \"{step}\" is none of {', '.join(STEPS)}")
+    return {step: step in taken for step in STEPS}
+
+
+# made of functions:
+#   repair wrap
+def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = None,
            largest_hole: int | None = None, strays: float = 0.001, inside: str = "automatic",
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
            max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
-    """A solid made of a dirty mesh: closed, oriented, manifold, free of self-intersections.
+    """A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
+    at the certificate: it says whether this was possible, and where not.
+
+    The steps are `options`, in their order. Each leaves alone what needs nothing: a mesh that is a
+    solid comes back bit for bit. What meets and what is inside is decided exactly. Which cracks
+    close, which way faces point, and what fills a hole are guesses, and counted. Points with equal
+    coordinates are one. Faces of four corners that are tetrahedra become their boundary. Where
+    faces disagree, the cells that they cut space into are labeled inside or outside by a minimum
+    cut, as they and generalized winding numbers disagree least, if less is lost then.
+
+    Holes are filled by triangles between their vertices; large ones of smooth surfaces by new
+    points, so that the surface goes on as it does around them. Sheets are not filled, but said to
+    be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close
+    them, except those that end in a plane and lie to one side of it. Nor is a mesh where at more
+    than a tenth as many edges as it has faces more than two faces meet and disagree.
 
     steps: those to take. 'join' drops degenerate and repeated faces and closes cracks, 'orient'
-    makes faces agree and look outward, 'fill' fills holes, 'resolve' cuts self-intersections,
-    'detach' moves apart what touches in an edge or a vertex.
-    gap: the widest crack to close, a length; None finds one. largest_hole: in edges.
-    strays: loose open pieces below this share of the area are dropped.
-    inside: 'automatic', 'nonzero', 'odd' or 'positive'.
-    sheet: the mesh is an open surface, and its border stays.
-    max_loss, precision, max_displacement, keep_cuts, check: as for `resolve_self_intersections`.
+        makes faces agree and look outward, 'fill' fills holes, 'resolve' cuts self-intersections,
+        'detach' moves apart what touches in an edge or a vertex.
+    gap: Widest crack to close. Where it is not given, the narrowest of 0, a float step, and 1e-6,
+        1e-5, 1e-4, 1e-3 of the diagonal of the bounding box that leaves the fewest open edges.
+    largest_hole: Fill holes of at most this many edges.
+    strays: Loose open pieces below this share of the area are dropped, and so are single triangles
+        below 1 %. Where a larger component vanishes since it bounds nothing, the status is
+        `excessive_loss`, unless `max_loss` is 1.
+    inside: 'automatic', 'nonzero', 'odd' or 'positive': what is solid.
+    max_loss: Losing more than this share has the status `excessive_loss`: of the volume, or of the
+        area where there were holes. Area is lost of which nothing is left, neither in sight nor
+        hidden in the solid. 1 allows any loss.
+    sheet: The mesh is an open surface: its border is kept, and nothing is filled.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    max_displacement: As in `boolean`.
+    keep_cuts: as in `boolean`; faces that fill holes are merged with each other alone.
+    check: False returns what could not be certified, too, with its `certificate`.
 
-    What meets and what is inside is decided exactly; which cracks close, which way faces look and
-    what fills a hole are guesses, and counted in `steps`. A solid comes back bit for bit.
+    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    certified; ValueError as `boolean`; for a gap or share that is negative or not finite.
 
-    Raises NotCertifiedError or NotSolidError where that was not possible, saying where.
+    Cost: O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
+    n edges O(n^3) up to 100, then O(n^2).
 
     >>> import treeform
     >>> mended = treeform.repair(treeform.read("data/dirty.stl"))
     >>> mended.mesh.is_solid, mended.steps["flipped"], mended.steps["holes"]
     (True, 40, 2)
     """
-    arguments = locals()
-    taken = [_arrays.word(step, "steps") for step in _arrays.several(steps, "steps")]
-    for step in taken:
-        if step not in _STEPS:
-            raise ValueError(f"steps: \"{step}\" is none of {', '.join(_STEPS)}")
-    how = options(_core.RepairOptions, arguments, **{step: step in taken for step in _STEPS})
-    return _checked(_core.repair(held(mesh), how, progress=progress), check, "sheet")
+    how = options(_core.RepairOptions, locals(), **steps_of(steps))
+    return checked(_core.repair(held(mesh), how, progress=progress), check, of_one=True)
 
 
 def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
          check: bool = True, progress: Progress = None) -> WrapResult:
-    """A closed surface around all faces, whatever they are: open, crossing, of no area. It enters
-    no gap or hole narrower than about twice `size`, a length.
+    """A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
+    no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters no
+    hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills cavities
+    that nothing leads to. A smaller size follows the mesh more closely, with more faces, some area
+    / `size`^2 of them.
 
-    offset: how far its vertices are from the faces; None: size / 30.
+    No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
+    coordinates of both. The distance of its vertices is met as far as rounding allows.
 
-    No face of the mesh meets the wrap or is outside of it: that is exact.
+    offset: How far the vertices of the wrap are from the mesh, in its length unit; where it is not
+        given, a thirtieth of the size.
+    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    check: False returns what could not be certified, too, with its `certificate`.
+
+    Raises NotCertifiedError where the result could not be certified; ValueError naming the face
+    with a corner out of range or not finite; where the mesh has no faces, where it is larger than
+    2^150 or smaller than 2^-150, for a size or offset that is not positive and finite, or so small
+    that coordinates of the precision do not tell apart what is as near as the offset, or the wrap
+    would have more than 2^30 faces.
+
+    Cost: for n points O(n log n) in most cases, O(n log F) queries of the tree over the faces; some
+    400 bytes a point; serial.
 
     >>> import treeform
     >>> around = treeform.wrap(treeform.read("data/two_spheres.stl"), 0.5)
@@ -175,7 +236,8 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     (True, True)
     """
     how = options(_core.WrapOptions, locals())
-    return _checked(_core.wrap(held(mesh), size, how, progress=progress), check)
+    return checked(_core.wrap(held(mesh), size, how, progress=progress), check, of_one=True)
+# end
 
 
 # made of results:
@@ -199,18 +261,26 @@ class ConvexHull(Result):
     normals: Floats
 # end
 
-    def mesh(self, points: Union[MeshLike, ArrayLike]) -> Mesh:
-        """The hull as a closed mesh, of the points that it uses. points: those it is the hull
-        of."""
-        cloud = cloud_of(points)
+    def mesh(self, points: Body) -> Mesh:
+        """The hull as a closed mesh, of the points that it uses: `points` are those it is of."""
         used, faces = np.unique(self.faces, return_inverse=True)
-        vertices = as_mesh(points).vertices if cloud is None else np.asarray(cloud)
-        return Mesh(vertices[used], faces.reshape(-1, 3))
+        return Mesh(points_of(points)[used], faces.reshape(-1, 3))
 
 
-def convex_hull(points: Union[MeshLike, ArrayLike], *, progress: Progress = None) -> ConvexHull:
-    """The convex hull of points (n, 3), or of those of a mesh. Exact: no point is outside the plane
-    of a face, and faces are of one side if and only if they are exactly coplanar.
+# made of functions:
+#   convex_hull rounded find_rounding_defects join_equal_points
+def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
+    """The convex hull of `points`, exact on the coordinates as given: no point is outside the plane
+    of a face, and faces belong to one side if and only if they are exactly coplanar. Of equal
+    points, the lowest number is used. Corners of triangles may lie on an edge or inside a side of
+    the hull.
+
+    points: (n, 3), or a mesh.
+
+    Raises ValueError naming the first point that is not finite, and for more points than 32 bits
+    can number.
+
+    Cost: O(V log V) time for most inputs, O(V^2) for some; serial.
 
     >>> import treeform
     >>> hull = treeform.convex_hull(treeform.read("data/cube.stl"))
@@ -219,15 +289,14 @@ def convex_hull(points: Union[MeshLike, ArrayLike], *, progress: Progress = None
     >>> hull.mesh(treeform.read("data/cube.stl")).volume
     1.0
     """
-    cloud = cloud_of(points)
-    return _core.convex_hull(as_mesh(points).vertices if cloud is None else cloud,
-                             progress=progress)
+    return _core.convex_hull(points_of(points), progress=progress)
 
 
-def rounded(points: ArrayLike, precision: str = "float32", *,
-            progress: Progress = None) -> Floats:
+def rounded(points: ArrayLike, precision: str = "float32", *, progress: Progress = None) -> Floats:
     """(n, 3) the points with each coordinate rounded to the nearest number of the precision, as
-    float64.
+    float64; infinite beyond its range.
+
+    precision: 'float32' or 'float64'.
 
     >>> import treeform
     >>> treeform.rounded([[0.1, 0.2, 0.3]]).tolist()
@@ -238,8 +307,17 @@ def rounded(points: ArrayLike, precision: str = "float32", *,
 
 def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
                           progress: Progress = None) -> tuple[int, int]:
-    """What breaks when the vertices of a mesh become `placed` (V, 3): the number of faces that have
-    lost their area, and of pairs of faces that meet now and did not before. Exact.
+    """What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved
+    and turned, too: distances are not compared, only how faces lie to each other.
+
+    Returns the number of faces that have lost their area, and of pairs of faces that meet now and
+    did not before.
+
+    placed: (V, 3)
+
+    Raises ValueError as `self_intersections` for either, or for another number of points.
+
+    Cost: `self_intersections` of the mesh at the new points, and at the old ones only if any meet.
 
     >>> import treeform
     >>> m = treeform.read("data/sphere.ply")
@@ -251,12 +329,17 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
 
 
 def join_equal_points(mesh: MeshLike, *, progress: Progress = None) -> Mesh:
-    """The mesh with vertices of equal coordinates joined. Faces keep their order and number.
+    """`mesh` with equal points joined. Points are in the order in which they first appear, with the
+    coordinates of the first, bit for bit. Nothing is dropped: faces keep their order, even those
+    that now repeat a corner, and points that no face uses stay.
+
+    Raises ValueError for more than 2^32 - 1 points, or naming the lowest face with a corner out of
+    range.
 
     >>> import treeform
     >>> soup = treeform.read("data/cube.stl", join=False)
     >>> soup, treeform.join_equal_points(soup)
     (Mesh(36 vertices, 12 faces), Mesh(8 vertices, 12 faces))
     """
-    points, faces, data = _core.join_equal_points(held(mesh), progress=progress)
-    return Mesh._of(points, faces, None, data)
+    return Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))
+# end

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-__all__ = ["Result", "brief", "tuple_repr"]
+from ._arrays import Floats, Ids
+
+__all__ = ["Certificate"]
 
 
 def brief(value: Any) -> str:
@@ -35,6 +38,61 @@ class Result:
     def __repr__(self) -> str:
         fields = self.__dict__.items()
         return f"{type(self).__name__}({', '.join(f'{name}={brief(v)}' for name, v in fields)})"
+
+
+# made of results:
+#   certificate
+@dataclass(frozen=True, repr=False)
+class Certificate(Result):
+    """What was checked about the coordinates of a result, with exact predicates. True where
+    everything that the operation promises holds.
+
+    status: 'ok', or how the operation ended.
+    meeting_count: Pairs of faces that meet where they should not.
+    meeting: (n, 2) the first 100 of these pairs.
+    open_count: Edges whose signed face count is not zero.
+    open_edges: (n, 2, 3) the ends of the first 100 of these edges.
+    open_faces: (n, 2) the operand and the face at each of them.
+    boundary_edges: Of the open edges, those of an odd number of faces.
+    misoriented_edges: Of the open edges, those of faces that run the same way.
+    max_displacement: Rounding moved no coordinate of a vertex further than this: from where it was,
+        exactly, or, where it is new or gone since rounding broke something, from the nearest place
+        of the surface. Measured; moves on the way do not add up.
+    precision: Of the coordinates: 'float32' or 'float64'.
+    vanished_faces: Of `vanished`, the faces of the exact result, all of them thinner than the
+        coordinates tell apart; 0 where there were none.
+    size_before: Of `excessive_loss`: the volume, or the area where there is no solid, before and
+        after.
+    size_after: The same after.
+    size_is_volume: Whether these are volumes.
+    message: Half a sentence for people.
+    """
+
+    status: str
+    meeting_count: int
+    meeting: Ids
+    open_count: int
+    open_edges: Floats
+    open_faces: Ids
+    boundary_edges: int
+    misoriented_edges: int
+    max_displacement: float
+    precision: str
+    vanished_faces: int
+    size_before: float
+    size_after: float
+    size_is_volume: bool
+    message: str
+# end
+
+    def __bool__(self) -> bool:
+        return self.status == "ok"
+
+    def __repr__(self) -> str:
+        return f"Certificate({self.status}{'' if self else f': {self.message}'})"
+
+    def __str__(self) -> str:
+        return self.message
 
 
 def tuple_repr(self: Any) -> str:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays, _core
-from ._arrays import Floats, Ids
-from ._files import Path, path_of
+from ._arrays import Floats, Ids, path_of
+from ._files import Path
 from ._mesh import Mesh
 from ._progress import Progress
 from ._results import Result

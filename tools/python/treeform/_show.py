@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from . import _arrays, _core
 from ._files import Path
-from ._mesh import Mesh, MeshLike, held_body
+from ._mesh import MeshLike, held_body
 
 __all__ = ["Picture", "View", "plot", "show"]
 

@@ -11,8 +11,6 @@ from ._errors import Cancelled, Error
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = ["InSteps", "Communicator", "in_communicator"]
-
 
 class Communicator(Protocol):
     """Processes that work together, such as `mpi4py.MPI.COMM_WORLD`."""
@@ -84,19 +82,32 @@ def in_communicator(communicator: Communicator | None,
     return made
 
 
-class _Closable(Protocol):
+class _InTiles(Protocol):
+    def tiles(self) -> int: ...
+    def remove_folder(self) -> None: ...
     def close(self) -> None: ...
 
 
-_Work = TypeVar("_Work", bound=_Closable)
+_Work = TypeVar("_Work", bound=_InTiles)
 
 
 class InSteps(Generic[_Work]):
     """Has a hold on the folder until it is closed; pickled as its arguments."""
 
-    def __init__(self, work: _Work, *arguments: Any, **named: Any) -> None:
+    def __init__(self, work: _Work, arguments: dict[str, Any]) -> None:
+        """arguments: those that it was made with, and other local names."""
         self._work = work
-        self._made_of = (arguments, named)
+        self._made_of = {name: value for name, value in arguments.items()
+                         if name not in ("self", "__class__", "how", "progress")}
+
+    @property
+    def tiles(self) -> int:
+        """The number of tiles, once they are there."""
+        return self._work.tiles()
+
+    def remove_folder(self) -> None:
+        """Removes the folder of the tiles."""
+        self._work.remove_folder()
 
     def close(self) -> None:
         """Lets go of the folder."""
@@ -109,5 +120,4 @@ class InSteps(Generic[_Work]):
         self.close()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        arguments, named = self._made_of
-        return partial(type(self), **named), arguments
+        return partial(type(self), **self._made_of), ()

@@ -12,7 +12,7 @@ from ._arrays import Floats
 from ._progress import Progress, part
 from ._results import tuple_repr
 
-__all__ = ["BoxTree", "Neighbors", "Numbers", "PointTree"]
+__all__ = ["BoxTree", "Neighbors", "PointTree"]
 
 Numbers = NDArray[np.int64]
 
@@ -42,6 +42,30 @@ class Neighbors(NamedTuple):
 
     def __repr__(self) -> str:
         return tuple_repr(self)
+
+
+def _queries(x: ArrayLike, width: int) -> tuple[Floats, tuple[int, ...]]:
+    """(q, width), and the shape that the answers have."""
+    array = _arrays.floats(x, "x")
+    if array.ndim == 0 or array.shape[-1] != width:
+        raise ValueError(f"x: the shape is {array.shape}, not (..., {width})")
+    return np.ascontiguousarray(array.reshape(-1, width)), array.shape[:-1]
+
+
+def _shaped(d: Floats, i: Numbers, shape: tuple[int, ...]) -> tuple[Any, Any]:
+    """Distances and numbers in this shape; of one neighbor of one query, as numbers."""
+    return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))
+
+
+def _count(k: Any) -> int:
+    if k < 1:
+        raise ValueError("k: less than 1")
+    return min(int(k), _MOST)
+
+
+def _only_2(p: float) -> None:
+    if p != 2:
+        raise ValueError(f"p: {p} is not 2, the only one there is")
 
 
 class PointTree:
@@ -85,12 +109,6 @@ class PointTree:
     def __len__(self) -> int:
         return len(self._data)
 
-    def _queries(self, x: ArrayLike) -> tuple[Floats, tuple[int, ...]]:
-        array = _arrays.floats(x, "x")
-        if array.ndim == 0 or array.shape[-1] != self.m:
-            raise ValueError(f"x: the shape is {array.shape}, not (..., {self.m})")
-        return np.ascontiguousarray(array.reshape(-1, self.m)), array.shape[:-1]
-
     def query(self, x: ArrayLike, k: Any = 1, eps: float = 0.0, p: float = 2.0,
               distance_upper_bound: float = np.inf, workers: int = -1, *,
               progress: Progress = None) -> tuple[Any, Any]:
@@ -110,31 +128,26 @@ class PointTree:
                [1., 3.]]), array([[0, 1],
                [2, 0]]))
         """
-        if p != 2:
-            raise ValueError(f"p: {p} is not 2, the only one there is")
-        queries, shape = self._queries(x)
+        _only_2(p)
+        queries, shape = _queries(x, self.m)
         wanted = None
-        count = k
         if not isinstance(k, (int, np.integer)):
             wanted = np.asarray(k, np.intp)
             if wanted.ndim != 1 or len(wanted) == 0:
                 raise ValueError("k: a number, or a list of numbers from 1")
-            count = int(wanted.max())
-        if count < 1 or (wanted is not None and wanted.min() < 1):
-            raise ValueError("k: less than 1")
+            _count(wanted.min())
+        count = k if wanted is None else int(wanted.max())
         if not distance_upper_bound >= 0:
             raise ValueError(f"distance_upper_bound: {distance_upper_bound} is negative or NaN")
-        d, i = self._cloud.query(queries, min(int(count), _MOST), distance_upper_bound,
+        d, i = self._cloud.query(queries, _count(count), distance_upper_bound,
                                  progress=progress)
         if wanted is not None:
             d = d.reshape(-1, count)[:, wanted - 1]
             i = i.reshape(-1, count)[:, wanted - 1]
-            shape = shape + (len(wanted),)
+            shape += len(wanted),
         elif k != 1:
-            shape = shape + (count,)
-        if not shape:
-            return float(d[0]), int(i[0])
-        return d.reshape(shape), i.reshape(shape)
+            shape += count,
+        return _shaped(d, i, shape)
 
     def query_ball_point(self, x: ArrayLike, r: ArrayLike, p: float = 2.0, eps: float = 0.0,
                          workers: int = -1, return_sorted: bool | None = None,
@@ -150,9 +163,8 @@ class PointTree:
         >>> tree.query_ball_point([0, 0], 1)
         [0, 1]
         """
-        if p != 2:
-            raise ValueError(f"p: {p} is not 2, the only one there is")
-        queries, shape = self._queries(x)
+        _only_2(p)
+        queries, shape = _queries(x, self.m)
         radii = np.broadcast_to(_arrays.floats(r, "r"), shape).ravel()
         lists: list[Any] = [[]] * len(queries)
         different = np.unique(radii)
@@ -179,7 +191,7 @@ class PointTree:
         >>> tree.query_ball([[0, 0], [5, 5]], 1).ids.tolist()
         [0, 1]
         """
-        queries, _ = self._queries(x)
+        queries, _ = _queries(x, self.m)
         return Neighbors(*self._cloud.query_ball(queries, r, False, progress=progress))
 
     def query_pairs(self, r: float, p: float = 2.0, eps: float = 0.0, output_type: str = "set", *,
@@ -191,8 +203,7 @@ class PointTree:
         >>> treeform.PointTree([[0, 0], [1, 0], [0, 2]]).query_pairs(1)
         {(0, 1)}
         """
-        if p != 2:
-            raise ValueError(f"p: {p} is not 2, the only one there is")
+        _only_2(p)
         if output_type not in ("set", "ndarray"):
             raise ValueError(f"output_type: {output_type!r} is neither 'set' nor 'ndarray'")
         pairs = self._cloud.query_pairs(r, progress=progress)
@@ -271,17 +282,9 @@ class BoxTree:
         >>> treeform.BoxTree([[0, 0], [2, 0]], [[1, 1], [3, 1]]).nearest([1.25, 0.5])
         (0.25, 0)
         """
-        array = _arrays.floats(x, "x")
-        if array.ndim == 0 or array.shape[-1] != self._dimensions:
-            raise ValueError(f"x: the shape is {array.shape}, not (..., {self._dimensions})")
-        if k < 1:
-            raise ValueError("k: less than 1")
-        shape = array.shape[:-1]
-        d, i = self._boxes.nearest(np.ascontiguousarray(array.reshape(-1, self._dimensions)),
-                                   min(int(k), _MOST), radius, progress=progress)
-        if k != 1:
-            shape = shape + (k,)
-        return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))
+        queries, shape = _queries(x, self._dimensions)
+        d, i = self._boxes.nearest(queries, _count(k), radius, progress=progress)
+        return _shaped(d, i, shape if k == 1 else (*shape, k))
 
     def __repr__(self) -> str:
         return f"BoxTree({len(self):,} boxes, {self._dimensions} dimensions)"

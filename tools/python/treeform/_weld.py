@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Iterable, Mapping, Union
+from typing import Any, Iterable, Mapping
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arrays, _core
-from ._arrays import Floats, Ids
-from ._errors import need, options, settings
-from ._files import Columns, Path, named_columns, path_of
-from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, cloud_of
+from ._arrays import Floats, Ids, columns_of, path_of
+from ._errors import options, settings
+from ._files import Columns, Path
+from ._mesh import Body, Mesh, MeshResult, as_mesh, cloud_of
 from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
@@ -48,74 +47,108 @@ class WeldResult(MeshResult):
         return self.mesh.vertices
 
 
-_Same = Mapping[str, float]
+def welded(body: Any, how: _core.WeldOptions, label: ArrayLike | None,
+           progress: Progress) -> WeldResult:
+    """`weld` of a cloud, or of a mesh with its attributes."""
+    labels = _arrays.labels(label, "label")
+    points = cloud_of(body)
+    if points is not None:
+        return _core.weld_cloud(points, None, how, labels, progress=progress)
+    mesh = as_mesh(body)
+    if len(mesh._faces):
+        return _core.weld_mesh(mesh._held, mesh._attributes, how, labels, progress=progress)
+    return _core.weld_cloud(mesh._vertices, mesh._attributes, how, labels, progress=progress)
 
 
-def _conditions(same: _Same | None) -> list[tuple[str, float]]:
-    if same is None:
-        return []
-    need(same, "same", Mapping)
-    return [(_arrays.word(name, "same"), _arrays.number(within, f"same[{name!r}]"))
-            for name, within in same.items()]
-
-
-def _labels(label: ArrayLike) -> Ids:
-    array = _arrays.ids(label, "label")
-    if array.ndim != 1:
-        raise ValueError(f"label: the shape is {array.shape}, not (n,)")
-    return array
-
-
-def weld(mesh_or_points: Union[MeshLike, ArrayLike], tolerance: float = 0.0, *,
-         rule: str = "first", keep: str = "first", keep_by: str = "", order: str = "given",
-         order_by: str = "", same: _Same | None = None, label: ArrayLike | None = None,
-         keep_seams: bool = False, across: Iterable[str] = (), only_borders: bool = False,
-         keep_manifold: bool = False, keep_degenerate: bool = False,
+# made of functions:
+#   weld count_nearly_equal
+def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
+         same: Mapping[str, float] | None = None, keep_seams: bool = False,
+         across: Iterable[str] = (), keep: str = "first", keep_by: str = "", order: str = "given",
+         order_by: str = "", only_borders: bool = False, keep_manifold: bool = False,
+         keep_degenerate: bool = False, label: ArrayLike | None = None,
          progress: Progress = None) -> WeldResult:
-    """A mesh or cloud with the points merged that are within the tolerance of each other.
+    """`mesh`, or a cloud of points, with the points merged that are within the tolerance of each
+    other.
+
+    Whether two points are within the tolerance is decided exactly on the coordinates as given, and
+    so is which of two points is nearer. Points are in the order of the first points of their
+    groups; faces keep their order. With 'first', points that are kept keep their coordinates bit
+    for bit. A point with a NaN or infinite coordinate is merged with no other, not even with a copy
+    of itself.
+
+    Faces that repeat a corner are dropped unless `keep_degenerate` is set, whether they repeated it
+    before (`degenerate`) or not (`collapsed`). So input faces = faces of the result + collapsed +
+    degenerate. Faces that have become equal to others stay. Edges are counted over faces with three
+    different corners.
+
+    With `keep` other than `first`, kept points may be within the tolerance of each other again, and
+    with the rule `first` a point may move by twice the tolerance.
+
+    A mean is the first point's value plus the differences of the others from it, added in the order
+    of points and rounded at each step. For n values that differ by at most d, it is wrong by at
+    most n d 2^-52 and one unit in the last place. It lies between the least and the greatest value;
+    float32 columns round once more. Averaged normals are not scaled to length 1. A mean over a NaN
+    or an infinity is NaN.
+
+    `keep_manifold` merges points of a group only along edges: two edges that would become one edge
+    with at most two faces, or an edge that shrinks to a point. Points of a group that are linked in
+    this way become one point; the other points of the group stay separate. Each such part has its
+    own first, last or mean; points that no face uses join the lowest part that has faces. So a
+    surface that was cut open closes along its seams, while solids that meet in an edge or a corner
+    stay apart. Where merging a group would still make an edge or a point non-manifold, because
+    points were not manifold before or faces shrink, the group is left as single points. This is
+    tried first for points with equal coordinates, and then for what they became; so corners that
+    coincide stay merged where the rest of a group does not. In the result, every edge of more than
+    two faces was one before, and every point with several fans contains a point that had several
+    before. Points of one group may stay within the tolerance of each other, and with the rule
+    `first` a point may move by twice the tolerance.
 
     mesh_or_points: a mesh, points (n, 3), or anything with `points` or `vertices` and no faces.
-    tolerance: a length, inclusive; decided exactly. 0 merges equal coordinates only.
+    tolerance: Euclidean, inclusive; 0: equal coordinates (-0 equals +0).
     rule: 'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one
-    point of all that steps of at most the tolerance link.
-    keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of the vertex
-    property `keep_by`. order: the order in which 'first' goes through the points: 'given',
-    'lowest' or 'highest' of `order_by`.
-    same: vertex properties that must agree, with the largest difference. label: (n,) numbers;
-    points with different ones are never merged. keep_seams: normals, texture coordinates and colors
-    must agree, except for those in `across`.
-    only_borders: merge only points on edges of one face. keep_manifold: leave apart what would make
-    an edge of three faces. keep_degenerate: keep faces that repeat a corner.
+        point of all that steps of at most the tolerance link.
+    same: vertex properties that must agree, with the largest difference.
+    keep_seams: normals, texture coordinates and colors must agree, except for those in `across`.
+    across: properties that `keep_seams` does not look at.
+    keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of `keep_by`.
+    keep_by: a property of vertices.
+    order: in which 'first' goes through the points: 'given', 'lowest' or 'highest' of `order_by`.
+        Needs `keep` 'first'.
+    order_by: a property of vertices.
+    only_borders: Merge only points on edges of exactly one face.
+    keep_manifold: Split groups that would make non-manifold edges or points.
+    keep_degenerate: Keep faces that repeat a corner.
+    label: (n,) numbers; points with different ones are never merged.
 
-    Raises ValueError naming the element or option. Points that are not finite are left alone.
+    Raises ValueError for a tolerance that is negative or not finite, when there is not one label
+    for each point, for more than 2^32 - 2 points, a corner out of range, a property that is missing
+    or is a list, `order` with another `keep` than `first`, or more than 2^32 / 3 faces with
+    `keep_manifold`; all name the lowest element of the arrays given.
+
+    Cost: Groups take up to 36 bytes a point (50 for chains in dense places, 110 by `tree`), 40 more
+    in an `order`; faces 24 each besides the result, 100 with `keep_manifold`; conditions 8 a point
+    and property.
 
     >>> import treeform
     >>> thin = treeform.weld([[0, 0, 0], [0, 0, 0.5], [3, 0, 0]], 1.0)
     >>> thin.points.tolist(), thin.index.tolist()
     ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
     """
-    how = options(_core.WeldOptions, locals(), same=_conditions(same),
-                  across=_arrays.several(across, "across"))
-    labels = np.empty(0, np.uint32) if label is None else _labels(label)
-    points = cloud_of(mesh_or_points)
-    if points is not None:
-        return _core.weld_cloud(points, None, how, labels, progress=progress)
-    mesh = as_mesh(mesh_or_points)
-    data = None if mesh._attributes is None else mesh._attributes._data
-    if len(mesh._faces):
-        return _core.weld_mesh(mesh._held, data, how, labels, progress=progress)
-    return _core.weld_cloud(mesh._vertices, data, how, labels, progress=progress)
+    how = options(_core.WeldOptions, locals())
+    return welded(mesh_or_points, how, label, progress)
 
 
 def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress = None) -> int:
-    """How many points fewer there would be if points within `distance` of each other were joined,
-    beyond those that are equal to another.
+    """How many points would not be there any more if points within `distance` of each other were
+    joined, beyond those that are equal to another.
 
     >>> import treeform
     >>> treeform.count_nearly_equal([[0, 0, 0], [0, 0, 0], [0, 0, 0.5]], 1.0)
     1
     """
     return _core.count_nearly_equal(_arrays.points(points, "points"), distance, progress=progress)
+# end
 
 
 # made of results:
@@ -151,50 +184,78 @@ class WeldStreamResult(Result):
 # end
 
 
-def _settings(arguments: dict[str, Any]) -> _core.StreamSettings:
-    files = arguments["files"]
+def settings_of(files: Path | Iterable[Path], how: _core.WeldStreamOptions, columns: Columns | None,
+                mixed: bool) -> _core.StreamSettings:
+    """How to weld files: one, or several."""
     paths = [files] if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
     if not paths:
         raise ValueError("files: there are none")
-    how = options(_core.WeldStreamOptions, arguments, same=_conditions(arguments["same"]),
-                  across=_arrays.several(arguments["across"], "across"),
-                  folder=path_of(arguments["folder"]),
-                  memory=_arrays.number(arguments["memory"], "memory", 0),
-                  points_per_tile=_arrays.number(arguments["points_per_tile"],
-                                                 "points_per_tile", 0))
     return settings(_core.StreamSettings, [path_of(path) for path in paths], how,
-                    named_columns(arguments["columns"]), arguments["mixed"])
+                    columns_of(columns, "columns"), mixed)
 
 
-def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float = 0.0, *,
-                relative: bool = False, rule: str = "first", keep: str = "first",
-                keep_by: str = "", order: str = "given", order_by: str = "",
-                same: _Same | None = None, keep_seams: bool = False, across: Iterable[str] = (),
-                keep_degenerate: bool = False, as_las: bool = False, removed: Path = "",
-                label: str = "", withhold: bool = False, memory: int = 0, folder: Path = "",
-                points_per_tile: int = 0, columns: Columns | None = None, mixed: bool = False,
-                communicator: Communicator | None = None,
+def streamed(how: _core.StreamSettings, out: Path, removed: Path, label: str, withhold: bool,
+             communicator: Communicator | None, progress: Progress) -> WeldStreamResult:
+    """`weld_stream`, alone or together."""
+    return in_communicator(communicator, lambda all: _core.weld_stream(
+        how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
+        progress=progress))
+
+
+# made of functions:
+#   weld_stream
+def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0, *,
+                relative: bool = False, rule: str = "first",
+                same: Mapping[str, float] | None = None, keep: str = "first", keep_by: str = "",
+                order: str = "given", order_by: str = "", keep_seams: bool = False,
+                across: Iterable[str] = (), keep_degenerate: bool = False, as_las: bool = False,
+                memory: int = 0, folder: Path = "", points_per_tile: int = 0, removed: Path = "",
+                label: str = "", withhold: bool = False, columns: Columns | None = None,
+                mixed: bool = False, communicator: Communicator | None = None,
                 progress: Progress = None) -> WeldStreamResult:
-    """Welds clouds, or a mesh, that may be larger than memory, from files to a file, with the same
-    bytes as `weld` of the whole.
+    """Welds the cloud in the files `files` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
+    writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may be
+    a mesh: as `weld` would, faces get their new corners, and those that collapse are left out. Each
+    rank has a share of points and of faces. Meshes need `out` as PLY or OBJ; an STL no tolerance,
+    or 'chain'.
 
-    files: one or several, as one cloud: PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV; or one
-    mesh: PLY, binary STL.
+    The bytes of the outputs are those of `weld` of the whole.
+
+    files: one or several, as one cloud; or one mesh.
+    tolerance: as for `weld`.
     relative: `tolerance` is a share of the diagonal of the cloud's box.
-    removed: a file for the dropped points. label: write all points, with the group of each in a
-    property of this name. withhold: write all points, with LAS's flag "withheld" of those dropped.
-    as_las: for `out` in LAS: coordinates are rounded to the steps of that file before anything is
-    decided.
-    memory: bytes that the process may take; 0: three quarters of the machine's. folder: for tiles;
-    empty: beside the first input. Where a run was killed, the same call goes on.
-    columns: as for `read`. mixed: LAS files may have other reference systems or time types than the
-    first, whose are written.
+    rule: 'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one
+        point of all that steps of at most the tolerance link.
+    same: vertex properties that must agree, with the largest difference.
+    keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of `keep_by`.
+    keep_by: a property of vertices.
+    order: in which 'first' goes through the points: 'given', 'lowest' or 'highest' of `order_by`.
+        Needs `keep` 'first'.
+    order_by: a property of vertices.
+    keep_seams: normals, texture coordinates and colors must agree, except for those in `across`.
+    across: properties that `keep_seams` does not look at.
+    keep_degenerate: keep faces that repeat a corner.
+    as_las: for `out` in LAS: coordinates, and means of them, are rounded to the steps of that file
+        before anything is decided of them.
+    memory: bytes that the process may take; 0: three quarters of the machine's.
+    folder: for tiles; empty: beside the first input. Where a run was killed, the same call goes on.
+    points_per_tile: At most about this many; 0: as the memory allows.
+    removed: a file for the dropped points.
+    label: write all points, with the group of each in a property of this name.
+    withhold: write all points, with LAS's flag "withheld" of those dropped.
+    columns: as for `read`.
+    mixed: LAS files may have other reference systems or time types than the first, whose are
+        written.
     communicator: ranks that do it together, each its share, in a folder that all see: anything with
-    `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where one
-    fails or is interrupted, all raise at the next collective call.
-    rule, keep, keep_by, order, order_by, same, keep_seams, across, keep_degenerate: as for `weld`.
+        `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where
+        one fails or is interrupted, all raise at the next collective call.
 
-    Raises FileError, ValueError.
+    Raises FileError when an input cannot be read or an output cannot be written, FileError,
+    ValueError for a tolerance below 0 or not finite, and as `weld`.
+
+    Cost: O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for each
+    condition, 48 for an order, and points as in memory for a choice of what is kept; of a mesh up
+    to 56 more, and 48 a triangle; the points of a compressed PCD also unpacked.
 
     >>> import os, tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:
@@ -204,10 +265,10 @@ def weld_stream(files: Union[Path, Iterable[Path]], out: Path, tolerance: float 
     >>> done.points, done.kept
     (3, 2)
     """
-    how = _settings(locals())
-    return in_communicator(communicator, lambda all: _core.weld_stream(
-        how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
-        progress=progress))
+    how = options(_core.WeldStreamOptions, locals())
+    return streamed(settings_of(files, how, columns, mixed), out, removed, label, withhold,
+                    communicator, progress)
+# end
 
 
 class StreamWeld(InSteps[_core.WeldInSteps]):
@@ -241,31 +302,22 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
     (True, 500)
     """
 
-    def __init__(self, files: Union[Path, Iterable[Path]], tolerance: float = 0.0, *,
+    def __init__(self, files: Path | Iterable[Path], tolerance: float = 0.0, *,
                  relative: bool = False, rule: str = "first", keep: str = "first",
                  keep_by: str = "", order: str = "given", order_by: str = "",
-                 same: _Same | None = None, keep_seams: bool = False, across: Iterable[str] = (),
+                 same: Mapping[str, float] | None = None, keep_seams: bool = False,
+                 across: Iterable[str] = (),
                  keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
                  folder: Path = "", points_per_tile: int = 0, columns: Columns | None = None,
                  mixed: bool = False, progress: Progress = None) -> None:
         files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
         across = _arrays.several(across, "across")
-        how = _settings(locals())
-        super().__init__(
-            _core.weld_of(how, progress=progress), files, tolerance, relative=relative,
-            rule=rule, keep=keep, keep_by=keep_by, order=order, order_by=order_by, same=same,
-            keep_seams=keep_seams, across=across, keep_degenerate=keep_degenerate, as_las=as_las,
-            memory=memory, folder=folder, points_per_tile=points_per_tile, columns=columns,
-            mixed=mixed)
+        how = settings_of(files, options(_core.WeldStreamOptions, locals()), columns, mixed)
+        super().__init__(_core.weld_of(how, progress=progress), locals())
 
     def scatter(self, *, progress: Progress = None) -> int:
         """Gives each tile its points, unless they have them. Returns the number of tiles."""
         return self._work.scatter(progress=progress)
-
-    @property
-    def tiles(self) -> int:
-        """The number of tiles, once they are there."""
-        return self._work.tiles()
 
     def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
         """Welds a tile, from 0, unless that is done."""
@@ -277,7 +329,3 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
         each whole or not at all. Once."""
         return self._work.finish(path_of(out), path_of(removed), _arrays.word(label, "label"),
                                  withhold, progress=progress)
-
-    def remove_folder(self) -> None:
-        """Removes the folder of the tiles."""
-        self._work.remove_folder()

@@ -1,43 +1,30 @@
 // Made by tools/bindings of the headers of C++: see its README.
 #include "../bindings.hpp"
-#include "../job.hpp"
-#include "made.hpp"
-#include <treeform/treeform.hpp>
 
 namespace binding {
+
 namespace {
 
-py::object split(const held_meshes& meshes, tf::boolean_options options) {
-    const carrying attributes(meshes);
-    options.keep_cuts = options.keep_cuts || attributes.mixes();
+py::object check_solid(const held_mesh& mesh) {
     return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::split(refs_of(meshes), options);
-                     }),
-                     attributes);
+        return require_faces(mesh, "mesh"), tf::check_solid(mesh.view(), report);
+    }));
 }
 
-py::object layer_heights(const held_mesh& mesh, const array_of<double>& at,
-                         const array_of<double>& normal, double thickness) {
+py::object section(const held_mesh& mesh, const array_of<double>& normal,
+                   const array_of<double>& at, const array_of<double>& heights) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        return tf::section(mesh.ref(), {point_of(at), point_of(normal)}, rows_of<double>(heights),
+                           {report});
+    }));
+}
+
+py::object layer_heights(const held_mesh& mesh, double thickness, const array_of<double>& normal,
+                         const array_of<double>& at) {
     return as_python(run([&](const tf::progress_callback&) {
         return tf::oriented_plane{point_of(at), point_of(normal)}.layer_heights(mesh.view().points,
                                                                                 thickness);
     }));
-}
-
-py::object components(const held_mesh& mesh, tf::components_options options) {
-    const carrying attributes({&mesh});
-    return as_python(
-        run([&](const tf::progress_callback&) { return tf::components(mesh.ref(), options); }),
-        attributes);
-}
-
-py::object submesh(const held_mesh& mesh, const ids_array& faces) {
-    const carrying attributes({&mesh});
-    return as_python(run([&](const tf::progress_callback&) {
-                         return tf::submesh(mesh.ref(), rows_of<std::uint32_t>(faces));
-                     }),
-                     attributes);
 }
 
 py::object moved_points(const held_mesh& mesh, const array_of<double>& matrix) {
@@ -76,17 +63,6 @@ py::object thicken(const held_mesh& mesh, double thickness, const std::string& s
     }));
 }
 
-py::object simplify(const held_mesh& mesh, double max_distance, const ids_array& face_groups,
-                    tf::simplify_options options) {
-    const carrying attributes({&mesh});
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return attributes.simplify(mesh.ref(), max_distance,
-                                                    rows_of<std::uint32_t>(face_groups), options);
-                     }),
-                     attributes);
-}
-
 py::object wall_thickness(const held_mesh& mesh, tf::thickness_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
@@ -104,29 +80,6 @@ py::object isolines(const held_mesh& mesh, const array_of<double>& values,
     return as_python(run([&](const tf::progress_callback& report) {
         return tf::isolines(mesh.ref(), rows_of<double>(values), rows_of<double>(levels), {report});
     }));
-}
-
-py::object resolve(const held_mesh& mesh, const std::string& mode, tf::resolve_options options) {
-    const carrying attributes({&mesh});
-    options.keep_cuts = options.keep_cuts || attributes.mixes();
-    return as_python(
-        run([&](const tf::progress_callback& report) {
-            options.progress = report;
-            return tf::resolve_self_intersections(
-                mesh.ref(), choice<tf::resolve_mode>("mode", words_of<tf::resolve_mode>::all, mode),
-                options);
-        }),
-        attributes);
-}
-
-py::object repair(const held_mesh& mesh, tf::repair_options options) {
-    const carrying attributes({&mesh});
-    options.keep_cuts = options.keep_cuts || attributes.mixes();
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::repair(mesh.ref(), options);
-                     }),
-                     attributes);
 }
 
 py::object wrap(const held_mesh& mesh, double size, tf::wrap_options options) {
@@ -147,6 +100,12 @@ py::object rounded(const points_array& points, const std::string& precision) {
         return tf::rounded(
             points_of(points),
             choice<tf::precision>("precision", words_of<tf::precision>::all, precision));
+    }));
+}
+
+py::object find_rounding_defects(const held_mesh& mesh, const points_array& placed) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        return tf::find_rounding_defects(mesh.view(), points_of(placed), report);
     }));
 }
 
@@ -225,6 +184,20 @@ py::object faces_in_box(const held_mesh& mesh, const array_of<double>& min,
     }));
 }
 
+py::object group_pairs(const held_mesh& mesh, const ids_array& pairs,
+                       const array_of<std::uint8_t>& kinds) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::group_pairs(mesh.view(), pairs_of(pairs, kinds));
+    }));
+}
+
+py::object intersection_paths(const held_mesh& mesh, const ids_array& pairs,
+                              const array_of<std::uint8_t>& kinds) {
+    return as_python(run([&](const tf::progress_callback&) {
+        return tf::intersection_paths(mesh.view(), pairs_of(pairs, kinds));
+    }));
+}
+
 py::object count_nearly_equal(const points_array& points, double distance) {
     return as_python(run([&](const tf::progress_callback&) {
         return tf::count_nearly_equal(points_of(points), distance);
@@ -236,42 +209,6 @@ py::object deviation(const held_mesh& a, const held_mesh& b, tf::deviation_optio
         options.progress = report;
         return tf::deviation(a.prepared(), b.prepared(), options);
     }));
-}
-
-py::object slide(const held_mesh& moving, const held_meshes& fixed,
-                 const array_of<double>& direction, tf::slide_options options) {
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::slide(moving.ref(), refs_of(fixed), point_of(direction),
-                                          options);
-                     }),
-                     moving);
-}
-
-py::object drop(const held_mesh& moving, const held_meshes& fixed, tf::drop_options options) {
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return fixed.empty() ? tf::drop(moving.ref(), options)
-                                              : tf::drop(moving.ref(), refs_of(fixed), options);
-                     }),
-                     moving);
-}
-
-py::object mate(const held_mesh& moving, const held_meshes& fixed, tf::mate_options options) {
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::mate(moving.ref(), refs_of(fixed), options);
-                     }),
-                     moving);
-}
-
-py::object separate(const held_mesh& moving, const held_meshes& fixed,
-                    tf::separate_options options) {
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::separate(moving.ref(), refs_of(fixed), options);
-                     }),
-                     moving);
 }
 
 py::object measure(const held_mesh& a, const held_mesh& b, tf::measure_options options) {
@@ -296,22 +233,6 @@ py::object time_of_impact(const held_mesh& a, const held_mesh& b, const array_of
     }));
 }
 
-py::object lay_flat(const held_mesh& moving, tf::lay_flat_options options) {
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::lay_flat(moving.prepared(), options);
-                     }),
-                     moving);
-}
-
-py::object align(const held_mesh& moving, const held_mesh& fixed, tf::align_options options) {
-    return as_python(run([&](const tf::progress_callback& report) {
-                         options.progress = report;
-                         return tf::align(moving.prepared(), fixed.prepared(), options);
-                     }),
-                     moving);
-}
-
 py::object closest_points(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
                           const array_of<double>& move_b, double radius) {
     return as_python(run([&](const tf::progress_callback&) {
@@ -320,27 +241,42 @@ py::object closest_points(const held_mesh& a, const held_mesh& b, const array_of
     }));
 }
 
+py::object clash_parts(const held_meshes& parts, tf::clash_options options,
+                       const ids_array& ignored) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return (options.ignored = rows_of<tf::part_pair>(ignored),
+                tf::clash(borrowed(parts), options));
+    }));
+}
+
+py::object clash_in_poses(const held_meshes& parts, const array_of<double>& poses,
+                          tf::pose_options options, const ids_array& ignored) {
+    return as_python(run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return (options.ignored = rows_of<tf::part_pair>(ignored),
+                tf::check_poses(borrowed(parts), transforms_of(poses), options));
+    }));
+}
+
 }  // namespace
 
 void add_functions(py::module_& module) {
-    add_job(module, "split", &split);
+    add_job(module, "check_solid", &check_solid);
+    add_job(module, "section", &section);
     add_job(module, "layer_heights", &layer_heights);
-    add_job(module, "components", &components);
-    add_job(module, "submesh", &submesh);
     add_job(module, "moved_points", &moved_points);
     add_job(module, "mass_properties", &mass_properties);
     add_job(module, "offset", &offset, job_kind::long_work);
     add_job(module, "hollow", &hollow, job_kind::long_work);
     add_job(module, "thicken", &thicken, job_kind::long_work);
-    add_job(module, "simplify", &simplify, job_kind::long_work);
     add_job(module, "wall_thickness", &wall_thickness);
     add_job(module, "oriented_box", &oriented_box);
     add_job(module, "isolines", &isolines);
-    add_job(module, "resolve", &resolve);
-    add_job(module, "repair", &repair);
     add_job(module, "wrap", &wrap, job_kind::long_work);
     add_job(module, "convex_hull", &convex_hull);
     add_job(module, "rounded", &rounded);
+    add_job(module, "find_rounding_defects", &find_rounding_defects);
     add_job(module, "bounds", &bounds);
     add_job(module, "signed_volume", &signed_volume);
     add_job(module, "surface_area", &surface_area);
@@ -353,18 +289,16 @@ void add_functions(py::module_& module) {
     add_job(module, "self_intersections", &self_intersections);
     add_job(module, "mesh_intersections", &mesh_intersections);
     add_job(module, "faces_in_box", &faces_in_box);
+    add_job(module, "group_pairs", &group_pairs);
+    add_job(module, "intersection_paths", &intersection_paths);
     add_job(module, "count_nearly_equal", &count_nearly_equal);
     add_job(module, "deviation", &deviation);
-    add_job(module, "slide", &slide);
-    add_job(module, "drop", &drop);
-    add_job(module, "mate", &mate);
-    add_job(module, "separate", &separate);
     add_job(module, "measure", &measure);
     add_job(module, "penetration_depth", &penetration_depth);
     add_job(module, "time_of_impact", &time_of_impact);
-    add_job(module, "lay_flat", &lay_flat);
-    add_job(module, "align", &align);
     add_job(module, "closest_points", &closest_points);
+    add_job(module, "clash_parts", &clash_parts);
+    add_job(module, "clash_in_poses", &clash_in_poses);
 }
 
 }  // namespace binding

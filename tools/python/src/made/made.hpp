@@ -3,33 +3,10 @@
 /// Made by tools/bindings of the headers of C++.
 
 #include "../fields.hpp"
-#include <treeform/mesh/align.hpp>
-#include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/clash.hpp>
-#include <treeform/mesh/convex_hull.hpp>
-#include <treeform/mesh/cut.hpp>
-#include <treeform/mesh/deviation.hpp>
-#include <treeform/mesh/distance.hpp>
-#include <treeform/mesh/intersections.hpp>
-#include <treeform/mesh/measure.hpp>
-#include <treeform/mesh/offset.hpp>
-#include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/section.hpp>
-#include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/simplify.hpp>
-#include <treeform/mesh/slide.hpp>
-#include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/mesh/weld.hpp>
-#include <treeform/mesh/weld_options.hpp>
-#include <treeform/mesh/weld_stream.hpp>
-#include <treeform/mesh/write.hpp>
 
 namespace binding {
 
+py::object object(of_result, tf::certificate&& from);
 py::object object(of_result, tf::boolean_result&& from, const carrying& attributes);
 py::object object(of_result, tf::cut_piece&& from, const carrying& attributes);
 py::object object(of_result, tf::mesh_part&& from, const carrying& attributes);

@@ -1,7 +1,25 @@
 // Made by tools/bindings of the headers of C++: see its README.
-#include "made.hpp"
+#include "../bindings.hpp"
 
 namespace binding {
+
+template <class Visit>
+void each_field(tf::read_options& how, const Visit& visit) {
+    visit("columns", how.columns);
+    visit("drop_nan", how.drop_nan);
+}
+
+template <class Visit>
+void each_field(tf::write_options& how, const Visit& visit) {
+    visit("format", how.format);
+    visit("ascii", how.ascii);
+    visit("precision", how.precision);
+    visit("drop", how.drop);
+    visit("rename", how.rename);
+    visit("las_scale", how.las_scale);
+    visit("las_offset", how.las_offset);
+    visit("round", how.round);
+}
 
 template <class Visit>
 void each_field(tf::boolean_options& how, const Visit& visit) {
@@ -283,6 +301,8 @@ void each_field(tf::pose_options& how, const Visit& visit) {
 }
 
 void add_options(py::module_& module) {
+    add_options_of<tf::read_options>(module, "ReadOptions");
+    add_options_of<tf::write_options>(module, "WriteOptions");
     add_options_of<tf::boolean_options>(module, "BooleanOptions");
     add_options_of<tf::cut_options>(module, "CutOptions");
     add_options_of<tf::components_options>(module, "ComponentsOptions");

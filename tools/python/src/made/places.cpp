@@ -1,5 +1,5 @@
 // Made by tools/bindings of the headers of C++: see its README.
-#include "../parts.hpp"
+#include "../bindings.hpp"
 
 namespace binding {
 
@@ -67,7 +67,7 @@ py::object object(of_result, tf::mesh_measure&& from) {
 }
 
 py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     py::dict made;
     made["certificate"] = certificate;
     made["end"] = as_python(std::move(from.end));
@@ -112,7 +112,7 @@ py::object object(of_result, tf::penetration_depth_result&& from) {
 }
 
 py::object object(of_result, tf::laid_flat&& from, const held_mesh& moving) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     py::dict made;
     made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix, certificate);
     made["matrix"] = as_python(std::move(from.matrix));

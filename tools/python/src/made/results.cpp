@@ -1,10 +1,32 @@
 // Made by tools/bindings of the headers of C++: see its README.
-#include "../parts.hpp"
+#include "../bindings.hpp"
 
 namespace binding {
 
+py::object object(of_result, tf::certificate&& from) {
+    py::dict made;
+    made["status"] = py::cast(word_of(from.status));
+    made["meeting_count"] = as_python(std::move(from.meeting_count));
+    made["meeting"] = column(from.meeting, [](const auto& one) { return one; });
+    made["open_count"] = as_python(std::move(from.open_count));
+    made["open_edges"] = ends_of(from.open);
+    made["open_faces"] = column(from.open, [](const auto& one) {
+        return std::array{one.face.operand, one.face.index};
+    });
+    made["boundary_edges"] = as_python(std::move(from.boundary_edges));
+    made["misoriented_edges"] = as_python(std::move(from.misoriented_edges));
+    made["max_displacement"] = as_python(std::move(from.max_displacement));
+    made["precision"] = as_python(std::move(from.precision));
+    made["vanished_faces"] = as_python(std::move(from.vanished_faces));
+    made["size_before"] = as_python(std::move(from.size_before));
+    made["size_after"] = as_python(std::move(from.size_after));
+    made["size_is_volume"] = as_python(std::move(from.size_is_volume));
+    made["message"] = py::cast(from.message());
+    return object_of("treeform._results", "Certificate", made);
+}
+
 py::object object(of_result, tf::boolean_result&& from, const carrying& attributes) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = data_of(from, attributes);
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
@@ -19,7 +41,7 @@ py::object object(of_result, tf::boolean_result&& from, const carrying& attribut
 }
 
 py::object object(of_result, tf::cut_piece&& from, const carrying& attributes) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = data_of(from, attributes);
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
@@ -51,7 +73,7 @@ py::object object(of_result, tf::mass_properties&& from) {
 }
 
 py::object object(of_result, tf::offset_result&& from) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = py::none();
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
@@ -62,7 +84,7 @@ py::object object(of_result, tf::offset_result&& from) {
 }
 
 py::object object(of_result, tf::simplify_result&& from, const carrying& attributes) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = data_of(from, attributes);
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
@@ -117,7 +139,7 @@ py::object object(of_result, tf::isolines_result&& from) {
 }
 
 py::object object(of_result, tf::resolve_result&& from, const carrying& attributes) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = data_of(from, attributes);
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
@@ -130,7 +152,7 @@ py::object object(of_result, tf::resolve_result&& from, const carrying& attribut
 }
 
 py::object object(of_result, tf::repair_result&& from, const carrying& attributes) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = data_of(from, attributes);
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
@@ -143,7 +165,7 @@ py::object object(of_result, tf::repair_result&& from, const carrying& attribute
 }
 
 py::object object(of_result, tf::wrap_result&& from) {
-    const py::object certificate = py::cast(from.certificate);
+    const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = py::none();
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);

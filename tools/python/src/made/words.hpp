@@ -3,24 +3,6 @@
 /// Made by tools/bindings of the headers of C++.
 
 #include "../words.hpp"
-#include <treeform/mesh/align.hpp>
-#include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/certificate.hpp>
-#include <treeform/mesh/measure.hpp>
-#include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/offset.hpp>
-#include <treeform/mesh/pack.hpp>
-#include <treeform/mesh/placement.hpp>
-#include <treeform/mesh/point_location.hpp>
-#include <treeform/mesh/predicates.hpp>
-#include <treeform/mesh/properties.hpp>
-#include <treeform/mesh/read.hpp>
-#include <treeform/mesh/repair.hpp>
-#include <treeform/mesh/self_intersections.hpp>
-#include <treeform/mesh/time_of_impact.hpp>
-#include <treeform/mesh/weld_options.hpp>
 
 namespace binding {
 

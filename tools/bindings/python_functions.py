@@ -1,0 +1,261 @@
+"""Functions of the package: signature, docstring and call. The docstring is that of the C++ header,
+without what only callers of C++ can use, and the example that the docstring had before."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from headers import FOLDERS, ROOT, Field
+from python_language import ARGUMENTS, Function, Language, call_text, camel, wrapped
+
+#: What exceptions of C++ are in Python.
+_ERRORS = {r"std::(invalid_argument|length_error)": "ValueError",
+           r"\b(io|stream)_error": "FileError", "std::overflow_error": "OverflowError"}
+#: Types of options in Python, where the default of C++ is none of Python's.
+_OPTIONAL = {"vector<named_column>": "Columns | None",
+             "optional<array<double,3>>": "Sequence[float] | None",
+             "transform<3>": "ArrayLike | None", "pair_kinds": "Iterable[str] | None",
+             "optional<array<double,2>>": "tuple[float, float] | None",
+             "vector<weld_condition>": "Mapping[str, float] | None"}
+_EMPTY = {"string": ("str", '""'), "filesystem::path": ("Path", '""'),
+          "vector<string>": ("Iterable[str]", "()")}
+_OPEN = {"solid": "NotSolidError where the mesh is open, ",
+         "solids": "NotSolidError where an operand is open, "}
+_NOT_CERTIFIED = "NotCertifiedError where the result could not be certified"
+_CHECK = "False returns what could not be certified, too, with its `certificate`."
+
+
+def read_docs() -> dict[str, str]:
+    """The docstrings of the functions of the door, without `///`; of overloads, the first."""
+    docs: dict[str, str] = {}
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).glob("*.hpp")):
+            comment: list[str] = []
+            code = ""
+            for line in path.read_text().splitlines():
+                if line.startswith("///") and not code:
+                    comment.append(line[4:])
+                    continue
+                code += f" {line}" if comment or code else ""
+                found = re.match(r"[^({=]*?[\w>&] (\w+)\(", re.sub(r"requires .*?> ", "", code))
+                if not line.strip() or found or code.rstrip().endswith((";", "}")):
+                    if found and comment:
+                        for name in (found[1], f"{found[1]} in {path.stem}"):
+                            docs.setdefault(name, "\n".join(comment))
+                    comment, code = [], ""
+    return docs
+
+
+class FunctionWriter:
+    def __init__(self, language: Language, options: dict[str, str]) -> None:
+        self.language, self.options = language, options
+        self.docs = read_docs()
+        self.public = {"_core": ["Attributes"]}
+        for path in sorted((ROOT / "tools/python/treeform").glob("_[a-z]*.py")):
+            if found := re.search(r"^__all__ = (\[[^\]]*\])", path.read_text(), re.M):
+                self.public[path.stem] = sorted(ast.literal_eval(found[1]))
+        self.known = set(sum(self.public.values(), [])) | {
+            one.name for of in language.results.values() for one in language.attributes(of)} | {
+            name for enum in language.enums.values() for name, _ in enum.values} | {
+            one.name for one in language.structs["certificate"].fields}
+        self.option_names = {"options"} | {
+            one.name for name in options for one in language.structs[name].fields} - self.known
+
+    def exports(self) -> str:
+        """What the package exports: the public names of its modules."""
+        text = ""
+        for module, names in self.public.items():
+            line = f"from .{module} import {', '.join(names)}"
+            text += (line if len(line) <= 100 else call_text(
+                f"from .{module} import (", names, ")")) + "\n"
+        all = sorted(f'"{name}"' for name in [*sum(self.public.values(), []), "__version__"])
+        return text + "\n" + call_text("__all__ = [", all, "]") + "\n"
+
+    # ---- words ----
+
+    def _token(self, found: re.Match[str]) -> str:
+        name = found[1]
+        owner, _, field = name.partition("::")
+        if owner in self.language.results:
+            name = ".".join(filter(None, (self.language.results[owner].name, field)))
+        if owner in self.language.enums and field:
+            return f"'{field}'"
+        if field and owner.endswith("_options"):
+            name = field
+        elif name.endswith("_options"):
+            name = name.removesuffix("_options")
+        elif name.endswith("_statistics"):
+            name = "statistics"
+        return f"`{name}`"
+
+    def said(self, text: str, names: set[str], own: str = "") -> str:
+        """`text` in words of Python; sentences that name what it does not have are left out."""
+        text = re.sub(r"^\[([^\]]+)\] ", lambda m: f"({m[1]},) ", text)
+        for before, after in self.language.words.items():
+            text = text.replace(before, after)
+        text = re.sub(r"\btreeform::", "", text)
+        text = re.sub(rf"\b(?:those|as) of `{own}_options`", "`options`", text) if own else text
+        text = re.sub(r"`?\bnone\b`?(?=:)|\b(?<=else )none\b", "`NONE`", text)
+        text = re.sub(r"`(?:options\.)?([\w:]+)`", self._token, text)
+
+        def is_known(token: str) -> bool:
+            last = token.rpartition(".")[2]
+            return last in names or (last not in self.option_names and (
+                last in self.known or not re.search(r"_|::|\(", last)))
+
+        text = re.sub(r" \(`([^`]+)`\)", lambda m: m[0] if is_known(m[1]) else "", text)
+        kept = []
+        for one in re.split(r"(?<=[.;])\s+(?=[A-Z`\[(]|for |naming )", text):
+            if all(map(is_known, re.findall(r"`([^`]*)`", one))):
+                kept.append(one)
+        made = " ".join(kept).strip()
+        return made[:-1] + "." if made.endswith(";") else made
+
+    def _paragraphs(self, one: Function, names: set[str]) -> tuple[list[str], list[str], str]:
+        """Of C++: what it does, what it raises, what it costs."""
+        name = one.cpp or (re.findall(r"tf::(\w+)\(", one.call) or [one.name])[0]
+        text = self.docs[name] if not one.doc or name in self.docs else ""
+        body, *tags = re.split(r"\n?^\\(?=\w)", text, flags=re.M)
+        for before, after in one.words.items():
+            body = body.replace(f"`{before}`", f"`{after}`")
+        said = [one.doc] if one.doc else [
+            self.said(" ".join(part.split()), names, one.name)
+            for part in re.split(r"\n\n|\n(?=- )", body)]
+        raises: list[str] = []
+        cost = ""
+        for tag in tags:
+            kind, _, rest = " ".join(tag.split()).partition(" ")
+            if kind == "throws":
+                for there, here in _ERRORS.items():
+                    rest = re.sub(there, here, rest)
+                what = self.said(rest, names)
+                raises += [what.rstrip(".")] if " " in what and what[0].isupper() else []
+            elif kind == "cost":
+                cost = self.said(rest, names)
+        return [part for part in [*said, one.also] if part], raises, cost
+
+    # ---- arguments ----
+
+    def _option(self, field: Field) -> tuple[str, str]:
+        """Annotation and default."""
+        type, default = field.type, field.default.rpartition("treeform::")[2]
+        if type in _OPTIONAL:
+            return _OPTIONAL[type], "None"
+        if type in _EMPTY:
+            return _EMPTY[type]
+        if type == "point3":
+            return "ArrayLike", f"({default or '0.0, 0.0, 0.0'})".replace(
+                "std::numeric_limits<double>::infinity()", "np.inf")
+        annotation = self.language.annotation(type)
+        if annotation.endswith("None"):
+            return annotation, "None"
+        if "max()" in default or "(-1)" in default:
+            return f"{annotation} | None", "None"
+        if "infinity()" in default:
+            return annotation, "np.inf"
+        if type in self.language.enums:
+            return "str", f'"{default.rpartition("::")[2]}"'
+        return annotation, {"true": "True", "false": "False"}.get(
+            default, default.replace("'", "_"))
+
+    def text(self, one: Function, example: str) -> str:
+        """The function, for a file of the package."""
+        language = self.language
+        names = {name for name, *_ in one.arguments}
+        signature, last, values = [], [], []
+        notes = dict(one.docs)
+        taken = {name for name, _ in one.parameters}
+        how = ""
+
+        def only_by_name() -> None:
+            if not any(part.startswith("*") for part in signature):
+                signature.append("*")
+
+        for name, type, default, first in one.arguments:
+            if name == "*":
+                only_by_name()
+            elif type in language.structs:
+                how = camel(type)
+                fields = {f.name: f for f in language.option_fields(
+                    type, f"{self.options[type]} {one.leave}")}
+                names |= set(fields)
+                for option in [*first, "*", *(f for f in fields if f not in first)]:
+                    if option == "*":
+                        only_by_name()
+                        continue
+                    annotation, value = self._option(fields[option])
+                    signature.append(f"{option}: {annotation} = {value}")
+                    notes.setdefault(option, self._note(fields[option], annotation, names))
+                    if not notes[option]:
+                        raise ValueError(f"{one.name}: say what {option} is")
+                values.append("how")
+            else:
+                plain = name.strip("*")
+                annotation, value = ("str", "{}") if type in language.enums else \
+                    ARGUMENTS[type][3:] if type in ARGUMENTS else (type, "{}")
+                if default == "None" and "None" not in annotation and annotation != "Any":
+                    annotation += " | None"
+                (last if name.startswith("**") else signature).append(
+                    f"{name}: {annotation}{default and ' = ' + default}")
+                if plain in taken:
+                    values.append(value.format(plain))
+        only_by_name()
+        if one.check:
+            signature.append("check: bool = True")
+            notes["check"] = _CHECK
+        signature += ["progress: Progress = None", *last]
+        returns = one.made or re.sub(r"Optional\[(.+)\]$", r"\1 | None", one.returns)
+        if one.missing:
+            returns = returns.removesuffix(" | None")
+        text = call_text(f"def {one.name}(", signature, f") -> {returns}:") + "\n"
+        said, raises, cost = self._paragraphs(one, names)
+        lines: list[str] = []
+        for before, part in zip([":", *said], said):
+            is_item = part.startswith("- ")
+            goes_on = not lines or is_item and (before.startswith("- ") or before.endswith(":"))
+            lines += ([] if goes_on else [""]) + wrapped(
+                part, 6 if is_item else 4, "" if lines else '"""', 4)
+        order = [part.partition(":")[0].strip("*") for part in signature]
+        for i, name in enumerate(sorted(notes, key=order.index)):
+            lines += ([""] if i == 0 else []) + wrapped(f"{name}: {notes[name]}", 8, "", 4)
+        raised = [_OPEN.get(one.check, "") + _NOT_CERTIFIED] if one.check else []
+        raised += raises
+        for part in filter(None, [raised and f"Raises {'; '.join(raised)}",
+                                  cost and f"Cost: {cost}"]):
+            lines += ["", *wrapped(part if part.endswith(".") else part + ".", 4, "")]
+        if not example:
+            raise ValueError(f"{one.name}: an example is missing in its docstring")
+        text += "\n".join(lines) + "\n\n" + example + '    """\n'
+        if how:
+            text += f"    how = options(_core.{how}, locals(){one.given and ', ' + one.given})\n"
+        front, back = one.value.split("{}")
+        if one.check:
+            of_one = "" if one.check.endswith("s") else ", of_one=True"
+            front, back = f"checked({front}", f"{back}, check{of_one})"
+        if one.body:
+            return text + f"    return {front}{one.body}{back}\n"
+        values.append("progress=progress")
+        if not one.missing:
+            return text + call_text(f"    return {front}_core.{one.name}(", values,
+                                    f"){back}") + "\n"
+        text += call_text(f"    made = _core.{one.name}(", values, ")") + "\n    if made is None:\n"
+        return text + (f'        raise ValueError("{one.name}: {one.missing}")\n'
+                       f"    return {front}made{back}\n")
+
+    def _note(self, field: Field, annotation: str, names: set[str]) -> str:
+        """What is said of an option."""
+        text = self.said(self.language.sentence(field, False), names)
+        values = self.language.words_of(field.type.removeprefix("optional<").rstrip(">"))
+        if annotation.endswith("None"):
+            text = re.sub("(Not given|Default|`NONE`):", "None:", text)
+        return " ".join(filter(None, [values and values + ".", text]))
+
+    def block(self, names: list[str], functions: dict[str, Function], before: str) -> str:
+        """Of a file; examples are those that there are."""
+        made = []
+        for name in names:
+            found = re.search(rf'^def {name}\(.*?^    """.*?^(    >>> .*?)^    """', before,
+                              re.M | re.S)
+            made.append(self.text(functions[name], found[1] if found else ""))
+        return "\n\n".join(made)

@@ -1,0 +1,251 @@
+#include "bindings.hpp"
+
+namespace binding {
+namespace {
+
+using id = std::int64_t;  ///< as NumPy numbers elements
+
+/// [Q][k] distances and numbers, nearest first; infinite and `none` where there are fewer.
+class neighbor_table {
+  public:
+    neighbor_table(std::size_t queries, std::size_t k, std::size_t none)
+        : k_(k),
+          distances_(entries(queries, k), std::numeric_limits<double>::infinity()),
+          ids_(distances_.size(), static_cast<id>(none)) {}
+
+    void set(std::size_t query, std::size_t i, double distance, id number) {
+        distances_[query * k_ + i] = distance;
+        ids_[query * k_ + i] = number;
+    }
+    py::tuple taken() && {
+        return py::make_tuple(as_array<double>(std::move(distances_)),
+                              as_array<id>(std::move(ids_)));
+    }
+
+  private:
+    std::size_t k_;
+    std::vector<double> distances_;
+    std::vector<id> ids_;
+};
+
+/// [n][2]
+py::array as_pairs(const std::vector<tf::id_pair>& pairs) {
+    return column(pairs, [](const tf::id_pair& pair) {
+        return std::array<id, 2>{pair.first, pair.second};
+    });
+}
+
+/// Points to search near, for the array that they are of.
+template <std::size_t D>
+class cloud {
+  public:
+    using point = std::array<double, D>;
+
+    explicit cloud(const array_of<double>& points)
+        : search_(run([rows = rows_of<point>(points)](const tf::progress_callback&) {
+              return tf::point_search<D>(rows);
+          })) {}
+
+    [[nodiscard]] std::size_t size() const { return search_.size(); }
+
+    /// The nearest points. Nearer than `bound` if that is finite, as SciPy has it.
+    py::tuple query(const array_of<double>& queries, std::size_t k, double bound) const {
+        const auto all = rows_of<point>(queries);
+        neighbor_table table(all.size(), k, size());
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+            const auto found =
+                search_.k_nearest(all.subspan(begin, end - begin), std::min(k, size()), bound);
+            for (std::size_t q = 0; q < found.size(); ++q)
+                for (std::size_t i = 0; i < found[q].size(); ++i) {
+                    if (!(found[q][i].distance < bound)) break;
+                    table.set(begin + q, i, found[q][i].distance, found[q][i].id);
+                }
+        });
+        return std::move(table).taken();
+    }
+
+    /// All points within `radius` of each query: where its list begins, numbers, distances; nearest
+    /// first, or by number.
+    py::tuple query_ball(const array_of<double>& queries, double radius, bool by_number) const {
+        const auto all = rows_of<point>(queries);
+        std::vector<id> begins{0}, ids;
+        std::vector<double> distances;
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+            auto found = search_.all_within(all.subspan(begin, end - begin), radius);
+            for (std::size_t q = 0; q < found.size(); ++q) {
+                const std::span list(found.neighbors.data() + found.begin[q],
+                                     found.neighbors.data() + found.begin[q + 1]);
+                if (by_number) std::ranges::sort(list, {}, [](const auto& one) { return one.id; });
+                for (const auto& one : list) {
+                    ids.push_back(one.id);
+                    distances.push_back(one.distance);
+                }
+                begins.push_back(static_cast<id>(ids.size()));
+            }
+        });
+        return py::make_tuple(as_array<id>(std::move(begins)), as_array<id>(std::move(ids)),
+                              as_array<double>(std::move(distances)));
+    }
+
+    /// The pairs of points within `radius`, ascending.
+    [[nodiscard]] py::array query_pairs(double radius) const {
+        if (!(radius >= 0.0)) throw std::invalid_argument("r: negative or NaN");
+        return as_pairs(run([&](const tf::progress_callback& report) {
+            return search_.pairs_within(radius, report);
+        }));
+    }
+
+  private:
+    tf::point_search<D> search_;
+};
+
+/// Lists of Python of the numbers between two begins.
+py::list lists(const array_of<id>& begins, const array_of<id>& ids) {
+    const auto begin = rows_of<id>(begins);
+    const auto all = rows_of<id>(ids);
+    py::list made(begin.size() - 1);
+    for (std::size_t q = 0; q + 1 < begin.size(); ++q) {
+        py::list one(static_cast<std::size_t>(begin[q + 1] - begin[q]));
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            if (i % 65536 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
+            one[i] = py::int_(all[static_cast<std::size_t>(begin[q]) + i]);
+        }
+        made[q] = std::move(one);
+    }
+    return made;
+}
+
+/// The boxes of two arrays, with a tree over them; the arrays may go.
+template <std::size_t D>
+class boxes {
+  public:
+    using point = std::array<double, D>;
+    using box = tf::aabb<double, D>;
+
+    boxes(const array_of<double>& mins, const array_of<double>& maxs)
+        : boxes_(boxes_of(mins, maxs)), tree_(run([this](const tf::progress_callback&) {
+              return tf::build(boxes_, [](const box& one) { return one; });
+          })) {}
+
+    [[nodiscard]] std::size_t size() const { return boxes_.size(); }
+
+    /// [n][D] the lows and the highs.
+    [[nodiscard]] py::tuple bounds() const {
+        return py::make_tuple(column(boxes_, [](const box& one) { return one.min; }),
+                              column(boxes_, [](const box& one) { return one.max; }));
+    }
+
+    /// The pairs of boxes that overlap, ascending.
+    py::array pairs() const {
+        return pairs_by(*this,
+                        [&](const auto& overlap) { return tf::search_self_all(tree_, overlap); });
+    }
+    /// The pairs of a box of this and a box of the other that overlap, ascending.
+    py::array pairs_with(const boxes& other) const {
+        return pairs_by(other, [&](const auto& overlap) {
+            return tf::search_all(tree_, other.tree_, overlap);
+        });
+    }
+
+    /// The boxes that overlap each query: where its list begins, and numbers, ascending.
+    py::tuple query(const array_of<double>& mins, const array_of<double>& maxs) const {
+        const std::vector<box> all = boxes_of(mins, maxs);
+        for (std::size_t q = 0; q < all.size(); ++q)
+            for (std::size_t k = 0; k < D; ++k)
+                if (std::isnan(all[q].min[k]) || std::isnan(all[q].max[k]))
+                    throw std::invalid_argument("query " + std::to_string(q) +
+                                                " has a coordinate that is NaN");
+        std::vector<id> begins{0}, ids;
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+            std::vector<std::vector<std::uint32_t>> found(end - begin);
+            tf::for_chunks(found.size(), 64, [&](std::size_t from, std::size_t to, std::size_t) {
+                for (std::size_t q = from; q < to; ++q)
+                    found[q] = tf::search_all(tree_, all[begin + q], [&](std::uint32_t i) {
+                        return tf::overlaps(boxes_[i], all[begin + q]);
+                    });
+            });
+            for (const auto& one : found) {
+                ids.insert(ids.end(), one.begin(), one.end());
+                begins.push_back(static_cast<id>(ids.size()));
+            }
+        });
+        return py::make_tuple(as_array<id>(std::move(begins)), as_array<id>(std::move(ids)));
+    }
+
+    /// The nearest boxes.
+    py::tuple nearest(const array_of<double>& queries, std::size_t k, double radius) const {
+        const auto all = rows_of<point>(queries);
+        neighbor_table table(all.size(), k, size());
+        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+            const auto some = all.subspan(begin, end - begin);
+            const auto found =
+                tf::k_nearest_batch(tree_, some, std::min(k, size()),
+                                    [&](std::size_t q, std::uint32_t i) {
+                                        return tf::squared_distance(boxes_[i], some[q]);
+                                    },
+                                    {.radius = radius});
+            for (std::size_t q = 0; q < found.size(); ++q)
+                for (std::size_t i = 0; i < found[q].size(); ++i)
+                    table.set(begin + q, i, std::sqrt(found[q][i].squared_distance()),
+                              found[q][i].id);
+        });
+        return std::move(table).taken();
+    }
+
+  private:
+    /// What `search` finds with a test that says no once the job is to stop.
+    template <class Search>
+    py::array pairs_by(const boxes& other, const Search& search) const {
+        return as_pairs(run([&](const tf::progress_callback&) {
+            const std::atomic<bool>* const stop = stop_of_job();
+            return search([&](std::uint32_t a, std::uint32_t b) {
+                return (stop == nullptr || !*stop) && tf::overlaps(boxes_[a], other.boxes_[b]);
+            });
+        }));
+    }
+
+    static std::vector<box> boxes_of(const array_of<double>& mins, const array_of<double>& maxs) {
+        const auto low = rows_of<point>(mins), high = rows_of<point>(maxs);
+        if (low.size() != high.size())
+            throw std::invalid_argument("treeform: as many lows as highs are needed");
+        std::vector<box> all(low.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            all[i].min = low[i];
+            all[i].max = high[i];
+        }
+        return all;
+    }
+
+    std::vector<box> boxes_;
+    tf::tree<D> tree_;
+};
+
+template <std::size_t D>
+void add_trees_of(py::module_& module, const char* cloud_name, const char* boxes_name) {
+    py::class_<cloud<D>>(module, cloud_name)
+        .def(py::init<const array_of<double>&>())
+        .def("__len__", &cloud<D>::size)
+        .def("query", &cloud<D>::query)
+        .def("query_ball", &cloud<D>::query_ball)
+        .def("query_pairs", &cloud<D>::query_pairs);
+    make_jobs(module.attr(cloud_name), {"query", "query_ball", "query_pairs"});
+    py::class_<boxes<D>>(module, boxes_name)
+        .def(py::init<const array_of<double>&, const array_of<double>&>())
+        .def("__len__", &boxes<D>::size)
+        .def("bounds", &boxes<D>::bounds)
+        .def("pairs", &boxes<D>::pairs)
+        .def("pairs_with", &boxes<D>::pairs_with)
+        .def("query", &boxes<D>::query)
+        .def("nearest", &boxes<D>::nearest);
+    make_jobs(module.attr(boxes_name), {"pairs", "pairs_with", "query", "nearest"});
+}
+
+}  // namespace
+
+void add_trees(py::module_& module) {
+    add_trees_of<2>(module, "Cloud2", "Boxes2");
+    add_trees_of<3>(module, "Cloud3", "Boxes3");
+    module.def("lists", &lists);
+}
+
+}  // namespace binding
