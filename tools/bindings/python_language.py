@@ -58,8 +58,8 @@ class Result:
 @dataclass
 class Function:
     """A function of the extension, `cut(mesh: Mesh, ..., options: cut_options) -> CutPieces`, and
-    the call of C++. That of the package has its name and arguments: defaults are said there,
-    options are arguments by name, but for those in brackets, and behind `*` all are by name."""
+    the call of C++. The package's function of that name takes the same arguments: with defaults,
+    and each option by its name. Options in brackets are left out; all behind `*` are by name."""
 
     declared: str
     call: str = ""  #: "": it is in `src/*.cpp`

@@ -220,10 +220,11 @@ void say_pieces(job& work, const cut_settings& s, const usable_input& input,
         text = open < pieces.size() ? ", volume " + brief(volume) + " in all" : std::string();
         if (open > 0) text += ", " + grouped(open) + " open";
     }
-    if (const json& reached = work.entry["distances"];
-        reached.is_object() && !reached["resolution"].is_null())
-        text += ", " + brief(reached["least"].get<double>()) + " to " +
-                brief(reached["greatest"].get<double>()) + " away";
+    if (const json& reached = work.entry["distances"]; reached.is_object())
+        text +=
+            (s.mode == cut_mode::simplify ? ", at most "
+                                          : ", " + brief(reached["least"].get<double>()) + " to ") +
+            brief(reached["greatest"].get<double>()) + " away";
     work.out.result(work.name + ": " + grouped(pieces.size()) + word_for(s, pieces.size()) + text);
     warn_of_missing(work, s, input, pieces.size());
 }

@@ -28,7 +28,7 @@ void add_shape_modes(command_line& line) {
          .more = "No faces are made to meet. Borders and seams, also of materials and\n"
                  "values, are kept; values of vertices and corners are interpolated.\n\nExamples:\n"
                  "  $ tf-cut simplify data/sphere.ply --distance 0.01 -o fewer.ply\n"
-                 "  data/sphere.ply: 1 piece: 448 faces, volume 4.12737\n",
+                 "  data/sphere.ply: 1 piece: 448 faces, volume 4.12737, at most 0.00999988 away\n",
          .without = without});
     line.mode(
         {.names = "offset",
@@ -119,8 +119,8 @@ void add_modes(command_line& line) {
 void add_distances(command_line& line, shape_settings& s) {
     line.group("Distances");
     line.option({"--distance", "D",
-                 "simplify, offset: how far apart both surfaces may be;\n"
-                 "how far the solid grows, or shrinks below 0"},
+                 "simplify, offset: how far both surfaces may be apart;\n"
+                 "or how far the solid grows (below 0: shrinks)"},
                 [&s](std::string_view v) {
                     const bool shrinks = v.starts_with('-');
                     s.distance = parse_distance("--distance", v.substr(shrinks ? 1 : 0));

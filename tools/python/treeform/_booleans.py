@@ -58,7 +58,7 @@ def operands_of(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
 
 def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
              progress: Progress) -> BooleanResult:
-    """Of one mesh, its objects, but for the union."""
+    """A single mesh stands for its objects, except in a union."""
     operands = operands_of(meshes)
     if len(operands) == 1 and operation != "union":
         operands = _core.objects_of(operands[0]) or operands
