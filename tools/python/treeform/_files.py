@@ -237,7 +237,7 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     drop: Columns of points that are not written; "normal", "uv" or "color" for all of that kind,
         also those of corners.
     rename: columns of points under another name: {'old': 'new'}.
-    las_scale: Of LAS and LAZ; None: those of the file, else as below.
+    las_scale: Of LAS and LAZ; None: those of the file, else as `write` says.
     las_offset: likewise.
     round: a mesh whose coordinates were certified (`Mesh.certificate`) may be rounded further,
         which can undo what was certified. Otherwise that is an error: ask the operation for

@@ -35,7 +35,7 @@ struct write_options {
     /// those of corners.
     std::vector<std::string> drop{};
     std::vector<named_column> rename{};  ///< of points: `source` is the column, `name` the new one
-    /// Of LAS and LAZ; none: those of the file, else as below.
+    /// Of LAS and LAZ; none: those of the file, else as `write` says.
     std::optional<std::array<double, 3>> las_scale{};
     std::optional<std::array<double, 3>> las_offset{};
     /// Allow further rounding of certified coordinates, which can undo what was certified.

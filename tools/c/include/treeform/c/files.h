@@ -235,7 +235,8 @@ typedef struct treeform_write_options {
     /// [rename_count] of points: `source` is the column, `name` the new one
     const treeform_named_column* rename;
     size_t rename_count;
-    /// [3] Of LAS and LAZ; `TREEFORM_NONE`: those of the file, else as below; or null
+    /// [3] Of LAS and LAZ; `TREEFORM_NONE`: those of the file, else as `treeform_write` says; or
+    /// null
     const double* las_scale;
     const double* las_offset;  ///< [3] ; or null
 } treeform_write_options;
