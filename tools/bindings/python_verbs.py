@@ -79,8 +79,9 @@ FUNCTIONS = [
                   "values, only with `simplify`.",
              docs=_VOLUMES | {
                    "expression": "`a`, `b`, `c`, ... for `operands`, names of `meshes`, `+` or `|` "
-                                 "union, `*` or `&` intersection, `-` difference, `^` exclusive or, and brackets. `*` and `&` bind "
-                                 "tighter than the others, which go from left to right."}),
+                                 "union, `*` or `&` intersection, `-` difference, `^` exclusive "
+                                 "or, and brackets. `*` and `&` bind tighter than the others, "
+                                 "which go from left to right."}),
     Function("clip(sheet: Mesh, *solids: Operands, keep: str = \"outside\", options: "
              "boolean_options)"
              " -> BooleanResult", body="clipped(sheet, solids, keep, how, progress)",
