@@ -197,6 +197,7 @@ TEST_CASE("certified operands: a second question about prepared meshes builds no
 }
 
 TEST_CASE("certified operands: progress can say stop while it is found out whether they are") {
+    const tf::thread_scope one(1);  // else both are looked at side by side
     const operands pair{ball(3, 1.0), moved(ball(3, 1.0), {0.3, 0.2, 0.1})};
     const auto a = tf::prepared_mesh::borrow(pair[0]), b = tf::prepared_mesh::borrow(pair[1]);
     std::vector<double> told;
