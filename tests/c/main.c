@@ -61,15 +61,8 @@ treeform_mesh* cube(double x, double y, double z, double size) {
 }
 
 treeform_mesh* model(const char* path) {
-    treeform_file* file = NULL;
-    treeform_part* part = NULL;
     treeform_mesh* mesh = NULL;
-    OK(treeform_read(path, NULL, &file));
-    OK(treeform_usable_part(file, NULL, &part));
-    OK(treeform_mesh_create(part->mesh.points, part->mesh.point_count, part->mesh.faces,
-                            part->mesh.face_count, TREEFORM_COPY, &mesh));
-    treeform_free(part);
-    treeform_free(file);
+    OK(treeform_read_mesh(path, &mesh));
     return mesh;
 }
 

@@ -245,7 +245,7 @@ class Language:
         if found := re.fullmatch(r"optional<(\w+)>", type):
             inner = found.group(1)
             if inner in self.enums:
-                return [Member(f"int32_t {name}", f"{doc}; a `{self.enum(inner)}`, or -1", "",
+                return [Member(f"int32_t {name}", f"{doc.rstrip('.')}; a `{self.enum(inner)}`, or -1", "",
                                f"if ({o} != -1) {how} = choice<tf::{inner}>({o}, "
                                f'{len(self.enums[inner].values)}, "{name}");', f"{to} = -1;")]
         raise ValueError(f"{of.cpp}: {type} {name}: C has no such option yet")

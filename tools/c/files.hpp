@@ -8,6 +8,7 @@
 #include <treeform/mesh/write.hpp>
 
 #include <tools/c/made/structs.hpp>
+#include <tools/c/mesh.hpp>
 
 struct treeform_robot {
     void* owner;
@@ -23,6 +24,14 @@ namespace glue {
 /// stored.
 inline tf::mesh_file read(const std::filesystem::path& path, std::string_view format) {
     return tf::read(path, format);
+}
+
+/// The mesh of the file at `path`, in one call: corners with equal coordinates are one vertex,
+/// triangles that are not finite are left out. `treeform_read` and `treeform_as_mesh` tell which.
+inline answer_of<treeform_mesh> read_mesh(const std::filesystem::path& path) {
+    tf::mesh own = tf::read_mesh(path).mesh;
+    const std::span<const tf::face> faces = own.faces;  // stay where they are when moved
+    return mesh_of(std::move(own), {}, faces, false, 0);
 }
 
 /// Reads the file at `path` as `treeform_read` does; options may be null.

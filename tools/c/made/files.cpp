@@ -228,6 +228,13 @@ treeform_code treeform_read(const char* path, const char* format, treeform_file*
     });
 }
 
+treeform_code treeform_read_mesh(const char* path, treeform_mesh** mesh) {
+    return glue::guard([&] {
+        glue::start(mesh);
+        return glue::give(glue::read_mesh(std::string(&glue::need(path, "path"))), mesh);
+    });
+}
+
 treeform_code treeform_read_as(const char* path, const treeform_read_options* options,
                                treeform_file** file) {
     return glue::guard([&] {

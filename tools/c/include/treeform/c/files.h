@@ -8,14 +8,18 @@
 typedef struct treeform_file treeform_file;
 
 // made of the headers of C++:
-//   read() named_column read_options read_as() read_memory() file_create() file_copy()
-//   scalar_type column element part io_warning mesh_file file_look() file_set_points()
-//   file_set_column() file_set_texture() file_add_part()
+//   read() read_mesh() named_column read_options read_as() read_memory() file_create()
+//   file_copy() scalar_type column element part io_warning mesh_file file_look()
+//   file_set_points() file_set_column() file_set_texture() file_add_part()
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its
 /// dot ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
 /// stored.
 TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
+
+/// The mesh of the file at `path`, in one call: corners with equal coordinates are one vertex,
+/// triangles that are not finite are left out. `treeform_read` and `treeform_as_mesh` tell which.
+TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh** mesh);
 
 /// A column of a table of text, by the name that it gets.
 typedef struct treeform_named_column {
@@ -220,7 +224,7 @@ typedef struct treeform_write_options {
     int32_t ascii;
     /// Precision of the coordinates; `TREEFORM_NONE`: as they were stored. Binary STL and GLB hold
     /// float32 only. 3MF holds doubles, but its readers make floats of them: none is float32
-    /// there.; a `treeform_precision`, or -1
+    /// there; a `treeform_precision`, or -1
     int32_t precision;
     /// the coordinates are certified: fail rather than round them. For `treeform_write_mesh`
     int32_t certified;
