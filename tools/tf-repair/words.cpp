@@ -33,11 +33,14 @@ std::string offers(const repair_settings& settings, const tf::repaired_file& mad
     return text + ")";
 }
 
-/// That --accept-loss leads on, where it does.
-std::string accepted(const repair_settings& settings, const attempt& works) {
+/// That --accept-loss leads on, where it does: where all of the one mesh was made but for the loss,
+/// or else where trying says so.
+std::string accepted(const repair_settings& settings, const tf::repaired_file& made,
+                     const attempt& works) {
     repair_settings tried = settings;
     tried.steps.max_loss = 1.0;
-    return works(tried) ? " (--accept-loss writes it)" : " (--wrap 2% wraps it)";
+    const bool is_made = made.parts.empty() && made.statistics.sheets == 0;
+    return is_made || works(tried) ? " (--accept-loss writes it)" : " (--wrap 2% wraps it)";
 }
 
 std::string reason(const repair_settings& settings, const tf::repaired_file& made,
@@ -54,8 +57,8 @@ std::string reason(const repair_settings& settings, const tf::repaired_file& mad
         case tf::status::excessive_loss:
             if (known.size_before == 0.0)
                 return counted(made.statistics.vanished_components, "part", "parts") +
-                       " would vanish" + accepted(settings, works);
-            return text + accepted(settings, works);
+                       " would vanish" + accepted(settings, made, works);
+            return text + accepted(settings, made, works);
         case tf::status::not_certified:
         case tf::status::vanished:
             return text + (known.precision == tf::precision::float32
