@@ -251,11 +251,8 @@ class FunctionWriter:
             text = re.sub("(Not given|Default|`NONE`):", "None:", text)
         return " ".join(filter(None, [values and values + ".", text]))
 
-    def block(self, names: list[str], functions: dict[str, Function], before: str) -> str:
-        """Of a file; examples are those that there are."""
-        made = []
-        for name in names:
-            found = re.search(rf'^def {name}\(.*?^    """.*?^(    >>> .*?)^    """', before,
-                              re.M | re.S)
-            made.append(self.text(functions[name], found[1] if found else ""))
-        return "\n\n".join(made)
+    def function(self, one: Function, before: str) -> str:
+        """Of a block, `before`; its example is that which there is."""
+        found = re.search(rf'^def {one.name}\(.*?^    """.*?^(    >>> .*?)^    """', before,
+                          re.M | re.S)
+        return self.text(one, found[1] if found else "")

@@ -49,6 +49,7 @@ class Result:
     context: str = ""  #: what it is made in, of `CONTEXTS`
     custom: dict[str, list[Attribute]] = field(default_factory=dict)  #: "+": more of them
     docs: dict[str, str] = field(default_factory=dict)
+    true: str = ""  #: when it is true, where not always
 
     @property
     def is_tuple(self) -> bool:
@@ -258,6 +259,8 @@ class Language:
         text += "\n".join(lines) + '\n    """\n\n'
         for one in own:
             text += f"    {one.name}: {one.annotation}{one.default and ' = ' + one.default}\n"
+        if of.true:
+            text += f"\n    def __bool__(self) -> bool:\n        return {of.true}\n"
         if of.is_tuple:
             text += "\n    def __repr__(self) -> str:\n        return tuple_repr(self)\n"
         return text

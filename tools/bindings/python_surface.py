@@ -129,7 +129,7 @@ RESULTS = [
                column("normals", "Floats", "(S, 3) the outward normal of each side, of length 1.",
                       "sides", "numbers(one.normal)")]}),
     # _properties
-    Result("solid_defects", "SolidDefects", "_properties",
+    Result("solid_defects", "SolidDefects", "_properties", true='self.message != "none"',
            doc="What keeps a mesh from being a solid; `bool()` says whether there is anything.",
            custom={"+": [Attribute("message", "str",
                                    "'open at 37 edges, 2 pairs of faces meet'; 'none'.",
@@ -259,7 +259,7 @@ RESULTS = [
                       f"py::cast(from.on_{x}.face)")] for x in "ab"},
            docs={"relation": "'separate', 'touching' or 'penetrating'. Exact."}),
     Result("placement", "Placement", "_placement", "MeshResult", context="moving",
-           doc="Where a mesh goes. True where it has a place; else `message` says why not.",
+           true="bool(self.certificate)", doc="Where a mesh goes. True where it has a place; else `message` says why not.",
            leave="clearance bed below_bed on_bed max_travel statistics",
            docs={"end": "Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', "
                         "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
@@ -313,7 +313,7 @@ RESULTS = [
                                     "one.overhang")],
                "+": [MESSAGE]}),
     Result("align_result", "Alignment", "_placement", "MeshResult", context="moving",
-           leave="pivot pivot_moved freedoms", doc="The motion that `align` has found.",
+           leave="pivot pivot_moved freedoms", true="self.converged", doc="The motion that `align` has found.",
            docs={"end": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'."},
            custom={"points": [Attribute("mesh", "Mesh", "The moved mesh; of a cloud, one without "
                                         "faces.", "moved_mesh(std::move(from.points), moving, "
@@ -327,6 +327,7 @@ RESULTS = [
                "mesh", "Mesh", "The part where it goes; where it was, if it is not placed.",
                "moved_mesh(std::move(from.points), moving, from.matrix, py::none())")]}),
     Result("packing", "Packing", "_placement", leave="pairs_measured bed certificate",
+           true="len(self.not_placed) == 0",
            doc="Filled plates. True where every part has a place.",
            custom={"parts": [Attribute("parts", "list[PackedPart]", "In the order of the input.",
                                        "py::list()")], "+": [MESSAGE]}),

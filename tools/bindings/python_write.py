@@ -15,7 +15,7 @@ PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
 #: Modules whose results are in `places.cpp`.
 PLACES = ("_assembly", "_nearness", "_placement")
-BLOCK = re.compile(r"^# made of (results|options|functions|names|imports)[^\n]*:\n"
+BLOCK = re.compile(r"^# made of (headers|options|functions|names|imports)[^\n]*:\n"
                    r"((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
 
@@ -28,6 +28,7 @@ class Writer:
         self.functions = [one for one in functions if not one.body]
         self.package = FunctionWriter(language, options)
         self.by_name = {one.name: one for one in functions}
+        self.classes = {one.name: one for one in reversed(language.results.values())}
 
     def package_file(self, path: pathlib.Path) -> str:
         """A file of the package with its blocks made anew."""
@@ -46,19 +47,20 @@ class Writer:
                                   for module, name in modules) + "# end\n"
         if kind == "names":
             return head + self.package.exports() + "# end\n"
-        if kind == "functions" and names:
-            return head + self.package.block(names, self.by_name, found.group(0)) + "# end\n"
         if kind == "functions":
             return head + "".join(self.language.function_stub(one)
                                   for one in self.functions) + "# end\n"
-        classes = []
+        made = []
         for name in names:
-            of = self.language.results[name]
+            if name in self.by_name:
+                made.append(self.package.function(self.by_name[name], found.group(0)))
+                continue
+            of = self.classes[name]
             before = re.search(rf"^class {of.name}\(.*?(?=^\S)", found.group(0), re.M | re.S)
             order = re.findall(r"^    (\w+): ", before.group(0).rpartition('"""')[2], re.M) \
                 if before else []
-            classes.append(self.language.class_text(of, order))
-        return head + "\n\n".join(classes) + "# end\n"
+            made.append(self.language.class_text(of, order))
+        return head + "\n\n".join(made) + "# end\n"
 
     def _calls(self, start: str, what: str, calls: list[Function]) -> str:
         text = start + "namespace {\n\n"

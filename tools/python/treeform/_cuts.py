@@ -122,8 +122,47 @@ def heights_of(heights: ArrayLike | None) -> Floats:
     return np.zeros(1) if heights is None else np.atleast_1d(_arrays.floats(heights, "heights"))
 
 
-# made of functions:
-#   section layer_heights
+class CutPieces(List["CutPiece"]):
+    """A list of pieces, and what was checked.
+
+    certificate: That of the first piece that is not ok, or of the mesh where it bounds no solid.
+    resolved: Faces of the mesh met: what was cut is the solid that it winds around, where parts
+        that overlap are one; without caps, the faces cut along each other.
+    """
+
+    certificate: Certificate
+    resolved: bool
+
+
+def chosen_of(mesh: MeshLike, faces: ArrayLike) -> Ids:
+    """Numbers of faces, or those that a mask has."""
+    chosen = np.asarray(faces)
+    if chosen.dtype == bool:
+        count = len(as_mesh(mesh).faces)
+        if chosen.shape != (count,):
+            raise ValueError(f"faces: the shape of the mask is {chosen.shape}, not ({count},)")
+        chosen = np.flatnonzero(chosen)
+    return _arrays.ids(chosen, "faces")
+
+
+def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
+    """The meshes of a list, one after the other."""
+    several = listed(meshes)
+    if several is None:
+        raise ValueError("meshes: several meshes are needed")
+    return Mesh._of(*_core.concatenate([held(one) for one in several], progress=progress))
+
+
+def moved(mesh: MeshLike, matrix: ArrayLike, progress: Progress) -> Mesh:
+    """With its attributes, normals turned."""
+    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
+    faces, data = _core.turned(own, move)
+    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, data)
+
+
+# made of headers:
+#   section layer_heights CutPiece cut cut_to_fit cut_along MeshPart components submesh
+#   concatenate transformed MassProperties mass_properties
 def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
             heights: ArrayLike | None = None, progress: Progress = None) -> Section:
     """Sections of a mesh by the planes at `heights` above a plane.
@@ -182,11 +221,8 @@ def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1
     """
     return _core.layer_heights(held(mesh), thickness, _arrays.vector(normal, "normal"),
                                _arrays.vector(at, "at"), progress=progress)
-# end
 
 
-# made of results:
-#   cut_piece
 @dataclass(frozen=True, repr=False)
 class CutPiece(MadeMesh):
     """What is between two planes.
@@ -199,23 +235,8 @@ class CutPiece(MadeMesh):
     face_source: Ids
     vertex_source: Ids
     cap: Ids
-# end
 
 
-class CutPieces(List[CutPiece]):
-    """A list of pieces, and what was checked.
-
-    certificate: That of the first piece that is not ok, or of the mesh where it bounds no solid.
-    resolved: Faces of the mesh met: what was cut is the solid that it winds around, where parts
-        that overlap are one; without caps, the faces cut along each other.
-    """
-
-    certificate: Certificate
-    resolved: bool
-
-
-# made of functions:
-#   cut cut_to_fit cut_along
 def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
         heights: ArrayLike | None = None, precision: str = "float64",
         max_displacement: float = np.inf, caps: bool = True, check: bool = True,
@@ -314,11 +335,8 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
     return checked(_core.cut_along(held(mesh), _arrays.floats(values, "values"),
                                    np.atleast_1d(_arrays.floats(levels, "levels")),
                                    progress=progress), check, of_one=True)
-# end
 
 
-# made of results:
-#   mesh_part
 @dataclass(frozen=True, repr=False)
 class MeshPart(MeshResult):
     """Faces of a mesh by themselves, with the vertices that they use, and their attributes.
@@ -335,22 +353,8 @@ class MeshPart(MeshResult):
     vertex_source: Ids
     volume: float
     area: float
-# end
 
 
-def chosen_of(mesh: MeshLike, faces: ArrayLike) -> Ids:
-    """Numbers of faces, or those that a mask has."""
-    chosen = np.asarray(faces)
-    if chosen.dtype == bool:
-        count = len(as_mesh(mesh).faces)
-        if chosen.shape != (count,):
-            raise ValueError(f"faces: the shape of the mask is {chosen.shape}, not ({count},)")
-        chosen = np.flatnonzero(chosen)
-    return _arrays.ids(chosen, "faces")
-
-
-# made of functions:
-#   components submesh
 def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None = None,
                progress: Progress = None) -> list[MeshPart]:
     """The faces that corners link, as meshes, in the order of their lowest faces. Corners with
@@ -394,19 +398,8 @@ def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> M
     Mesh(4 vertices, 2 faces)
     """
     return _core.submesh(held(mesh), chosen_of(mesh, faces), progress=progress)
-# end
 
 
-def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
-    """The meshes of a list, one after the other."""
-    several = listed(meshes)
-    if several is None:
-        raise ValueError("meshes: several meshes are needed")
-    return Mesh._of(*_core.concatenate([held(one) for one in several], progress=progress))
-
-
-# made of functions:
-#   concatenate
 def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mesh:
     """Points and faces of all meshes, one after the other; nothing is joined.
 
@@ -420,18 +413,8 @@ def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mes
     Mesh(16 vertices, 24 faces)
     """
     return joined(meshes, progress)
-# end
 
 
-def moved(mesh: MeshLike, matrix: ArrayLike, progress: Progress) -> Mesh:
-    """With its attributes, normals turned."""
-    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
-    faces, data = _core.turned(own, move)
-    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, data)
-
-
-# made of functions:
-#   transformed
 def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None) -> Mesh:
     """The mesh with its points moved. Where `matrix` mirrors, faces are turned over, so that they
     look outward as before.
@@ -448,11 +431,8 @@ def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None)
     (2.0, [[-2.0, 0.0, 0.0], [0.0, 1.0, 1.0]])
     """
     return moved(mesh, matrix, progress)
-# end
 
 
-# made of results:
-#   mass_properties
 @dataclass(frozen=True, repr=False)
 class MassProperties(Result):
     """Of a solid of density 1.
@@ -466,11 +446,8 @@ class MassProperties(Result):
     volume: float
     center: Floats
     inertia: Floats
-# end
 
 
-# made of functions:
-#   mass_properties
 def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
     """Volume, center of mass and inertia of what a closed mesh encloses. Where it is inside out,
     volume and inertia have the opposite sign. A region that the surface winds around several times
