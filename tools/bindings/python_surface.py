@@ -80,6 +80,41 @@ RESULTS = [
                                         '"vanished_components", from.vanished_components), '
                                         '"vanished_reach", from.vanished_reach)')]}),
     # _cuts
+    Result("section_loop", "SectionLoop", "_cuts", context="whole",
+           docs={"closed": "Whether it is a polygon.",
+                 "oriented": "The faces along it agree: what is inside is to the left, seen from "
+                             "above the plane.", "length": "Of its sides."},
+           custom={"first_point": [
+               Attribute("points", "Floats", "(n, 2) in the frame of the section; the first is not "
+                         "repeated.", "part_of<double>(whole.points, from)"),
+               Attribute("faces", "Ids", "(n,) the face that the side from each point to the next "
+                         "lies in.", "part_of<std::uint32_t>(whole.faces, from)")],
+               "point_count": [],
+               "parent": [Attribute("parent", "int | None", "The innermost loop of the layer that "
+                                    "is around it, by number; None for none.",
+                                    "parent_of(whole, from)")]}),
+    Result("section_result", "Section", "_cuts",
+           doc="What is in parallel planes: layers, in the order of their heights as given. Layer i "
+               "has the loops `loops(i)`.",
+           custom={
+               "layers": [
+                   column("heights", "Floats", "(K,) of the layers.", "layers", "one.height"),
+                   column("origins", "Floats", "(K, 3) a point of each plane.", "layers", "one.at"),
+                   column("areas", "Floats", "(K,) the area inside; of a solid, rounded.", "layers",
+                          "one.area"),
+                   column("lengths", "Floats", "(K,) of all loops.", "layers", "one.length"),
+                   column("open_counts", "Ids", "(K,) how many polylines are open; none of a "
+                          "solid.", "layers", "one.open_count")],
+               "frame": [Attribute("frame", "Floats", "(3, 3) the axes x and y of `points`, and the "
+                                   "normal, each of length 1.", "column(std::array{from.frame.x, "
+                                   "from.frame.y, from.frame.normal}, std::identity{})")],
+               "points": [Attribute("points", "Floats", "(P, 2) of all loops, one after the other: "
+                                    "(x . p, y . p) of p in space.",
+                                    "as_array<double>(std::vector(from.points))")],
+               "faces": [Attribute("faces", "Ids", "(P,) the face that the side from each point on "
+                                   "lies in.", "as_array(std::vector(from.faces))")],
+               "loops": [],
+               "+": [Attribute("_data", "_core.SectionData", "", "py::cast(std::move(from))")]}),
     Result("cut_piece", "CutPiece", "_cuts", "MadeMesh", context="attributes",
            inherited="mesh certificate"),
     Result("mesh_part", "MeshPart", "_cuts", "MeshResult", context="attributes",
@@ -127,7 +162,7 @@ RESULTS = [
                       "one another.", "sides", "one.first_face"),
                column("areas", "Floats", "(S,) the area of each side.", "sides", "one.area"),
                column("normals", "Floats", "(S, 3) the outward normal of each side, of length 1.",
-                      "sides", "numbers(one.normal)")]}),
+                      "sides", "one.normal")]}),
     # _properties
     Result("solid_defects", "SolidDefects", "_properties", true='self.message != "none"',
            doc="What keeps a mesh from being a solid; `bool()` says whether there is anything.",
@@ -144,7 +179,7 @@ RESULTS = [
                  column("pairs", "Ids", "(n, 2) uint32, ascending; of one mesh, the lower face "
                         "first.", "pairs", "std::array{one.a, one.b}"),
                  column("kinds", "NDArray[np.uint8]", "(n,) uint8: how they meet, a place in "
-                        "`KINDS`.", "pairs", "static_cast<std::uint8_t>(one.kind)")],
+                        "`KINDS`.", "pairs", "one.kind")],
                  "counts": [Attribute("counts", "dict[str, int]",
                                       "How many of each kind there are, listed or not.",
                                       "counts_of<tf::pair_kind>(from.counts)")]})
@@ -169,7 +204,7 @@ RESULTS = [
                              "out.", "py::cast(from.part.dropped)")],
                "found": [
                    column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
-                   column("kinds", "", "", "found.pairs", "static_cast<std::uint8_t>(one.kind)"),
+                   column("kinds", "", "", "found.pairs", "one.kind"),
                    Attribute("counts", "", "", "counts_of<tf::pair_kind>(from.found.counts)")]}),
     # _files
     Result("write_result", "Written", "_files", doc="What `write` wrote.",
@@ -178,6 +213,17 @@ RESULTS = [
                  "precision": "Of the coordinates written: 'float32' or 'float64'."},
            custom={"warnings": [Attribute("warnings", "list[str]", "What a person should know.",
                                           "texts_of(from.warnings)")]}),
+    # _robots
+    Result("urdf_joint", "Joint", "_robots", "NamedTuple", context="robot",
+           leave="origin axis mimics mimic_line", doc="What connects two links.",
+           docs={"name": "As in the file.",
+                 "kind": "'fixed', 'revolute', 'continuous' or 'prismatic'.",
+                 "limits": "Least and greatest value, in radians or meters; None where there are "
+                           "none."},
+           custom={
+               **{end: [Attribute(end, "str", f"Name of the link that it {how}.",
+                                  f"py::cast(robot.links[from.{end}])")]
+                  for end, how in (("parent", "is on"), ("child", "moves"))}}),
     # _weld
     Result("weld_result", "WeldResult", "_weld", "MeshResult", context="data",
            doc="A welded mesh or cloud.", leave="attributes",
@@ -249,7 +295,31 @@ RESULTS = [
                                   "from.band ? py::object(py::make_tuple(from.band->below, "
                                   "from.band->within, from.band->above)) : py::none()")]}),
     Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
+    Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
+           rows="std::optional<tf::{}>", names={"point": "closest", "face": "triangle_id"},
+           doc="The nearest point of a mesh for each query, in the order that trimesh has: `closest, "
+               "distance, triangle_id = closest_point(mesh, points)`.",
+           docs={"closest": "(n, 3) points on the mesh, rounded; NaN where none is within the radius.",
+                 "distance": "(n,) not squared; infinite where there is none.",
+                 "triangle_id": "(n,) uint32 the face; 4294967295 where there is none."}),
+    Result("mesh_hit", "RayHits", "_nearness", "NamedTuple", rows="std::optional<tf::{}>",
+           leave="coplanar t_end", doc="The first face that each ray hits.",
+           docs={"t": "(n,) the point hit is origin + t direction; infinite where nothing is hit.",
+                 "face": "(n,) uint32 the face; 4294967295 where nothing is hit."},
+           custom={"at": [Attribute(
+               "at", "NDArray[np.uint8]", "(n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) or "
+               "in the interior (6) of the face.", "column(from, [](const auto& one) { return one ? "
+               "one->at : tf::feature::interior; })")]}),
     # _placement
+    Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
+           doc="Pairs of faces that meet at a place, or keep the clearance there.",
+           names={"point": "points", "normal": "normals"},
+           docs={"normals": "(n, 3) of length 1, from the fixed to the moving mesh; 0 where there is "
+                            "none.",
+                 "moving": "faces of the moving mesh.",
+                 "fixed_face": "faces of the fixed mesh; 4294967295 for the bed."},
+           custom={"fixed": [Attribute("fixed", "Ids", "(n,) which fixed mesh.", "column(from, "
+                   "[](const auto& one) { return static_cast<std::uint32_t>(one.fixed); })")]}),
     Result("search_effort", "SearchEffort", "_placement", "NamedTuple"),
     Result("mesh_measure", "Measure", "_placement", leave="face_a face_b", custom={
         f"on_{x}": [
@@ -270,7 +340,7 @@ RESULTS = [
                "points": [MESH_OF_PLACE],
                "contacts": [Attribute(
                    "contacts", "Contacts", "Pairs of faces that meet there, or keep the clearance.",
-                   "contacts_of(from)")],
+                   "as_python(std::move(from.contacts))")],
                "nearest": [Attribute(
                    "nearest", "tuple[int, Measure] | None", "The fixed mesh that matters most, and "
                    "how the mesh lies to it; None where all are far.",
@@ -293,7 +363,7 @@ RESULTS = [
                column("faces", "Ids", "(n, 2) the faces of `a` and `b` that meet at that time.",
                       "contacts", "std::array{one.face_a, one.face_b}"),
                column("points", "Floats", "(n, 3) a common point of each pair, rounded.",
-                      "contacts", "numbers(one.point)")]}),
+                      "contacts", "one.point")]}),
     Result("penetration_depth_result", "Depth", "_placement", "NamedTuple"),
     Result("laid_flat", "LaidFlat", "_placement", "MeshResult", context="moving",
            leave="bed contact corrected", doc="A mesh on the bed.",
@@ -305,7 +375,7 @@ RESULTS = [
                "sides": [column("areas", "Floats", "(S,) of the flat sides of the convex hull, "
                                 "largest first.", "sides", "one.area"),
                          column("normals", "Floats", "(S, 3) outward, before the turn.", "sides",
-                                "numbers(one.normal)")],
+                                "one.normal")],
                "stability": [column("tip_angles", "Floats", "(S,) degrees of tilt at which it tips "
                                     "over; negative: by itself.", "stability", "one.tip_angle"),
                              column("overhangs", "Floats", "(S,) area of the faces that would need "
@@ -350,7 +420,7 @@ RESULTS = [
                      ("parts", "Ids", "(n, 2) the parts, the lower number first.",
                       "std::array{one.a, one.b}"),
                      ("how", "NDArray[np.uint8]", "(n,) uint8: how they lie, a place in "
-                      "`RELATIONS`.", "static_cast<std::uint8_t>(one.how)"),
+                      "`RELATIONS`.", "one.how"),
                      ("distance", "Floats", "(n,) of those that are closer than the clearance; "
                                             "else "
                       "0.", "one.distance"))]]}),

@@ -17,6 +17,8 @@ _HEIGHTS = {"heights": "(K,) of planes above that one, along its normal at lengt
 _RAYS = {"origins": "(n, 3)", "directions": "(n, 3) of any length.",
          "t_min": "what is hit before origin + t_min direction does not count.",
          "t_max": "nor what is hit beyond this."}
+_ALL_RAYS = "rays(origins, directions, t_min, t_max)"
+_PIECE = f"mesh.prepared(), {_ALL_RAYS}.piece(begin, end)"
 _MESHES = {"meshes": "each a mesh, or a list of meshes."}
 _VOLUMES = {"volumes": "compute those of two operands, of what is in either, and of what is in "
                        "both."}
@@ -337,7 +339,8 @@ FUNCTIONS = [
                                  "is interrupted, all raise at the next collective call."}),
     # _nearness
     Function("closest_point(mesh: Mesh, points: Points, *, radius: float = np.inf)"
-             " -> tuple[Floats, Floats, Ids]", made="ClosestPoints", value="ClosestPoints(*{})",
+             " -> ClosestPoints", "tf::closest_point(mesh.prepared(), $points.subspan(begin, end - "
+             "begin), radius)", pieces="$points.size()",
              doc="The point of the surface that is nearest to each of `points` (n, 3). Distances "
                  "are within 16 u L of the true ones, where u = 2^-53 and L is the larger of the "
                  "distance and the diagonal of the face's box. Of several faces at the same "
@@ -345,16 +348,20 @@ FUNCTIONS = [
                  "next call.",
              docs={"radius": "what is further away is ignored; inclusive."}),
     Function("raycast(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
-             "t_max: float = np.inf) -> tuple[Floats, Ids, Bytes]", made="RayHits",
-             value="RayHits(*{})", docs=_RAYS),
+             "t_max: float = np.inf) -> RayHits", f"finite(tf::raycast({_PIECE}))",
+             pieces=f"{_ALL_RAYS}.size()", docs=_RAYS),
     Function("raycast_any(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
-             "t_max: float = np.inf) -> Bytes", made="NDArray[np.bool_]", value="{}.view(np.bool_)",
+             "t_max: float = np.inf) -> Bytes", f"tf::raycast_any({_PIECE})",
+             pieces=f"{_ALL_RAYS}.size()", made="NDArray[np.bool_]", value="{}.view(np.bool_)",
              doc="(n,) bool: whether each ray hits any face. Exact.", docs=_RAYS),
     Function("deviation(a: Body, b: Body, options: deviation_options) -> Optional[Deviation]",
              "tf::deviation(a.prepared(), b.prepared(), options)",
              missing="a has no points, or b no faces",
              also="`a` and `b` are a mesh or a cloud (n, 3) each.",
              docs={"band": "signed distances that are within tolerance."}),
+    Function("locate_points(mesh: Mesh, points: Points) -> tuple[Bytes, NDArray[np.int32]]",
+             "tf::locate(mesh.prepared(), $points.subspan(begin, end - begin))",
+             pieces="$points.size()"),
     Function("contains(mesh: MeshLike, points: ArrayLike) -> NDArray[np.bool_]",
              body="np.asarray(located(mesh, points, progress)[0] != OUTSIDE)",
              doc="(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its "

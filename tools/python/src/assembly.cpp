@@ -16,24 +16,22 @@ std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
     return all;
 }
 
-/// `of(positions)` for pieces of the positions, its answers one after the other.
-template <class Answer, class Of>
-std::vector<Answer> for_positions(const std::vector<tf::mesh_positions>& positions, const Of& of) {
-    std::vector<Answer> all(positions.size());
-    run_pieces(positions.size(), [&](std::size_t begin, std::size_t end) {
-        const auto answers = of(std::span(positions).subspan(begin, end - begin));
-        for (std::size_t i = begin; i < end; ++i) all[i] = answers[i - begin];
-    });
-    return all;
+/// The positions of a piece.
+std::span<const tf::mesh_positions> some_of(const std::vector<tf::mesh_positions>& all,
+                                            std::size_t begin, std::size_t end) {
+    return std::span(all).subspan(begin, end - begin);
 }
 
 py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
                      const array_of<double>& move_b) {
     const auto positions = positions_of(move_a, move_b);
     if (positions.size() != 1)
-        return as_array<std::uint8_t>(for_positions<std::uint8_t>(positions, [&](auto some) {
-            return tf::intersects(a.prepared(), b.prepared(), some);
-        }));
+        return column(in_pieces(positions.size(),
+                                [&](std::size_t begin, std::size_t end) {
+                                    return tf::intersects(a.prepared(), b.prepared(),
+                                                          some_of(positions, begin, end));
+                                }),
+                      [](bool one) { return one; });
     const bool meet = run([&](const tf::progress_callback&) {
         return with_both(
             a, b, [&](const auto& m, const auto& n) { return tf::intersects(m, n, positions[0]); });
@@ -43,8 +41,9 @@ py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<doub
 
 py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
                    const array_of<double>& move_b, double radius) {
-    return as_array<double>(for_positions<double>(positions_of(move_a, move_b), [&](auto some) {
-        return tf::distance(a.prepared(), b.prepared(), some, radius);
+    const auto all = positions_of(move_a, move_b);
+    return as_array<double>(in_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+        return tf::distance(a.prepared(), b.prepared(), some_of(all, begin, end), radius);
     }));
 }
 

@@ -44,7 +44,13 @@ py::tuple concatenate(const held_meshes& meshes) {
 }  // namespace
 
 void add_cuts(py::module_& module) {
-    py::class_<tf::section_result>(module, "SectionData");
+    py::class_<tf::section_result>(module, "SectionData")
+        .def("__len__", [](const tf::section_result& all) { return all.loops.size(); })
+        .def("loops", [](const tf::section_result& all, std::size_t layer) {
+            const auto& of = all.layers.at(layer);
+            const auto first = all.loops.begin() + of.first_loop;
+            return as_python(std::vector(first, first + of.loop_count), all);
+        });
     add_job(module, "write_section", &write_section, job_kind::writes);
     add_job(module, "write_isolines", &write_isolines, job_kind::writes);
     add_job(module, "concatenate", &concatenate);

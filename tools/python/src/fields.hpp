@@ -144,6 +144,9 @@ inline py::object value_of(std::vector<tf::face>&& faces) { return as_array(std:
 inline py::object value_of(std::vector<tf::operand_element>&& elements) {
     return as_array<std::uint32_t>(std::move(elements));
 }
+inline py::object value_of(const std::array<double, 2>& pair) {
+    return py::make_tuple(pair[0], pair[1]);
+}
 /// Two corners, as rows.
 inline py::object value_of(const std::array<tf::point3, 2>& corners) {
     return column(corners, [](const tf::point3& p) { return numbers(p); });
@@ -167,7 +170,9 @@ py::object as_python(T&& value, const Context&... context) {
 }
 template <class T, class... Context>
 py::object as_python(std::vector<T>&& values, const Context&... context) {
-    if constexpr (requires { value_of(std::move(values)); }) {
+    if constexpr (requires { object(of_result{}, std::move(values), context...); }) {
+        return object(of_result{}, std::move(values), context...);
+    } else if constexpr (requires { value_of(std::move(values)); }) {
         return value_of(std::move(values));
     } else {
         py::list made;

@@ -8,18 +8,6 @@ struct robot {
     tf::robot_parts parts{};
 };
 
-py::list joints_of(const tf::urdf_robot& of) {
-    py::list all;
-    for (const tf::urdf_joint& one : of.joints) {
-        const auto limits = one.limits
-                                ? py::object(py::make_tuple((*one.limits)[0], (*one.limits)[1]))
-                                : py::object(py::none());
-        all.append(py::make_tuple(one.name, word_of(one.kind), of.links[one.parent],
-                                  of.links[one.child], limits));
-    }
-    return all;
-}
-
 /// The robot, its name, links, joints, parts, links of parts, adjacent parts, and what is
 /// approximated or no mesh.
 py::tuple read_urdf(const std::filesystem::path& path,
@@ -39,8 +27,8 @@ py::tuple read_urdf(const std::filesystem::path& path,
     for (tf::mesh& part : made.parts.parts)
         parts.append(
             py::make_tuple(as_array(std::move(part.points)), as_array(std::move(part.faces))));
-    const py::list joints = joints_of(made.content);
-    py::array adjacent = column(made.parts.adjacent, [](const auto& pair) { return pair; });
+    const py::object joints = as_python(std::vector(made.content.joints), made.content);
+    py::array adjacent = column(made.parts.adjacent, std::identity{});
     return py::make_tuple(made, made.content.name, made.content.links, joints, parts,
                           made.parts.links, adjacent, made.content.approximated,
                           made.content.skipped);

@@ -5,7 +5,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._cuts import CutPieces, Section
+from ._cuts import CutPieces
 # made of imports:
 from ._assembly import ClashResult
 from ._assembly import NearestPoints
@@ -15,12 +15,17 @@ from ._booleans import BooleanResult
 from ._cuts import CutPiece
 from ._cuts import MassProperties
 from ._cuts import MeshPart
+from ._cuts import Section
+from ._cuts import SectionLoop
 from ._files import Written
 from ._intersections import FacePairs
 from ._intersections import FilePairs
 from ._intersections import Region
+from ._nearness import ClosestPoints
 from ._nearness import Deviation
+from ._nearness import RayHits
 from ._placement import Alignment
+from ._placement import Contacts
 from ._placement import Depth
 from ._placement import Impact
 from ._placement import LaidFlat
@@ -38,6 +43,7 @@ from ._repair import RepairResult
 from ._repair import ResolveResult
 from ._repair import WrapResult
 from ._results import Certificate
+from ._robots import Joint
 from ._shapes import Isoline
 from ._shapes import Isolines
 from ._shapes import OffsetResult
@@ -75,14 +81,16 @@ class HeldMesh:
     @property
     def indexes_built(self) -> int: ...
 
-class SectionData: ...
+class SectionData:
+    def __len__(self) -> int: ...
+    def loops(self, layer: int) -> list[SectionLoop]: ...
 
 class RobotData:
     def poses(self, joints: list[str], values: Floats) -> Floats: ...
 
 def read_urdf(path: str, package_folders: list[str], visual: bool,
               progress: Watched = ...) -> tuple[
-    RobotData, str, list[str], list[tuple[str, str, str, str, Optional[tuple[float, float]]]],
+    RobotData, str, list[str], list[Joint],
     list[tuple[Floats, Ids]], list[int], Ids, list[str], list[str]]: ...
 
 class Threads:
@@ -194,8 +202,6 @@ def write_isolines(path: str, lines: list[Isoline], points: Floats, normal: Floa
 def join_equal_points(mesh: HeldMesh,
                       progress: Watched = ...) -> tuple[Floats, Ids, Optional[Attributes]]: ...
 def weld_of(settings: StreamSettings, progress: Watched = ...) -> WeldInSteps: ...
-def locate(mesh: HeldMesh, points: Floats,
-           progress: Watched = ...) -> tuple[Bytes, NDArray[np.int32]]: ...
 def raycast_all(mesh: HeldMesh, origins: Floats, directions: Floats, t_min: float, t_max: float,
                 progress: Watched = ...) -> tuple[Floats, Ids, Ids]: ...
 def self_intersections_of_file(path: str, options: StreamSearchOptions, communicator: Any,
@@ -486,13 +492,15 @@ def intersection_paths(mesh: HeldMesh, pairs: Ids, kinds: Bytes,
                        progress: Watched = ...) -> tuple[Floats, list[tuple[Ids, bool]]]: ...
 def count_nearly_equal(points: Floats, distance: float, progress: Watched = ...) -> int: ...
 def closest_point(mesh: HeldMesh, points: Floats, radius: float,
-                  progress: Watched = ...) -> tuple[Floats, Floats, Ids]: ...
+                  progress: Watched = ...) -> ClosestPoints: ...
 def raycast(mesh: HeldMesh, origins: Floats, directions: Floats, t_min: float, t_max: float,
-            progress: Watched = ...) -> tuple[Floats, Ids, Bytes]: ...
+            progress: Watched = ...) -> RayHits: ...
 def raycast_any(mesh: HeldMesh, origins: Floats, directions: Floats, t_min: float, t_max: float,
                 progress: Watched = ...) -> Bytes: ...
 def deviation(a: HeldMesh, b: HeldMesh, options: DeviationOptions,
               progress: Watched = ...) -> Optional[Deviation]: ...
+def locate_points(mesh: HeldMesh, points: Floats,
+                  progress: Watched = ...) -> tuple[Bytes, NDArray[np.int32]]: ...
 def slide(moving: HeldMesh, onto: Sequence[HeldMesh], direction: Floats, options: SlideOptions,
           progress: Watched = ...) -> Placement: ...
 def drop(moving: HeldMesh, onto: Sequence[HeldMesh], options: DropOptions,

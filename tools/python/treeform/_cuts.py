@@ -22,30 +22,8 @@ __all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "Se
            "mass_properties", "section", "submesh", "transformed"]
 
 
-@dataclass(frozen=True, repr=False)
-class SectionLoop(Result):
-    """A closed polygon, or, where the mesh ends, an open polyline.
-
-    points: (n, 2) in the frame of the section; the first is not repeated.
-    faces: (n,) the face that the side from each point to the next lies in.
-    closed: Whether it is a polygon.
-    oriented: The faces along it agree: what is inside is to the left, seen from above the plane.
-    parent: The innermost loop of the layer that is around it, by number; None for none.
-    depth: How many loops are around it: of a solid, holes have an odd one.
-    area: Positive where it runs counter-clockwise; 0 for open ones.
-    length: Of its sides.
-    """
-
-    points: Floats
-    faces: Ids
-    closed: bool
-    oriented: bool
-    parent: int | None
-    depth: int
-    area: float
-    length: float
-
-
+# made of headers:
+#   Section
 @dataclass(frozen=True, repr=False)
 class Section(Result):
     """What is in parallel planes: layers, in the order of their heights as given. Layer i has the
@@ -70,10 +48,10 @@ class Section(Result):
     points: Floats
     faces: Ids
     _data: _core.SectionData
-    _loops: dict[str, NDArray[Any]]
+# end
 
     def __repr__(self) -> str:
-        return f"Section({len(self.heights)} layers, {len(self._loops['closed'])} loops)"
+        return f"Section({len(self.heights)} layers, {len(self._data)} loops)"
 
     def __len__(self) -> int:
         return len(self.heights)
@@ -86,21 +64,7 @@ class Section(Result):
         >>> [loop.area for loop in treeform.section(cube, at=(0, 0, 0.5)).loops()]
         [1.0]
         """
-        of = self._loops
-        count = len(of["closed"])
-        layer = range(len(self))[layer]
-        first = int(of["first_loop"][layer])
-        end = int(of["first_loop"][layer + 1]) if layer + 1 < len(self) else count
-        found = []
-        for i in range(first, end):
-            last = int(of["first_point"][i + 1]) if i + 1 < count else len(self.points)
-            points = slice(int(of["first_point"][i]), last)
-            parent = int(of["parent"][i])
-            found.append(SectionLoop(
-                self.points[points], self.faces[points], bool(of["closed"][i]),
-                bool(of["oriented"][i]), None if parent == NONE else parent - first,
-                int(of["depth"][i]), float(of["loop_areas"][i]), float(of["loop_lengths"][i])))
-        return found
+        return self._data.loops(range(len(self))[layer])
 
     def in_space(self, layer: int, points: ArrayLike) -> Floats:
         """(n, 3) points (n, 2) of a layer in space, rounded."""
@@ -161,8 +125,32 @@ def moved(mesh: MeshLike, matrix: ArrayLike, progress: Progress) -> Mesh:
 
 
 # made of headers:
-#   section layer_heights CutPiece cut cut_to_fit cut_along MeshPart components submesh
-#   concatenate transformed MassProperties mass_properties
+#   SectionLoop section layer_heights CutPiece cut cut_to_fit cut_along MeshPart components
+#   submesh concatenate transformed MassProperties mass_properties
+@dataclass(frozen=True, repr=False)
+class SectionLoop(Result):
+    """A closed polygon, or, where the mesh ends, an open polyline.
+
+    points: (n, 2) in the frame of the section; the first is not repeated.
+    faces: (n,) the face that the side from each point to the next lies in.
+    closed: Whether it is a polygon.
+    oriented: The faces along it agree: what is inside is to the left, seen from above the plane.
+    parent: The innermost loop of the layer that is around it, by number; None for none.
+    depth: How many loops are around it: of a solid, holes have an odd one.
+    area: Positive where it runs counter-clockwise; 0 for open ones.
+    length: Of its sides.
+    """
+
+    points: Floats
+    faces: Ids
+    closed: bool
+    oriented: bool
+    parent: int | None
+    depth: int
+    area: float
+    length: float
+
+
 def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
             heights: ArrayLike | None = None, progress: Progress = None) -> Section:
     """Sections of a mesh by the planes at `heights` above a plane.

@@ -20,23 +20,6 @@ __all__ = ["AllRayHits", "ClosestPoints", "Deviation", "RayHits", "closest_point
            "winding_number"]
 
 
-class ClosestPoints(NamedTuple):
-    """The nearest point of a mesh for each query, in the order that trimesh has:
-    `closest, distance, triangle_id = closest_point(mesh, points)`.
-
-    closest: (n, 3) points on the mesh, rounded; NaN where none is within the radius.
-    distance: (n,) not squared; infinite where there is none.
-    triangle_id: (n,) uint32 the face; 4294967295 where there is none.
-    """
-
-    closest: Floats
-    distance: Floats
-    triangle_id: Ids
-
-    def __repr__(self) -> str:
-        return tuple_repr(self)
-
-
 OUTSIDE = 0
 
 
@@ -44,7 +27,7 @@ def located(mesh: MeshLike, points: ArrayLike,
             progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
     """Raises NotSolidError where the mesh is open."""
     try:
-        return _core.locate(held(mesh), _arrays.points(points, "points"), progress=progress)
+        return _core.locate_points(held(mesh), _arrays.points(points, "points"), progress=progress)
     except ValueError:
         if len(as_mesh(mesh).faces):
             require(as_mesh(mesh).solid_certificate, of_one=True)
@@ -63,22 +46,6 @@ def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
     if not made.is_signed:
         raise NotSolidError(as_mesh(mesh).solid_certificate, True)
     return np.asarray(-made.distances + 0.0)
-
-
-class RayHits(NamedTuple):
-    """The first face that each ray hits.
-
-    t: (n,) the point hit is origin + t direction; infinite where nothing is hit.
-    face: (n,) uint32 the face; 4294967295 where nothing is hit.
-    at: (n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) or in the interior (6) of the face.
-    """
-
-    t: Floats
-    face: Ids
-    at: NDArray[np.uint8]
-
-    def __repr__(self) -> str:
-        return tuple_repr(self)
 
 
 class AllRayHits(NamedTuple):
@@ -108,8 +75,25 @@ def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: f
 
 
 # made of headers:
-#   closest_point contains locate winding_number signed_distance raycast raycast_all raycast_any
-#   Deviation deviation
+#   ClosestPoints closest_point contains locate winding_number signed_distance RayHits raycast
+#   raycast_all raycast_any Deviation deviation
+class ClosestPoints(NamedTuple):
+    """The nearest point of a mesh for each query, in the order that trimesh has: `closest,
+    distance, triangle_id = closest_point(mesh, points)`.
+
+    closest: (n, 3) points on the mesh, rounded; NaN where none is within the radius.
+    distance: (n,) not squared; infinite where there is none.
+    triangle_id: (n,) uint32 the face; 4294967295 where there is none.
+    """
+
+    closest: Floats
+    distance: Floats
+    triangle_id: Ids
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
 def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
                   progress: Progress = None) -> ClosestPoints:
     """The point of the surface that is nearest to each of `points` (n, 3). Distances are within 16
@@ -132,8 +116,8 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
     >>> closest.tolist(), distance.tolist()
     ([[0.5, 0.25, 1.0]], [2.0])
     """
-    return ClosestPoints(*_core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
-                                              progress=progress))
+    return _core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
+                               progress=progress)
 
 
 def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
@@ -204,6 +188,22 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     return distances(mesh, points, progress)
 
 
+class RayHits(NamedTuple):
+    """The first face that each ray hits.
+
+    t: (n,) the point hit is origin + t direction; infinite where nothing is hit.
+    face: (n,) uint32 the face; 4294967295 where nothing is hit.
+    at: (n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) or in the interior (6) of the face.
+    """
+
+    t: Floats
+    face: Ids
+    at: NDArray[np.uint8]
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
 def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
             t_max: float = np.inf, progress: Progress = None) -> RayHits:
     """The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
@@ -230,9 +230,8 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     >>> hits.t.tolist(), hits.at.tolist()
     ([2.0], [6])
     """
-    return RayHits(*_core.raycast(held(mesh), _arrays.points(origins, "origins"),
-                                  _arrays.points(directions, "directions"), t_min, t_max,
-                                  progress=progress))
+    return _core.raycast(held(mesh), _arrays.points(origins, "origins"),
+                         _arrays.points(directions, "directions"), t_min, t_max, progress=progress)
 
 
 def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,

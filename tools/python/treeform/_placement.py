@@ -22,26 +22,6 @@ __all__ = ["Alignment", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "P
            "time_of_impact", "turn"]
 
 
-class Contacts(NamedTuple):
-    """Pairs of faces that meet at a place, or keep the clearance there.
-
-    points: (n, 3)
-    normals: (n, 3) of length 1, from the fixed to the moving mesh; 0 where there is none.
-    moving: (n,) faces of the moving mesh.
-    fixed_face: (n,) faces of the fixed mesh; 4294967295 for the bed.
-    fixed: (n,) which fixed mesh.
-    """
-
-    points: Floats
-    normals: Floats
-    moving: Ids
-    fixed_face: Ids
-    fixed: Ids
-
-    def __repr__(self) -> str:
-        return tuple_repr(self)
-
-
 def mated(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature,
           how: _core.FeatureMateOptions, progress: Progress) -> Placement:
     """`mate_features`, of features of one kind."""
@@ -69,9 +49,29 @@ def extent_of(size: ArrayLike) -> Floats:
 
 
 # made of headers:
-#   Placement SearchEffort Measure slide drop mate separate turn mate_features LaidFlat lay_flat
-#   Alignment align PackedPart Packing pack measure Depth penetration_depth Impact
+#   Contacts Placement SearchEffort Measure slide drop mate separate turn mate_features LaidFlat
+#   lay_flat Alignment align PackedPart Packing pack measure Depth penetration_depth Impact
 #   time_of_impact
+class Contacts(NamedTuple):
+    """Pairs of faces that meet at a place, or keep the clearance there.
+
+    points: (n, 3)
+    normals: (n, 3) of length 1, from the fixed to the moving mesh; 0 where there is none.
+    moving: (n,) faces of the moving mesh.
+    fixed_face: (n,) faces of the fixed mesh; 4294967295 for the bed.
+    fixed: (n,) which fixed mesh.
+    """
+
+    points: Floats
+    normals: Floats
+    moving: Ids
+    fixed_face: Ids
+    fixed: Ids
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
 @dataclass(frozen=True, repr=False)
 class Placement(MeshResult):
     """Where a mesh goes. True where it has a place; else `message` says why not.

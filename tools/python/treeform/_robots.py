@@ -13,11 +13,13 @@ from ._arrays import Floats, Ids, path_of
 from ._files import Path
 from ._mesh import Mesh
 from ._progress import Progress
-from ._results import Result
+from ._results import Result, tuple_repr
 
 __all__ = ["Joint", "Robot", "read_urdf"]
 
 
+# made of headers:
+#   Joint
 class Joint(NamedTuple):
     """What connects two links.
 
@@ -33,6 +35,10 @@ class Joint(NamedTuple):
     parent: str
     child: str
     limits: tuple[float, float] | None
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+# end
 
 
 @dataclass(frozen=True, repr=False)
@@ -112,5 +118,5 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     (data, name, links, joints, parts, link_of_part, adjacent, approximated,
      skipped) = _core.read_urdf(
         path_of(path), [path_of(one) for one in folders], visual, progress=progress)
-    return Robot(name, links, [Joint(*one) for one in joints], [Mesh._of(*one) for one in parts],
+    return Robot(name, links, joints, [Mesh._of(*one) for one in parts],
                  np.array(link_of_part, np.uint32), adjacent, approximated, skipped, data)

@@ -8,6 +8,8 @@ namespace binding {
 
 py::object object(of_result, tf::certificate&& from);
 py::object object(of_result, tf::boolean_result&& from, const carrying& attributes);
+py::object object(of_result, tf::section_loop&& from, const tf::section_result& whole);
+py::object object(of_result, tf::section_result&& from);
 py::object object(of_result, tf::cut_piece&& from, const carrying& attributes);
 py::object object(of_result, tf::mesh_part&& from, const carrying& attributes);
 py::object object(of_result, tf::mass_properties&& from);
@@ -30,10 +32,14 @@ py::object object(of_result, tf::mesh_intersection_result&& from);
 py::object object(of_result, tf::intersection_region&& from);
 py::object object(of_result, tf::stream_search_result&& from);
 py::object object(of_result, tf::write_result&& from);
+py::object object(of_result, tf::urdf_joint&& from, const tf::urdf_robot& robot);
 py::object object(of_result, tf::weld_result&& from, const file_data* data);
 py::object object(of_result, tf::weld_stream_result&& from);
 py::object object(of_result, tf::deviation_result&& from);
 py::object object(of_result, tf::closest_points_result&& from);
+py::object object(of_result, std::vector<std::optional<tf::closest_point_result>>&& from);
+py::object object(of_result, std::vector<std::optional<tf::mesh_hit>>&& from);
+py::object object(of_result, std::vector<tf::placement_contact>&& from);
 py::object object(of_result, tf::search_effort&& from);
 py::object object(of_result, tf::mesh_measure&& from);
 py::object object(of_result, tf::placement&& from, const held_mesh& moving);
