@@ -75,7 +75,7 @@ struct shared_weld {
         work.check_tiles();
         return work.survey().tiles;
     }
-    [[nodiscard]] tf::status weld_tile(std::size_t tile) { return work.weld_tile(tile); }
+    [[nodiscard]] tf::status do_tile(std::size_t tile) { return work.weld_tile(tile); }
     void remove_folder() { work.remove_folder(); }
     [[nodiscard]] tf::weld_stream_result finish(const std::filesystem::path& output,
                                                 const std::string& removed,
@@ -106,24 +106,13 @@ std::unique_ptr<weld_in_steps> weld_of(const stream_settings& settings) {
     });
 }
 
-void add_weld_in_steps(py::module_& module) {
-    py::class_<weld_in_steps>(module, "WeldInSteps")
-        .def("scatter", step_of(&shared_weld::scatter))
-        .def("tiles", step_of(&shared_weld::tiles))
-        .def("weld_tile", step_of(&shared_weld::weld_tile))
-        .def("finish", step_of(&shared_weld::finish))
-        .def("remove_folder", step_of(&shared_weld::remove_folder))
-        .def("close", &weld_in_steps::close);
-    make_jobs(module.attr("WeldInSteps"), {"scatter", "weld_tile", "finish"}, job_kind::writes);
-    add_job(module, "weld_of", &weld_of, job_kind::long_work);
-}
-
 }  // namespace
 
 void add_streams(py::module_& module) {
     py::class_<stream_settings>(module, "StreamSettings").def(py::init(&settings_of));
     add_job(module, "weld_stream", &weld_stream, job_kind::writes);
-    add_weld_in_steps(module);
+    add_steps<shared_weld>(module, "WeldInSteps", &shared_weld::finish);
+    add_job(module, "weld_of", &weld_of, job_kind::long_work);
 }
 
 }  // namespace binding

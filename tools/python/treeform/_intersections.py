@@ -116,10 +116,6 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
         how = options(_core.StreamSearchOptions, locals())
         super().__init__(_core.search_of(path_of(path), how, progress=progress), locals())
 
-    def scatter(self, *, progress: Progress = None) -> int:
-        """Gives each tile its faces, unless they have them. Returns the number of tiles."""
-        return self._work.scatter(progress=progress)
-
     @property
     def unfinished(self) -> list[int]:
         """The tiles that are to be searched."""
@@ -127,7 +123,7 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
 
     def search_tile(self, tile: int, *, progress: Progress = None) -> None:
         """Searches a tile, from 0, unless that is done."""
-        self._work.search_tile(_arrays.number(tile, "tile", 0), progress=progress)
+        self._do_tile(tile, progress)
 
     def finish(self, *, progress: Progress = None) -> FilePairs:
         """Puts together what was found, when all tiles are searched."""

@@ -122,13 +122,9 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
         how = settings_of(files, options(_core.WeldStreamOptions, locals()), columns, mixed)
         super().__init__(_core.weld_of(how, progress=progress), locals())
 
-    def scatter(self, *, progress: Progress = None) -> int:
-        """Gives each tile its points, unless they have them. Returns the number of tiles."""
-        return self._work.scatter(progress=progress)
-
     def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
         """Welds a tile, from 0, unless that is done."""
-        self._work.weld_tile(_arrays.number(tile, "tile", 0), progress=progress)
+        self._do_tile(tile, progress)
 
     def finish(self, out: Path, *, removed: Path = "", label: str = "", withhold: bool = False,
                progress: Progress = None) -> WeldStreamResult:
