@@ -26,7 +26,7 @@ ROWS = {"double": ("Floats", ","), "point3": ("Floats", ", 3"), "uint32_t": ("Id
 #: What results are made in, as functions take it.
 CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
             "moving": ", const held_mesh& moving", "data": ", const file_data* data",
-            "whole": ", const tf::section_result& whole", "robot": ", const tf::urdf_robot& robot"}
+            "parts": ", const held_meshes& parts", "whole": ", const tf::section_result& whole", "robot": ", const tf::urdf_robot& robot"}
 
 
 @dataclass
@@ -142,6 +142,8 @@ ARGUMENTS = {
                'np.atleast_1d(_arrays.floats({0}, "{0}"))'),
     "Groups": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})", "ArrayLike | None",
                '_arrays.labels({0}, "{0}")'),
+    "Feature": ("const tf::mesh_feature&", "Feature", "{}", "Feature",
+                'need({0}, "{0}", Feature)'),
     "PairIds": ("const ids_array&", "Ids", "{}", "", ""),
     "Kinds": ("const array_of<std::uint8_t>&", "Bytes", "{}", "", ""),
     "Words": ("const std::vector<std::string>&", "list[str]", "{}", "", ""),

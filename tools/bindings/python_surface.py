@@ -396,11 +396,12 @@ RESULTS = [
            custom={"points": [Attribute(
                "mesh", "Mesh", "The part where it goes; where it was, if it is not placed.",
                "moved_mesh(std::move(from.points), moving, from.matrix, py::none())")]}),
-    Result("packing", "Packing", "_placement", leave="pairs_measured bed certificate",
+    Result("packing", "Packing", "_placement", context="parts", leave="pairs_measured bed certificate",
            true="len(self.not_placed) == 0",
            doc="Filled plates. True where every part has a place.",
            custom={"parts": [Attribute("parts", "list[PackedPart]", "In the order of the input.",
-                                       "py::list()")], "+": [MESSAGE]}),
+                                       "packed_parts(std::move(from.parts), parts)")],
+                   "+": [MESSAGE]}),
     # _assembly
     Result("part_clash", "PartClash", "_assembly", docs={
         "how": "'penetrating', 'touching' or 'closer_than_clearance'."},

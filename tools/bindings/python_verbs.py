@@ -136,14 +136,12 @@ FUNCTIONS = [
     Function("submesh(mesh: Mesh, faces: Chosen) -> MeshPart", "tf::submesh($mesh, $faces)",
              "attributes of mesh", also="Vertices keep their attributes.",
              docs={"faces": "(n,) numbers; or a mask (F,) of True and False."}),
-    Function("moved_points(mesh: Mesh, matrix: Matrix) -> Floats",
-             "tf::transform_mesh({mesh.view().points, {}}, $matrix).points"),
     Function("mass_properties(mesh: Mesh) -> Optional[MassProperties]",
              "tf::find_mass_properties(mesh.view())"),
     Function("concatenate(meshes: Iterable[MeshLike]) -> Mesh", body="joined(meshes, progress)",
              also="Their attributes are put together likewise."),
-    Function("transformed(mesh: MeshLike, matrix: ArrayLike) -> Mesh",
-             body="moved(mesh, matrix, progress)", cpp="transform_mesh", words={"by": "matrix"},
+    Function("transformed(mesh: Mesh, matrix: Matrix) -> Mesh", cpp="transform_mesh",
+             words={"by": "matrix"},
              also="It keeps its attributes, with normals turned.",
              docs={"matrix": "(4, 4)"}),
     # _shapes
@@ -303,8 +301,7 @@ FUNCTIONS = [
     Function("count_nearly_equal(points: Points, distance: float) -> int",
              "tf::count_nearly_equal($points, distance)"),
     Function("weld(mesh_or_points: Body, options: weld_options(tolerance), "
-             "label: ArrayLike = None) -> WeldResult",
-             body="welded(mesh_or_points, how, label, progress)",
+             "label: Groups = None) -> WeldResult",
              docs=_WELD | {
                  "mesh_or_points": "a mesh, points (n, 3), or anything with `points` or `vertices` "
                                    "and no faces.",
@@ -433,11 +430,12 @@ FUNCTIONS = [
                             "scale of `start`."}),
     Function("mate_features(moving: Body, onto: Bodies, of_moving: Feature, of_fixed: Feature, "
              "options: feature_mate_options) -> Placement",
-             words={"fixed": "onto"}, body="mated(moving, onto, of_moving, of_fixed, how, "
-                                           "progress)",
+             "tf::mate_features($moving, $onto, of_moving, of_fixed, options)", "moving",
+             words={"fixed": "onto"},
              docs={"onto": _FIXED, "of_moving": "a plane or an axis of `find_features`.",
                    "of_fixed": "one of the same kind."}),
     Function("pack(parts: Parts, size: ArrayLike, options: pack_options) -> Packing",
+             "tf::pack($parts, options)", "parts", "long_work",
              given="size=extent_of(size)", leave="size",
              docs={"size": "(2,) or (3,): length, depth and height of a plate."}),
     # _assembly

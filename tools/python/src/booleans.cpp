@@ -22,10 +22,8 @@ namespace {
 py::list objects_of(const held_mesh& mesh) {
     py::list objects;
     if (mesh.data().is_none()) return objects;
-    tf::mesh_file whole = mesh.data().cast<const file_data&>().file();
-    if (whole.attributes.parts.size() < 2) return objects;
-    const auto [points, faces] = mesh.view();
-    whole.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
+    if (mesh.data().cast<const file_data&>().file().attributes.parts.size() < 2) return objects;
+    const tf::mesh_file whole = file_of(mesh);
     require_rows(whole, 0);
     std::vector<tf::file_part> parts;
     without_lock([&] { parts = tf::split_parts({&whole, {}}); });

@@ -27,6 +27,14 @@ void write_isolines(const std::filesystem::path& path, const py::list& lines,
     without_lock([&] { tf::write_isolines(path, all, seen, format, unit); });
 }
 
+py::object transformed(const held_mesh& mesh, const array_of<double>& matrix) {
+    const tf::transform<3> by = transform_of(matrix);
+    auto points = run([&](const tf::progress_callback&) {
+        return tf::transform_mesh({mesh.view().points, {}}, by).points;
+    });
+    return moved_mesh(std::move(points), mesh, by, py::none());
+}
+
 /// Points, faces, and the attributes of those that have some.
 py::tuple concatenate(const held_meshes& meshes) {
     const carrying attributes(meshes);
@@ -54,6 +62,7 @@ void add_cuts(py::module_& module) {
     add_job(module, "write_section", &write_section, job_kind::writes);
     add_job(module, "write_isolines", &write_isolines, job_kind::writes);
     add_job(module, "concatenate", &concatenate);
+    add_job(module, "transformed", &transformed);
 }
 
 }  // namespace binding

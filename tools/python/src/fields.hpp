@@ -116,6 +116,23 @@ void add_options_of(py::module_& module, const char* type) {
     made.attr("defaults") = defaults;
 }
 
+}  // namespace binding
+
+/// What Python has for a feature.
+template <>
+struct pybind11::detail::type_caster<treeform::mesh_feature> {
+    PYBIND11_TYPE_CASTER(treeform::mesh_feature, const_name("Feature"));
+
+    bool load(handle from, bool) {
+        binding::take("kind", from.attr("kind"), value.kind);
+        binding::take("origin", from.attr("origin"), value.origin);
+        binding::take("direction", from.attr("direction"), value.direction);
+        return true;
+    }
+};
+
+namespace binding {
+
 // ---- results ----
 
 /// The object of a class of the package, with these fields.

@@ -106,6 +106,18 @@ py::object object(of_result, tf::turn_result&& from, const held_mesh& moving) {
                        {{"angle", from.angle}, {"tolerance", from.tolerance}});
 }
 
+py::object object(of_result, tf::feature_mating&& from, const held_mesh& moving) {
+    return with_fields(std::move(from.at), moving,
+                       {{"angle", from.turn_angle}, {"offset", from.offset}});
+}
+
+py::list packed_parts(std::vector<tf::packed_part>&& from, const held_meshes& parts) {
+    py::list made;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        made.append(as_python(std::move(from[i]), *parts[i]));
+    return made;
+}
+
 py::object mesh_object(tf::mesh&& mesh, const py::object& certificate, const py::object& data) {
     return py::module_::import("treeform._mesh")
         .attr("Mesh")

@@ -117,13 +117,6 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
     return Mesh._of(*_core.concatenate([held(one) for one in several], progress=progress))
 
 
-def moved(mesh: MeshLike, matrix: ArrayLike, progress: Progress) -> Mesh:
-    """With its attributes, normals turned."""
-    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
-    faces, data = _core.turned(own, move)
-    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, data)
-
-
 # made of headers:
 #   SectionLoop section layer_heights CutPiece cut cut_to_fit cut_along MeshPart components
 #   submesh concatenate transformed MassProperties mass_properties
@@ -403,7 +396,7 @@ def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mes
     return joined(meshes, progress)
 
 
-def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None) -> Mesh:
+def transformed(mesh: MeshLike, matrix: ArrayLike | None, *, progress: Progress = None) -> Mesh:
     """The mesh with its points moved. Where `matrix` mirrors, faces are turned over, so that they
     look outward as before.
 
@@ -418,7 +411,7 @@ def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None)
     >>> mirrored.volume, mirrored.bounds.tolist()
     (2.0, [[-2.0, 0.0, 0.0], [0.0, 1.0, 1.0]])
     """
-    return moved(mesh, matrix, progress)
+    return _core.transformed(held(mesh), _arrays.matrix(matrix, "matrix"), progress=progress)
 
 
 @dataclass(frozen=True, repr=False)

@@ -81,7 +81,7 @@ def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: s
     else:
         made, certified = _scene_of(parts if isinstance(parts, Mapping) else {
             str(number): part for number, part in enumerate(parts, 1)})
-    written = _core.write(path, made._held, made._attributes, certified, how, progress=progress)
+    written = _core.write(path, made._held, certified, how, progress=progress)
     if parts is not None and not written.format.startswith(("3mf", "obj")):
         written.warnings.append(f"parts are one mesh now: {written.format} does not hold them")
     return written
@@ -92,8 +92,7 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
     if not parts:
         raise ValueError("mesh: there is none in the list")
     meshes = [as_mesh(part) for part in parts.values()]
-    data = [one._attributes for one in meshes]
-    made = Mesh._of(*_core.scene([one._held for one in meshes], data,
+    made = Mesh._of(*_core.scene([one._held for one in meshes],
                                  [_arrays.word(name, "mesh") for name in parts]))
     return made, any(one._certificate for one in meshes)
 

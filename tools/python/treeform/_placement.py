@@ -22,18 +22,6 @@ __all__ = ["Alignment", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "P
            "time_of_impact", "turn"]
 
 
-def mated(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature,
-          how: _core.FeatureMateOptions, progress: Progress) -> Placement:
-    """`mate_features`, of features of one kind."""
-    need(of_moving, "of_moving", Feature)
-    need(of_fixed, "of_fixed", Feature)
-    if of_moving.kind != of_fixed.kind:
-        raise ValueError(f"of_fixed: {of_fixed.kind!r}, but of_moving is {of_moving.kind!r}")
-    return _core.mate_features(
-        held_body(moving), bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
-        of_fixed.origin, of_fixed.direction, how, progress=progress)
-
-
 def scale_of(scale: bool | tuple[float, float]) -> dict[str, Any]:
     """Options of `align`: whether to scale, and the bounds."""
     if isinstance(scale, (bool, np.bool_)):
@@ -365,7 +353,9 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     'touching'
     """
     how = options(_core.FeatureMateOptions, locals())
-    return mated(moving, onto, of_moving, of_fixed, how, progress)
+    return _core.mate_features(held_body(moving), bodies(onto),
+                               need(of_moving, "of_moving", Feature),
+                               need(of_fixed, "of_fixed", Feature), how, progress=progress)
 
 
 @dataclass(frozen=True, repr=False)

@@ -12,7 +12,7 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids, columns_of, path_of
 from ._errors import options, settings
 from ._files import Columns, Path
-from ._mesh import Body, Mesh, MeshResult, as_mesh, cloud_of
+from ._mesh import Body, Mesh, MeshResult, held_body
 from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
@@ -45,19 +45,6 @@ class WeldResult(MeshResult):
     def points(self) -> Floats:
         """(m, 3) the points that are left."""
         return self.mesh.vertices
-
-
-def welded(body: Any, how: _core.WeldOptions, label: ArrayLike | None,
-           progress: Progress) -> WeldResult:
-    """`weld` of a cloud, or of a mesh with its attributes."""
-    labels = _arrays.labels(label, "label")
-    points = cloud_of(body)
-    if points is not None:
-        return _core.weld_cloud(points, None, how, labels, progress=progress)
-    mesh = as_mesh(body)
-    if len(mesh._faces):
-        return _core.weld_mesh(mesh._held, mesh._attributes, how, labels, progress=progress)
-    return _core.weld_cloud(mesh._vertices, mesh._attributes, how, labels, progress=progress)
 
 
 def settings_of(files: Path | Iterable[Path], how: _core.WeldStreamOptions, columns: Columns | None,
@@ -210,7 +197,8 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
     ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
     """
     how = options(_core.WeldOptions, locals())
-    return welded(mesh_or_points, how, label, progress)
+    return _core.weld(held_body(mesh_or_points), how, _arrays.labels(label, "label"),
+                      progress=progress)
 
 
 def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress = None) -> int:

@@ -27,12 +27,6 @@ py::object layer_heights(const held_mesh& mesh, double thickness, const array_of
     }));
 }
 
-py::object moved_points(const held_mesh& mesh, const array_of<double>& matrix) {
-    return as_python(run([&](const tf::progress_callback&) {
-        return tf::transform_mesh({mesh.view().points, {}}, transform_of(matrix)).points;
-    }));
-}
-
 py::object mass_properties(const held_mesh& mesh) {
     return as_python(
         run([&](const tf::progress_callback&) { return tf::find_mass_properties(mesh.view()); }));
@@ -296,7 +290,6 @@ void add_functions(py::module_& module) {
     add_job(module, "check_solid", &check_solid);
     add_job(module, "section", &section);
     add_job(module, "layer_heights", &layer_heights);
-    add_job(module, "moved_points", &moved_points);
     add_job(module, "mass_properties", &mass_properties);
     add_job(module, "offset", &offset, job_kind::long_work);
     add_job(module, "hollow", &hollow, job_kind::long_work);

@@ -48,7 +48,7 @@ py::object object(of_result, tf::penetration_depth_result&& from);
 py::object object(of_result, tf::laid_flat&& from, const held_mesh& moving);
 py::object object(of_result, tf::align_result&& from, const held_mesh& moving);
 py::object object(of_result, tf::packed_part&& from, const held_mesh& moving);
-py::object object(of_result, tf::packing&& from);
+py::object object(of_result, tf::packing&& from, const held_meshes& parts);
 py::object object(of_result, tf::part_clash&& from);
 py::object object(of_result, tf::pose_result&& from);
 py::object object(of_result, tf::clash_result&& from);

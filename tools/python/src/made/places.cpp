@@ -186,9 +186,9 @@ py::object object(of_result, tf::packed_part&& from, const held_mesh& moving) {
     return object_of("treeform._placement", "PackedPart", made);
 }
 
-py::object object(of_result, tf::packing&& from) {
+py::object object(of_result, tf::packing&& from, const held_meshes& parts) {
     py::dict made;
-    made["parts"] = py::list();
+    made["parts"] = packed_parts(std::move(from.parts), parts);
     made["not_placed"] = as_python(std::move(from.not_placed));
     made["plates_used"] = as_python(std::move(from.plates_used));
     made["tries"] = as_python(std::move(from.tries));
