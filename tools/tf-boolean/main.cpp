@@ -1,10 +1,10 @@
 /// \file
 /// tf-boolean: set operations on solids.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-boolean/outputs.hpp"
 #include "tools/tf-boolean/settings.hpp"
 #include "tools/tf-boolean/solids.hpp"

@@ -1,6 +1,6 @@
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include "tools/tf-cut/cutting.hpp"
 
 #include <algorithm>

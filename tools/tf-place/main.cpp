@@ -1,13 +1,13 @@
 /// \file
 /// tf-place: finds where to put one mesh with respect to others.
 
-#include "tools/assembly/assembly.hpp"
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/run.hpp"
-#include "tools/placing/modes.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/tf-place/assembly/assembly.hpp"
 #include "tools/tf-place/place.hpp"
+#include "tools/tf-place/placing/modes.hpp"
 
 #include <string>
 #include <string_view>

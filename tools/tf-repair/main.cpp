@@ -1,11 +1,11 @@
 /// \file
 /// tf-repair: makes solids of dirty meshes.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/curve_file.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-repair/outputs.hpp"
 #include "tools/tf-repair/wrapping.hpp"
 #include <treeform/mesh/as_mesh.hpp>

@@ -1,14 +1,14 @@
 /// \file
 /// tf-selfintersect: finds the self-intersections of triangle meshes, and resolves them.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/curve_file.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/shell/team.hpp"
 #include "tools/tf-selfintersect/in_tiles.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
-#include "tools/tiles/team.hpp"
 #include <treeform/tf.hpp>
 
 #include <array>

@@ -1,14 +1,14 @@
 /// \file
 /// tf-weld: merges points or vertices that lie within a distance of each other.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/output_file.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/output_file.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/shell/team.hpp"
 #include "tools/tf-weld/out_of_core.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/settings.hpp"
-#include "tools/tiles/team.hpp"
 #include <treeform/tf.hpp>
 
 namespace {
