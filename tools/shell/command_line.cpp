@@ -53,6 +53,27 @@ void command_line::mode(mode_text text, const command_line& own) {
     mode(std::move(text));
 }
 
+void command_line::describe(std::string_view help) {
+    for (auto& [names, text] : sections_of(help))
+        if (names == "epilogue")
+            epilogue(text);
+        else
+            mode(mode_of(names, text));
+}
+
+void command_line::refuse_others(const std::string& mode) const {
+    const auto at =
+        std::ranges::find_if(text_.modes, [&](auto& one) { return is_named(one, mode); });
+    std::vector<std::string> mine;
+    for (const option_group& group : groups_for(*at, text_.groups, text_.modes))
+        for (const option_text& one : group.options) mine.push_back(one.names);
+    for (const option_group& group : text_.groups)
+        for (const option_text& one : group.options)
+            if (one.names.starts_with('-') && given(long_name(one)) &&
+                std::ranges::count(mine, one.names) == 0)
+                tools::refuse(long_name(one) + " is not for " + mode);
+}
+
 void command_line::group(std::string title) { text_.groups.push_back({.title = std::move(title)}); }
 
 void command_line::flag(bool& target, option_text text) {

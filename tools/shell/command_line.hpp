@@ -29,6 +29,10 @@ class command_line {
     void mode(mode_text text);
     /// The same; `own` is all of its command line, and must outlive this one.
     void mode(mode_text text, const command_line& own);
+    /// The modes of a help.txt, and its text at the end.
+    void describe(std::string_view help);
+    /// \throws failure (bad_usage) for an option that was given and is not for this mode
+    void refuse_others(const std::string& mode) const;
     /// Options that follow are listed under `title`.
     void group(std::string title);
     void flag(bool& target, option_text text);

@@ -6,47 +6,10 @@
 #include <string_view>
 
 namespace tools {
+
+extern const std::string_view assembly_help;  ///< help.txt of this folder
+
 namespace {
-
-const char* const clash_epilogue =
-    "Parts are the objects, groups or nodes of the files; a file without names is\n"
-    "one part. All pairs are decided exactly on the coordinates as read. With\n"
-    "several files, the name of a part is FILE/PART, FILE without its extension.\n"
-    "Parts penetrate, touch, are closer than --clearance, or are clear. What two\n"
-    "closed parts have in common is measured by its volume; a depth is the length of\n"
-    "a translation that takes one out of the other, found and verified, so that it\n"
-    "is an upper bound.\n"
-    "\n"
-    "Examples:\n"
-    "  tf-place clash assembly.glb\n"
-    "  tf-place clash engine.3mf --clearance 0.2 --ignore 'bolt*:nut*' -r clash.json\n"
-    "  tf-place clash housing.stl lid.stl gasket.stl -o contacts.ply\n"
-    "\n"
-    "Exit status: 0 no clash (parts that touch, without --clearance, are none);\n"
-    "  1 parts penetrate or are closer than --clearance; 2 usage; 3 input;\n"
-    "  4 output; 5 stopped (memory, timeout, signal); 70 bug.\n";
-
-const char* const check_epilogue =
-    "POSES is one of these, by its content:\n"
-    "  JSON lines   one pose a line: {\"part\": MATRIX, ...}, MATRIX 16 numbers in a\n"
-    "               row or 4 rows of 4; parts without one stay where they are. Of a\n"
-    "               robot {\"joint\": VALUE, ...}, in radians and meters; joints\n"
-    "               without one are at 0\n"
-    "  matrices     16 numbers for each part, pose after pose, as --matrix writes\n"
-    "  a report     of tf-place, whose matrices are poses of the first part\n"
-    "A robot is a URDF file, with fixed, revolute, continuous and prismatic joints;\n"
-    "its links are the parts; two that a joint connects are not tested against each\n"
-    "other. Boxes are exact; cylinders and spheres are triangles around them, so\n"
-    "that no clash is missed. Corners are moved and rounded once; for these the\n"
-    "answer is exact.\n"
-    "\n"
-    "Examples:\n"
-    "  tf-place check robot.urdf --poses angles.jsonl --results clashes.jsonl\n"
-    "  tf-place check gripper.stl box.stl --poses poses.jsonl --clearance 2\n"
-    "\n"
-    "Exit status: 0 no pose clashes; 1 in a pose, parts penetrate or are closer than\n"
-    "  --clearance; 2 usage; 3 input; 4 output; 5 stopped (memory, timeout, signal);\n"
-    "  70 bug.\n";
 
 void add_shared_options(command_line& line, assembly_settings& s) {
     line.group("Options");
@@ -118,7 +81,7 @@ assembly_command::assembly_command(const std::string& mode)
             line_.refuse(name, true,
                          "is of clash, which shows parts as they stand; check looks at "
                          "many poses, and shows none");
-    line_.epilogue(clash_ ? clash_epilogue : check_epilogue);
+    line_.epilogue(sections_of(assembly_help)[clash_ ? 0 : 1].second);
 }
 
 int assembly_command::run(int argc, const char* const* argv) {
