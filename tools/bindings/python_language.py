@@ -26,7 +26,8 @@ ROWS = {"double": ("Floats", ","), "point3": ("Floats", ", 3"), "uint32_t": ("Id
 #: What results are made in, as functions take it.
 CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
             "moving": ", const held_mesh& moving", "data": ", const file_data* data",
-            "parts": ", const held_meshes& parts", "whole": ", const tf::section_result& whole", "robot": ", const tf::urdf_robot& robot"}
+            "parts": ", const held_meshes& parts", "whole": ", const tf::section_result& whole",
+            "robot": ", const tf::urdf_robot& robot"}
 
 
 @dataclass

@@ -94,8 +94,8 @@ RESULTS = [
                                     "is around it, by number; None for none.",
                                     "parent_of(whole, from)")]}),
     Result("section_result", "Section", "_cuts",
-           doc="What is in parallel planes: layers, in the order of their heights as given. Layer i "
-               "has the loops `loops(i)`.",
+           doc="What is in parallel planes: layers, in the order of their heights as given. Layer "
+               "i has the loops `loops(i)`.",
            custom={
                "layers": [
                    column("heights", "Floats", "(K,) of the layers.", "layers", "one.height"),
@@ -105,8 +105,8 @@ RESULTS = [
                    column("lengths", "Floats", "(K,) of all loops.", "layers", "one.length"),
                    column("open_counts", "Ids", "(K,) how many polylines are open; none of a "
                           "solid.", "layers", "one.open_count")],
-               "frame": [Attribute("frame", "Floats", "(3, 3) the axes x and y of `points`, and the "
-                                   "normal, each of length 1.", "column(std::array{from.frame.x, "
+               "frame": [Attribute("frame", "Floats", "(3, 3) the axes x and y of `points`, and "
+                                   "the normal, each of length 1.", "column(std::array{from.frame.x, "
                                    "from.frame.y, from.frame.normal}, std::identity{})")],
                "points": [Attribute("points", "Floats", "(P, 2) of all loops, one after the other: "
                                     "(x . p, y . p) of p in space.",
@@ -297,9 +297,10 @@ RESULTS = [
     Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
     Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
            rows="std::optional<tf::{}>", names={"point": "closest", "face": "triangle_id"},
-           doc="The nearest point of a mesh for each query, in the order that trimesh has: `closest, "
-               "distance, triangle_id = closest_point(mesh, points)`.",
-           docs={"closest": "(n, 3) points on the mesh, rounded; NaN where none is within the radius.",
+           doc="The nearest point of a mesh for each query, in the order that trimesh has: "
+               "`closest, distance, triangle_id = closest_point(mesh, points)`.",
+           docs={"closest": "(n, 3) points on the mesh, rounded; NaN where none is within the "
+                            "radius.",
                  "distance": "(n,) not squared; infinite where there is none.",
                  "triangle_id": "(n,) uint32 the face; 4294967295 where there is none."}),
     Result("mesh_hit", "RayHits", "_nearness", "NamedTuple", rows="std::optional<tf::{}>",
@@ -307,15 +308,15 @@ RESULTS = [
            docs={"t": "(n,) the point hit is origin + t direction; infinite where nothing is hit.",
                  "face": "(n,) uint32 the face; 4294967295 where nothing is hit."},
            custom={"at": [Attribute(
-               "at", "NDArray[np.uint8]", "(n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) or "
-               "in the interior (6) of the face.", "column(from, [](const auto& one) { return one ? "
-               "one->at : tf::feature::interior; })")]}),
+               "at", "NDArray[np.uint8]", "(n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) "
+               "or in the interior (6) of the face.", "column(from, [](const auto& one) { return one "
+               "? one->at : tf::feature::interior; })")]}),
     # _placement
     Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
            doc="Pairs of faces that meet at a place, or keep the clearance there.",
            names={"point": "points", "normal": "normals"},
-           docs={"normals": "(n, 3) of length 1, from the fixed to the moving mesh; 0 where there is "
-                            "none.",
+           docs={"normals": "(n, 3) of length 1, from the fixed to the moving mesh; 0 where there "
+                            "is none.",
                  "moving": "faces of the moving mesh.",
                  "fixed_face": "faces of the fixed mesh; 4294967295 for the bed."},
            custom={"fixed": [Attribute("fixed", "Ids", "(n,) which fixed mesh.", "column(from, "
@@ -329,7 +330,8 @@ RESULTS = [
                       f"py::cast(from.on_{x}.face)")] for x in "ab"},
            docs={"relation": "'separate', 'touching' or 'penetrating'. Exact."}),
     Result("placement", "Placement", "_placement", "MeshResult", context="moving",
-           true="bool(self.certificate)", doc="Where a mesh goes. True where it has a place; else `message` says why not.",
+           true="bool(self.certificate)",
+           doc="Where a mesh goes. True where it has a place; else `message` says why not.",
            leave="clearance bed below_bed on_bed max_travel statistics",
            docs={"end": "Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', "
                         "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
@@ -383,7 +385,8 @@ RESULTS = [
                                     "one.overhang")],
                "+": [MESSAGE]}),
     Result("align_result", "Alignment", "_placement", "MeshResult", context="moving",
-           leave="pivot pivot_moved freedoms", true="self.converged", doc="The motion that `align` has found.",
+           leave="pivot pivot_moved freedoms", true="self.converged",
+           doc="The motion that `align` has found.",
            docs={"end": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'."},
            custom={"points": [Attribute("mesh", "Mesh", "The moved mesh; of a cloud, one without "
                                         "faces.", "moved_mesh(std::move(from.points), moving, "
@@ -396,8 +399,8 @@ RESULTS = [
            custom={"points": [Attribute(
                "mesh", "Mesh", "The part where it goes; where it was, if it is not placed.",
                "moved_mesh(std::move(from.points), moving, from.matrix, py::none())")]}),
-    Result("packing", "Packing", "_placement", context="parts", leave="pairs_measured bed certificate",
-           true="len(self.not_placed) == 0",
+    Result("packing", "Packing", "_placement", context="parts",
+           leave="pairs_measured bed certificate", true="len(self.not_placed) == 0",
            doc="Filled plates. True where every part has a place.",
            custom={"parts": [Attribute("parts", "list[PackedPart]", "In the order of the input.",
                                        "packed_parts(std::move(from.parts), parts)")],

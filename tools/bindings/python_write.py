@@ -3,21 +3,57 @@ tools/python/src/made."""
 
 from __future__ import annotations
 
+import ast
 import pathlib
 import re
 
 from c_write import formatted
 from headers import ROOT
 from python_functions import FunctionWriter
-from python_language import Function, Language
+from python_language import Function, Language, call_text
 
 PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
 #: Modules whose results are in `places.cpp`.
 PLACES = ("_assembly", "_nearness", "_placement")
-BLOCK = re.compile(r"^# made of (headers|options|functions|names|imports)[^\n]*:\n"
+BLOCK = re.compile(r"^# made of (headers|options|functions|names|imports|uses)[^\n]*:\n"
                    r"((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
+
+#: Where the modules of the package have names from, in this order.
+USES = {"html": "", "os": "", "re": "", "shutil": "", "tempfile": "",
+        "dataclasses": "dataclass", "functools": "partial",
+        "typing": "IO Any Iterable List Mapping NamedTuple Sequence Union",
+        "numpy": "np", "numpy.typing": "ArrayLike NDArray", ".": "_arrays _core",
+        "._arrays": "NONE Floats Ids columns_of path_of",
+        "._errors": "FileError NotSolidError checked file_error need options require settings",
+        "._files": "Columns Path",
+        "._mesh": "Body Mesh MeshLike MeshResult as_mesh bodies held held_body listed points_of",
+        "._placement": "SearchEffort", "._progress": "Progress part", "._properties": "Feature",
+        "._repair": "MadeMesh", "._results": "Certificate Result tuple_repr",
+        "._steps": "Communicator InSteps in_communicator"}
+
+
+def uses(text: str) -> str:
+    """The imports of a module."""
+    tree = ast.parse(text)
+    used = {one.id for one in ast.walk(tree) if isinstance(one, ast.Name)}
+    used -= {one.name for one in tree.body if isinstance(one, (ast.ClassDef, ast.FunctionDef))}
+    used -= {one.id for one in ast.walk(tree)
+             if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Store)}
+    groups: list[list[str]] = [[], [], []]
+    for module, names in USES.items():
+        there = [name for name in names.split() if name in used]
+        group = groups[2 if module[0] == "." else module.startswith("numpy")]
+        if not names and module in used:
+            group.append(f"import {module}")
+        elif there == ["np"]:
+            group.append("import numpy as np")
+        elif there:
+            line = f"from {module} import {', '.join(there)}"
+            group.append(line if len(line) <= 100 else
+                         call_text(f"from {module} import (", there, ")"))
+    return "\n\n".join("\n".join(one) for one in groups if one) + "\n"
 
 
 class Writer:
@@ -32,11 +68,15 @@ class Writer:
 
     def package_file(self, path: pathlib.Path) -> str:
         """A file of the package with its blocks made anew."""
-        return BLOCK.sub(self._block, path.read_text())
+        text = BLOCK.sub(self._block, path.read_text())
+        return re.sub(r"(^# made of uses:\n).*?(?=^# end\n)", lambda m: m[1] + uses(text), text,
+                      flags=re.M | re.S)
 
     def _block(self, found: re.Match[str]) -> str:
         kind, names = found.group(1), found.group(2).replace("#", " ").split()
         head = found.group(0)[:found.end(2) - found.start()]
+        if kind == "uses":
+            return found.group(0)
         if kind == "options":
             return head + "".join(self.language.option_stub(name, leave)
                                   for name, leave in self.options.items()

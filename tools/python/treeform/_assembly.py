@@ -3,6 +3,7 @@ poses."""
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Any, Iterable, NamedTuple, Sequence
 
@@ -16,6 +17,7 @@ from ._mesh import Body, MeshLike, held, held_body
 from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
+# end
 
 __all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATIONS", "check_poses",
            "clash", "closest_points", "distance", "intersects"]
@@ -29,9 +31,8 @@ def poses_of(values: ArrayLike | None, name: str) -> Floats:
     if values is None:
         return _arrays.matrix(None, name)[None]
     array = _arrays.floats(values, name)
-    if array.ndim not in (2, 3) or array.shape[-2:] != (4, 4):
-        raise ValueError(f"{name}: the shape is {array.shape}, not (4, 4) or (n, 4, 4)")
-    array = array.reshape(-1, 4, 4)
+    fits = array.ndim in (2, 3) and array.shape[-2:] == (4, 4)
+    array = _arrays.shaped(array, fits, name, "(4, 4) or (n, 4, 4)").reshape(-1, 4, 4)
     if not np.isfinite(array).all():
         at = int(np.argmin(np.isfinite(array).all(axis=(1, 2))))
         raise ValueError(f"{name}: an entry of {at} is not finite")
@@ -54,9 +55,8 @@ PartPairs = Iterable[Sequence[int]]
 
 def _pairs(pairs: PartPairs) -> Ids:
     array = _arrays.ids(_arrays.several(pairs, "ignored"), "ignored")
-    if array.size and (array.ndim != 2 or array.shape[1] != 2):
-        raise ValueError(f"ignored: the shape is {array.shape}, not (n, 2)")
-    return array.reshape(-1, 2)
+    fits = not array.size or array.ndim == 2 and array.shape[1] == 2
+    return _arrays.shaped(array, fits, "ignored", "(n, 2)").reshape(-1, 2)
 
 
 def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
@@ -124,8 +124,8 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.PoseOpt
         moves = np.tile(np.eye(4), (len(array), max(1, len(bodies)), 1, 1))
         moves[:, 0] = array
         array = moves
-    if array.ndim != 4 or array.shape[1:] != (len(bodies), 4, 4):
-        raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
+    _arrays.shaped(array, array.ndim == 4 and array.shape[1:] == (len(bodies), 4, 4), "poses",
+                   f"(n, {len(bodies)}, 4, 4)")
     return _core.clash_in_poses(bodies, poses_of(array.reshape(-1, 4, 4), "poses"), how,
                                 _pairs(ignored), progress=progress)
 

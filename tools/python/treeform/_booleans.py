@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Any, Iterable, Union
 
@@ -13,6 +14,7 @@ from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, held, listed
 from ._progress import Progress
 from ._results import Certificate
+# end
 
 __all__ = ["BooleanResult", "boolean", "check_solid", "clip", "difference", "intersection", "split",
            "symmetric_difference", "union"]

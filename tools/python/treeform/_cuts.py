@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+# made of uses:
 import os
 from dataclasses import dataclass
-from typing import Any, Iterable, List, Union
+from typing import Iterable, List, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _arrays, _core
-from ._arrays import NONE, Floats, Ids
+from ._arrays import Floats, Ids
 from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held, listed
 from ._progress import Progress
 from ._repair import MadeMesh
 from ._results import Certificate, Result
+# end
 
 __all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "SectionLoop",
            "components", "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights",

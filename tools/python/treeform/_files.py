@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 import os
 import shutil
 import tempfile
@@ -15,6 +16,7 @@ from ._errors import FileError, file_error, options
 from ._mesh import Mesh, MeshLike, as_mesh, listed
 from ._progress import Progress
 from ._results import Result
+# end
 
 __all__ = ["Written", "read", "write"]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Iterable
 
@@ -16,6 +17,7 @@ from ._mesh import Mesh, MeshLike, held
 from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
+# end
 
 __all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "StreamSearch", "faces_in_box",
            "intersection_curves", "intersection_regions", "mesh_intersections",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,6 +15,7 @@ from ._errors import NotSolidError, options, require
 from ._mesh import Body, MeshLike, as_mesh, held, held_body
 from ._progress import Progress
 from ._results import Result, tuple_repr
+# end
 
 __all__ = ["AllRayHits", "ClosestPoints", "Deviation", "RayHits", "closest_point", "contains",
            "deviation", "locate", "raycast", "raycast_all", "raycast_any", "signed_distance",

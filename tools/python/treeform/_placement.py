@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Any, Iterable, NamedTuple
 
@@ -15,6 +16,7 @@ from ._mesh import Body, Mesh, MeshLike, MeshResult, bodies, held, held_body
 from ._progress import Progress
 from ._properties import Feature
 from ._results import Certificate, Result, tuple_repr
+# end
 
 __all__ = ["Alignment", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "PackedPart",
            "Packing", "Placement", "SearchEffort", "align", "drop", "lay_flat", "mate",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 
 from . import _core
@@ -10,6 +11,7 @@ from ._errors import options
 from ._mesh import MeshLike, held
 from ._progress import Progress
 from ._results import Result
+# end
 
 __all__ = ["Feature", "MeshDefects", "SolidDefects", "Topology", "count_inside_out",
            "count_topology", "face_components", "find_defects", "find_features",

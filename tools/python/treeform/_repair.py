@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Any, Iterable
 
@@ -14,6 +15,7 @@ from ._errors import checked, options
 from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
 from ._results import Certificate, Result
+# end
 
 __all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "WrapResult", "convex_hull",
            "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Iterable, Mapping, NamedTuple
 
@@ -14,6 +15,7 @@ from ._files import Path
 from ._mesh import Mesh
 from ._progress import Progress
 from ._results import Result, tuple_repr
+# end
 
 __all__ = ["Joint", "Robot", "read_urdf"]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 import os
 from dataclasses import dataclass
 from typing import Any, Union
@@ -16,6 +17,7 @@ from ._mesh import Body, MeshLike, held, points_of
 from ._progress import Progress
 from ._repair import MadeMesh
 from ._results import Result
+# end
 
 __all__ = ["Isoline", "Isolines", "OffsetResult", "OrientedBox", "SimplifyResult", "Thickness",
            "hollow", "isolines", "offset", "oriented_box", "simplify", "thicken", "wall_thickness"]

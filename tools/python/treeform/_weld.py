@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 import os
 from dataclasses import dataclass
 from typing import Any, Iterable, Mapping
@@ -16,6 +17,7 @@ from ._mesh import Body, Mesh, MeshResult, held_body
 from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
+# end
 
 __all__ = ["StreamWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal", "weld",
            "weld_stream"]
