@@ -106,8 +106,9 @@ RESULTS = [
                    column("open_counts", "Ids", "(K,) how many polylines are open; none of a "
                           "solid.", "layers", "one.open_count")],
                "frame": [Attribute("frame", "Floats", "(3, 3) the axes x and y of `points`, and "
-                                   "the normal, each of length 1.", "column(std::array{from.frame.x, "
-                                   "from.frame.y, from.frame.normal}, std::identity{})")],
+                                   "the normal, each of length 1.",
+                                   "column(std::array{from.frame.x, from.frame.y, "
+                                   "from.frame.normal}, std::identity{})")],
                "points": [Attribute("points", "Floats", "(P, 2) of all loops, one after the other: "
                                     "(x . p, y . p) of p in space.",
                                     "as_array<double>(std::vector(from.points))")],
@@ -309,8 +310,9 @@ RESULTS = [
                  "face": "(n,) uint32 the face; 4294967295 where nothing is hit."},
            custom={"at": [Attribute(
                "at", "NDArray[np.uint8]", "(n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) "
-               "or in the interior (6) of the face.", "column(from, [](const auto& one) { return one "
-               "? one->at : tf::feature::interior; })")]}),
+               "or in the interior (6) of the face.",
+               "column(from, [](const auto& one) { return one ? one->at : "
+               "tf::feature::interior; })")]}),
     # _placement
     Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
            doc="Pairs of faces that meet at a place, or keep the clearance there.",
