@@ -27,7 +27,8 @@ ROWS = {"double": ("Floats", ","), "point3": ("Floats", ", 3"), "uint32_t": ("Id
 CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
             "moving": ", const held_mesh& moving", "data": ", const file_data* data",
             "parts": ", const held_meshes& parts", "whole": ", const tf::section_result& whole",
-            "robot": ", const tf::urdf_robot& robot"}
+            "robot": ", const tf::urdf_robot& robot",
+            "robot_parts": ", tf::robot_parts& parts"}
 
 
 @dataclass
@@ -223,6 +224,8 @@ class Language:
             return NUMBERS[type]
         if type in self.enums or type == "string":
             return "str"
+        if type == "vector<string>":
+            return "list[str]"
         if type in ARRAYS:
             return ARRAYS[type][0]
         if type in self.results:

@@ -225,6 +225,29 @@ RESULTS = [
                **{end: [Attribute(end, "str", f"Name of the link that it {how}.",
                                   f"py::cast(robot.links[from.{end}])")]
                   for end, how in (("parent", "is on"), ("child", "moves"))}}),
+    Result("urdf_robot", "Robot", "_robots", context="robot_parts",
+           doc="Links and joints, with a mesh for each link that has any.\n\n"
+               "`clash(robot.parts, ...)` and `check_poses(robot.parts, robot.poses(values), "
+               "ignored=robot.adjacent)` take its parts.",
+           docs={"name": "As in the file.",
+                 "approximated": "Cylinders and spheres, for which triangles around them stand, a "
+                                 "sentence each.",
+                 "skipped": "What else is no mesh, a sentence each."},
+           custom={
+               "links": [Attribute("links", "list[str]", "Names, in the order of the file.",
+                                   "as_python(std::vector(from.links))")],
+               "joints": [Attribute("joints", "list[Joint]", "Parents ahead of their children.",
+                                    "as_python(std::vector(from.joints), from)")],
+               "meshes": [
+                   Attribute("parts", "list[Mesh]", "The meshes of a link as one, in the frame of "
+                             "the link.", "meshes_of(std::move(parts.parts))"),
+                   Attribute("link_of_part", "Ids", "(N,) the link of each part.",
+                             "as_array(std::vector(parts.links))"),
+                   Attribute("adjacent", "Ids", "(n, 2) parts that a joint connects, the lower "
+                             "number first: they always touch.",
+                             "column(parts.adjacent, std::identity{})")],
+               "+": [Attribute("_data", "_core.RobotData", "",
+                               "py::cast(robot_data{from, parts.links})")]}),
     # _weld
     Result("weld_result", "WeldResult", "_weld", "MeshResult", context="data",
            doc="A welded mesh or cloud.", leave="attributes",

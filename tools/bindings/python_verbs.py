@@ -206,8 +206,7 @@ FUNCTIONS = [
              docs={"placed": "(V, 3)"},
              also="Returns the number of faces that have lost their area, and of pairs of faces "
                   "that meet now and did not before."),
-    Function("join_equal_points(mesh: MeshLike) -> Mesh",
-             body="Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))"),
+    Function("join_equal_points(mesh: Mesh) -> Mesh"),
     # _properties
     Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
     Function("signed_volume(mesh: Mesh) -> float", "tf::signed_volume(mesh.view())"),

@@ -113,9 +113,4 @@ inline py::array_t<double> as_array(const tf::point3& p) {
     return made;
 }
 
-/// Where a mesh has no element: None in place of the number.
-inline py::object or_none(bool there, std::uint64_t number) {
-    return there ? py::object(py::int_(number)) : py::none();
-}
-
 }  // namespace binding

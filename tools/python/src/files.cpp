@@ -5,17 +5,15 @@ namespace binding {
 
 namespace {
 
-/// Points, faces and all else.
-py::tuple parts_of(tf::mesh_file&& file) {
-    py::array points = as_array(std::move(file.mesh.points));
-    py::array faces = as_array(std::move(file.mesh.faces));
-    file.mesh = {};
-    return py::make_tuple(points, faces, file_data{std::move(file)});
+/// `Mesh` of the package.
+py::object mesh_of(tf::mesh_file&& file) {
+    tf::mesh mesh = std::exchange(file.mesh, {});
+    return mesh_object(std::move(mesh), py::none(), py::cast(file_data(std::move(file))));
 }
 
 /// What `take` has read.
 template <class Take>
-py::tuple read_by(bool join, const Take& take) {
+py::object read_by(bool join, const Take& take) {
     tf::mesh_file file = run([&](const tf::progress_callback&) {
         tf::mesh_file read = take();
         if (join && !read.indexed) {
@@ -27,30 +25,30 @@ py::tuple read_by(bool join, const Take& take) {
         }
         return read;
     });
-    return parts_of(std::move(file));
+    return mesh_of(std::move(file));
 }
 
-py::tuple read(const std::filesystem::path& path, const std::string& format, bool join,
-               const tf::read_options& options) {
+py::object read(const std::filesystem::path& path, const std::string& format, bool join,
+                const tf::read_options& options) {
     return read_by(join, [&] { return tf::read(path, format, options); });
 }
 
 /// `name` stands for the file in errors, and its extension counts.
-py::tuple read_bytes(const py::bytes& bytes, const std::string& name, const std::string& format,
-                     bool join, const tf::read_options& options) {
+py::object read_bytes(const py::bytes& bytes, const std::string& name, const std::string& format,
+                      bool join, const tf::read_options& options) {
     const auto content = static_cast<std::string_view>(bytes);
     return read_by(
         join, [&] { return tf::read(std::as_bytes(std::span(content)), name, format, options); });
 }
 
-/// Meshes as the parts of one file: its points, faces and all else.
-py::tuple scene(const held_meshes& meshes, const std::vector<std::string>& names) {
+/// Meshes as the parts of one file.
+py::object scene(const held_meshes& meshes, const std::vector<std::string>& names) {
     std::vector<tf::mesh_file> files;
     std::vector<tf::scene_member> members;
     for (const held_mesh* one : meshes) files.push_back(file_of(*one));
     for (std::size_t i = 0; i < files.size(); ++i)
         members.push_back({.file = &files[i], .name = names[i], .label = names[i]});
-    return parts_of(run([&](const tf::progress_callback&) { return tf::scene_of(members); }));
+    return mesh_of(run([&](const tf::progress_callback&) { return tf::scene_of(members); }));
 }
 
 py::object write(const std::filesystem::path& path, const held_mesh& mesh, bool certified,

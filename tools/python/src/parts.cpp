@@ -24,6 +24,12 @@ py::list regions_of(tf::part_clash& from) {
     return regions;
 }
 
+py::list meshes_of(std::vector<tf::mesh>&& meshes) {
+    py::list made;
+    for (tf::mesh& one : meshes) made.append(mesh_object(std::move(one), py::none(), py::none()));
+    return made;
+}
+
 py::list texts_of(const std::vector<tf::io_warning>& warnings) {
     py::list texts;
     for (const tf::io_warning& one : warnings) texts.append(one.text);

@@ -75,8 +75,7 @@ py::object transformed(const held_mesh& mesh, const array_of<double>& matrix) {
     return moved_mesh(std::move(points), mesh, by, py::none());
 }
 
-/// Points, faces, and the attributes of those that have some.
-py::tuple concatenate(const held_meshes& meshes) {
+py::object concatenate(const held_meshes& meshes) {
     const carrying attributes(meshes);
     const std::vector<tf::mesh_view> views = views_of(meshes);
     tf::mesh made = run([&](const tf::progress_callback&) { return tf::concatenate(views); });
@@ -86,12 +85,12 @@ py::tuple concatenate(const held_meshes& meshes) {
         for (std::uint32_t v = 0; v < views[i].points.size(); ++v) vertices.push_back({i, v});
     }
     const py::object data = attributes.to(made, {faces, vertices});
-    return py::make_tuple(as_array(std::move(made.points)), as_array(std::move(made.faces)), data);
+    return mesh_object(std::move(made), py::none(), data);
 }
 
 // ---- repair ----
 
-py::tuple join_equal_points(const held_mesh& mesh) {
+py::object join_equal_points(const held_mesh& mesh) {
     const carrying attributes({&mesh});
     std::vector<std::uint32_t> first, faces(mesh.view().faces.size());
     tf::mesh joined = run([&](const tf::progress_callback&) {
@@ -100,8 +99,7 @@ py::tuple join_equal_points(const held_mesh& mesh) {
     });
     std::iota(faces.begin(), faces.end(), 0U);
     const py::object data = attributes.to(joined, faces, first);
-    return py::make_tuple(as_array(std::move(joined.points)), as_array(std::move(joined.faces)),
-                          data);
+    return mesh_object(std::move(joined), py::none(), data);
 }
 
 // ---- weld ----
@@ -178,19 +176,13 @@ std::span<const tf::mesh_positions> some_of(const std::vector<tf::mesh_positions
 
 py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
                      const array_of<double>& move_b) {
-    const auto positions = positions_of(move_a, move_b);
-    if (positions.size() != 1)
-        return column(in_pieces(positions.size(),
-                                [&](std::size_t begin, std::size_t end) {
-                                    return tf::intersects(a.prepared(), b.prepared(),
-                                                          some_of(positions, begin, end));
-                                }),
-                      [](bool one) { return one; });
-    const bool meet = run([&](const tf::progress_callback&) {
-        return with_both(
-            a, b, [&](const auto& m, const auto& n) { return tf::intersects(m, n, positions[0]); });
-    });
-    return as_array<std::uint8_t>(std::vector<std::uint8_t>{meet});
+    const auto all = positions_of(move_a, move_b);
+    const bool one = all.size() == 1;
+    const tf::mesh_ref x = one ? a.ref() : a.prepared(), y = one ? b.ref() : b.prepared();
+    const auto find = [&](std::size_t begin, std::size_t end) {
+        return tf::intersects(x, y, some_of(all, begin, end));
+    };
+    return column(in_pieces(all.size(), find), [](bool meet) { return meet; });
 }
 
 py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,

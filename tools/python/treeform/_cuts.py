@@ -116,7 +116,7 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
     several = listed(meshes)
     if several is None:
         raise ValueError("meshes: several meshes are needed")
-    return Mesh._of(*_core.concatenate([held(one) for one in several], progress=progress))
+    return _core.concatenate([held(one) for one in several], progress=progress)
 
 
 # made of headers:

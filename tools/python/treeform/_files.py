@@ -28,9 +28,8 @@ def read_from(path: Path | IO[bytes], format: str, join: bool, how: _core.ReadOp
               progress: Progress) -> Mesh:
     """Of a path, or of what is open."""
     if isinstance(path, (str, os.PathLike)):
-        return Mesh._of(*_core.read(path_of(path), format, join, how, progress=progress))
-    return Mesh._of(*_core.read_bytes(_content(path), _name_of(path), format, join, how,
-                                      progress=progress))
+        return _core.read(path_of(path), format, join, how, progress=progress)
+    return _core.read_bytes(_content(path), _name_of(path), format, join, how, progress=progress)
 
 
 def _content(file: Any) -> bytes:
@@ -94,8 +93,8 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
     if not parts:
         raise ValueError("mesh: there is none in the list")
     meshes = [as_mesh(part) for part in parts.values()]
-    made = Mesh._of(*_core.scene([one._held for one in meshes],
-                                 [_arrays.word(name, "mesh") for name in parts]))
+    made = _core.scene([one._held for one in meshes],
+                       [_arrays.word(name, "mesh") for name in parts])
     return made, any(one._certificate for one in meshes)
 
 

@@ -329,5 +329,5 @@ def join_equal_points(mesh: MeshLike, *, progress: Progress = None) -> Mesh:
     >>> soup, treeform.join_equal_points(soup)
     (Mesh(36 vertices, 12 faces), Mesh(8 vertices, 12 faces))
     """
-    return Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))
+    return _core.join_equal_points(held(mesh), progress=progress)
 # end

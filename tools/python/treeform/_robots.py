@@ -43,6 +43,8 @@ class Joint(NamedTuple):
 # end
 
 
+# made of headers:
+#   Robot
 @dataclass(frozen=True, repr=False)
 class Robot(Result):
     """Links and joints, with a mesh for each link that has any.
@@ -69,6 +71,7 @@ class Robot(Result):
     approximated: list[str]
     skipped: list[str]
     _data: _core.RobotData
+# end
 
     def poses(self, values: Mapping[str, ArrayLike] | None = None) -> Floats:
         """(N, 4, 4): where each part is, from its own frame to that of the robot; (P, N, 4, 4)
@@ -117,8 +120,5 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     [True, False]
     """
     folders = _arrays.several(package_folders, "package_folders")
-    (data, name, links, joints, parts, link_of_part, adjacent, approximated,
-     skipped) = _core.read_urdf(
-        path_of(path), [path_of(one) for one in folders], visual, progress=progress)
-    return Robot(name, links, joints, [Mesh._of(*one) for one in parts],
-                 np.array(link_of_part, np.uint32), adjacent, approximated, skipped, data)
+    return _core.read_urdf(path_of(path), [path_of(one) for one in folders], visual,
+                           progress=progress)

@@ -328,6 +328,20 @@ py::object object(of_result, tf::urdf_joint&& from, const tf::urdf_robot& robot)
     return object_of("treeform._robots", "Joint", made);
 }
 
+py::object object(of_result, tf::urdf_robot&& from, tf::robot_parts& parts) {
+    py::dict made;
+    made["name"] = as_python(std::move(from.name));
+    made["links"] = as_python(std::vector(from.links));
+    made["joints"] = as_python(std::vector(from.joints), from);
+    made["parts"] = meshes_of(std::move(parts.parts));
+    made["link_of_part"] = as_array(std::vector(parts.links));
+    made["adjacent"] = column(parts.adjacent, std::identity{});
+    made["approximated"] = as_python(std::move(from.approximated));
+    made["skipped"] = as_python(std::move(from.skipped));
+    made["_data"] = py::cast(robot_data{from, parts.links});
+    return object_of("treeform._robots", "Robot", made);
+}
+
 py::object object(of_result, tf::weld_result&& from, const file_data* data) {
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), py::none(),
