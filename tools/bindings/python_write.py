@@ -9,7 +9,7 @@ import re
 
 from c_write import formatted
 from headers import ROOT
-from python_functions import FunctionWriter
+from python_functions import FunctionWriter, public_names
 from python_language import Function, Language, call_text
 
 PACKAGE = ROOT / "tools/python/treeform"
@@ -35,7 +35,7 @@ USES = {"html": "", "os": "", "re": "", "shutil": "", "tempfile": "",
 
 
 def uses(text: str) -> str:
-    """The imports of a module."""
+    """The imports of a module, and what it offers."""
     tree = ast.parse(text)
     used = {one.id for one in ast.walk(tree) if isinstance(one, ast.Name)}
     used -= {one.name for one in tree.body if isinstance(one, (ast.ClassDef, ast.FunctionDef))}
@@ -53,7 +53,8 @@ def uses(text: str) -> str:
             line = f"from {module} import {', '.join(there)}"
             group.append(line if len(line) <= 100 else
                          call_text(f"from {module} import (", there, ")"))
-    return "\n\n".join("\n".join(one) for one in groups if one) + "\n"
+    names = call_text("__all__ = [", [f'"{name}"' for name in public_names(text)], "]")
+    return "\n\n".join(["\n".join(one) for one in groups if one] + [names]) + "\n"
 
 
 class Writer:

@@ -17,10 +17,10 @@ from ._mesh import Body, MeshLike, held, held_body
 from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
-# end
 
 __all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATIONS", "check_poses",
            "clash", "closest_points", "distance", "intersects"]
+# end
 
 #: How two parts lie to each other; a number in `PoseClashes.how` is a place in this list.
 RELATIONS = tuple(_core.RELATIONS)

@@ -14,10 +14,10 @@ from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, held, listed
 from ._progress import Progress
 from ._results import Certificate
-# end
 
 __all__ = ["BooleanResult", "boolean", "check_solid", "clip", "difference", "intersection", "split",
            "symmetric_difference", "union"]
+# end
 
 
 #: What set operations take: a mesh, or several in whatever can be gone through.

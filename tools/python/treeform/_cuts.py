@@ -17,11 +17,11 @@ from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held, listed
 from ._progress import Progress
 from ._repair import MadeMesh
 from ._results import Certificate, Result
-# end
 
 __all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "SectionLoop",
            "components", "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights",
            "mass_properties", "section", "submesh", "transformed"]
+# end
 
 
 # made of headers:

@@ -16,9 +16,9 @@ from ._errors import FileError, file_error, options
 from ._mesh import Mesh, MeshLike, as_mesh, listed
 from ._progress import Progress
 from ._results import Result
-# end
 
 __all__ = ["Written", "read", "write"]
+# end
 
 Path = Union[str, "os.PathLike[str]"]
 Columns = Mapping[str, Union[str, int]]

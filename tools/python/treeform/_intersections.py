@@ -17,11 +17,11 @@ from ._mesh import Mesh, MeshLike, held
 from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
-# end
 
 __all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "StreamSearch", "faces_in_box",
            "intersection_curves", "intersection_regions", "mesh_intersections",
            "self_intersections", "self_intersections_of_file"]
+# end
 
 #: How two faces meet; a number in `kinds` is a place in this list.
 KINDS = tuple(_core.KINDS)

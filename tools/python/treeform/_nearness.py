@@ -15,11 +15,11 @@ from ._errors import NotSolidError, options, require
 from ._mesh import Body, MeshLike, as_mesh, held, held_body
 from ._progress import Progress
 from ._results import Result, tuple_repr
-# end
 
 __all__ = ["AllRayHits", "ClosestPoints", "Deviation", "RayHits", "closest_point", "contains",
            "deviation", "locate", "raycast", "raycast_all", "raycast_any", "signed_distance",
            "winding_number"]
+# end
 
 
 OUTSIDE = 0

@@ -16,12 +16,12 @@ from ._mesh import Body, Mesh, MeshLike, MeshResult, bodies, held, held_body
 from ._progress import Progress
 from ._properties import Feature
 from ._results import Certificate, Result, tuple_repr
-# end
 
 __all__ = ["Alignment", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "PackedPart",
            "Packing", "Placement", "SearchEffort", "align", "drop", "lay_flat", "mate",
            "mate_features", "measure", "pack", "penetration_depth", "separate", "slide",
            "time_of_impact", "turn"]
+# end
 
 
 def scale_of(scale: bool | tuple[float, float]) -> dict[str, Any]:

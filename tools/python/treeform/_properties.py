@@ -11,11 +11,11 @@ from ._errors import options
 from ._mesh import MeshLike, held
 from ._progress import Progress
 from ._results import Result
-# end
 
 __all__ = ["Feature", "MeshDefects", "SolidDefects", "Topology", "count_inside_out",
            "count_topology", "face_components", "find_defects", "find_features",
            "find_solid_defects"]
+# end
 
 
 # made of headers:

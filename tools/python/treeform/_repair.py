@@ -15,11 +15,11 @@ from ._errors import checked, options
 from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
 from ._results import Certificate, Result
-# end
 
 __all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "WrapResult", "convex_hull",
            "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",
            "rounded", "wrap"]
+# end
 
 
 @dataclass(frozen=True, repr=False)

@@ -15,9 +15,9 @@ from ._files import Path
 from ._mesh import Mesh
 from ._progress import Progress
 from ._results import Result, tuple_repr
-# end
 
 __all__ = ["Joint", "Robot", "read_urdf"]
+# end
 
 
 # made of headers:

@@ -17,10 +17,10 @@ from ._mesh import Body, MeshLike, held, points_of
 from ._progress import Progress
 from ._repair import MadeMesh
 from ._results import Result
-# end
 
 __all__ = ["Isoline", "Isolines", "OffsetResult", "OrientedBox", "SimplifyResult", "Thickness",
            "hollow", "isolines", "offset", "oriented_box", "simplify", "thicken", "wall_thickness"]
+# end
 
 
 def drains_of(drains: ArrayLike) -> Floats:

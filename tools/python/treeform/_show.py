@@ -14,9 +14,9 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._files import Path
 from ._mesh import MeshLike, held_body
-# end
 
 __all__ = ["Picture", "View", "plot", "show"]
+# end
 
 #: A mesh, or the points of a cloud.
 _Shown = Union[MeshLike, ArrayLike]

@@ -12,9 +12,9 @@ from . import _arrays, _core
 from ._arrays import Floats
 from ._progress import Progress, part
 from ._results import tuple_repr
-# end
 
 __all__ = ["BoxTree", "Neighbors", "PointTree"]
+# end
 
 Numbers = NDArray[np.int64]
 

@@ -17,10 +17,10 @@ from ._mesh import Body, Mesh, MeshResult, held_body
 from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
-# end
 
 __all__ = ["StreamWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal", "weld",
            "weld_stream"]
+# end
 
 
 # made of headers:
