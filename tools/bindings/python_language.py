@@ -329,6 +329,7 @@ class Language:
         for one in self.option_fields(name, leave):
             type = {"pair_kinds": "Optional[list[str]]", "filesystem::path": "str",
                     "vector<string>": "list[str]", "vector<weld_condition>": "Same",
+                    "vector<filesystem::path>": "list[str]",
                     "vector<named_column>": "Optional[Mapping[str, str | int]]",
                     "optional<array<double,3>>": "Optional[Sequence[float]]",
                     "optional<array<double,2>>": "Optional[Sequence[float]]"}.get(one.type)

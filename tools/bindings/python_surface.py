@@ -472,7 +472,7 @@ STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_val
 
 #: Options by name: structs, and the fields that Python gives in another way, or not at all.
 OPTIONS = {
-    "read_options": "", "write_options": "keep_names",
+    "cloud_inputs": "format names", "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
     "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
     "offset_options": "", "simplify_options": "face_groups corner_groups", "thickness_options": "",

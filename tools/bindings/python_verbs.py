@@ -309,7 +309,7 @@ FUNCTIONS = [
              "options: weld_stream_options(tolerance), removed: Path = \"\", label: str = \"\", "
              "withhold: bool = False, columns: Columns = None, mixed: bool = False, "
              "communicator: Communicator = None) -> WeldStreamResult",
-             body="streamed(settings_of(files, how, columns, mixed), out, removed, label, "
+             body="streamed(inputs_of(files, columns, mixed), how, out, removed, label, "
                   "withhold,\n"
                   "                    communicator, progress)",
              words={"inputs": "files", "welded": "out"},

@@ -57,6 +57,9 @@ inline void take(const char* name, py::handle value, std::vector<tf::named_colum
 inline void take(const char* name, py::handle value, std::array<double, 2>& to) {
     to = made_by<std::array<double, 2>>("pair", name, value);
 }
+inline void take(const char* name, py::handle value, std::vector<std::filesystem::path>& to) {
+    to = made_by<std::vector<std::filesystem::path>>("paths", name, value);
+}
 inline void take(const char* name, py::handle value, std::vector<std::string>& to) {
     to = made_by<std::vector<std::string>>("words", name, value);
 }

@@ -217,6 +217,15 @@ def path_of(path: str | os.PathLike[str], name: str = "path") -> str:
     return text
 
 
+def paths(values: Any, name: str) -> list[str]:
+    """One path, or several, but not none."""
+    one = isinstance(values, (str, os.PathLike))
+    all = [path_of(path, name) for path in ([values] if one else several(values, name))]
+    if not all:
+        raise ValueError(f"{name}: there are none")
+    return all
+
+
 def word(value: Any, name: str) -> str:
     """`value`, which has to be a word."""
     if not isinstance(value, str):

@@ -173,15 +173,6 @@ def options(type: Callable[..., _Made], arguments: Mapping[str, Any], **others: 
         raise
 
 
-def settings(type: Callable[..., _Made], *arguments: Any) -> _Made:
-    """`type(*arguments)`, of the extension."""
-    try:
-        return type(*arguments)
-    except TypeError as error:
-        name_argument(error)
-        raise
-
-
 def need(value: Any, name: str, kind: type) -> Any:
     """`value`, which has to be one of these."""
     if not isinstance(value, kind):

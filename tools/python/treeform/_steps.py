@@ -96,7 +96,7 @@ class InSteps(Generic[_Work]):
         """arguments: those that it was made with, and other local names."""
         self._work = work
         self._made_of = {name: value for name, value in arguments.items()
-                         if name not in ("self", "__class__", "how", "progress")}
+                         if name not in ("self", "__class__", "how", "work", "progress")}
 
     def scatter(self, *, progress: Progress = None) -> int:
         """Fills the tiles, unless that is done. Returns how many there are."""

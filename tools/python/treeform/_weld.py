@@ -10,8 +10,8 @@ from typing import Any, Iterable, Mapping
 from numpy.typing import ArrayLike
 
 from . import _arrays, _core
-from ._arrays import Floats, Ids, columns_of, path_of
-from ._errors import options, settings
+from ._arrays import Floats, Ids, path_of
+from ._errors import options
 from ._files import Columns, Path
 from ._mesh import Body, Mesh, MeshResult, held_body
 from ._progress import Progress
@@ -49,21 +49,19 @@ class WeldResult(MeshResult):
         return self.mesh.vertices
 
 
-def settings_of(files: Path | Iterable[Path], how: _core.WeldStreamOptions, columns: Columns | None,
-                mixed: bool) -> _core.StreamSettings:
-    """How to weld files: one, or several."""
-    paths = [files] if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
-    if not paths:
-        raise ValueError("files: there are none")
-    return settings(_core.StreamSettings, [path_of(path) for path in paths], how,
-                    columns_of(columns, "columns"), mixed)
+def inputs_of(files: Path | Iterable[Path], columns: Columns | None,
+              mixed: bool) -> _core.CloudInputs:
+    """Files to weld, as one."""
+    return options(_core.CloudInputs, {"columns": columns, "mixed": mixed},
+                   paths=_arrays.paths(files, "files"))
 
 
-def streamed(how: _core.StreamSettings, out: Path, removed: Path, label: str, withhold: bool,
-             communicator: Communicator | None, progress: Progress) -> WeldStreamResult:
+def streamed(inputs: _core.CloudInputs, how: _core.WeldStreamOptions, out: Path, removed: Path,
+             label: str, withhold: bool, communicator: Communicator | None,
+             progress: Progress) -> WeldStreamResult:
     """`weld_stream`, alone or together."""
     return in_communicator(communicator, lambda all: _core.weld_stream(
-        how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
+        inputs, how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
         progress=progress))
 
 
@@ -108,8 +106,9 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
                  mixed: bool = False, progress: Progress = None) -> None:
         files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
         across = _arrays.several(across, "across")
-        how = settings_of(files, options(_core.WeldStreamOptions, locals()), columns, mixed)
-        super().__init__(_core.weld_of(how, progress=progress), locals())
+        how = options(_core.WeldStreamOptions, locals())
+        work = _core.weld_of(inputs_of(files, columns, mixed), how, progress=progress)
+        super().__init__(work, locals())
 
     def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
         """Welds a tile, from 0, unless that is done."""
@@ -306,6 +305,6 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
     (3, 2)
     """
     how = options(_core.WeldStreamOptions, locals())
-    return streamed(settings_of(files, how, columns, mixed), out, removed, label, withhold,
+    return streamed(inputs_of(files, columns, mixed), how, out, removed, label, withhold,
                     communicator, progress)
 # end
