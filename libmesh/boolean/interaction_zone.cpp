@@ -150,7 +150,7 @@ void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, intera
 
 void find_own_pairs_of_second(interaction_zone& near) {
     const std::span<const face> faces = near.local.faces;
-    const self_intersection_result found =
+    const intersection_result found =
         self_intersections({near.local.points, faces.subspan(near.first_of_b)},
                            {.vertices = vertex_identity::by_index});
     for (const auto& [a, b, kind] : found.pairs)

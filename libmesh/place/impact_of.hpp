@@ -26,10 +26,9 @@ namespace treeform::detail::place {
 /// As `time_to_distance`, with an effort likewise, which looking where it starts does not spend.
 ///
 /// \pre the trees are those of the meshes
-[[nodiscard]] TREEFORM_API approach approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                                const tree<3>& tree_b, const point3& motion,
-                                                double distance,
-                                                const approach_options& options = {},
-                                                base::effort* effort = nullptr);
+[[nodiscard]] TREEFORM_API impact approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                              const tree<3>& tree_b, const point3& motion,
+                                              double distance, const impact_options& options = {},
+                                              base::effort* effort = nullptr);
 
 }  // namespace treeform::detail::place

@@ -65,7 +65,7 @@ class feature_mover {
   public:
     feature_mover(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
                   const mesh_feature& from, const mesh_feature& to,
-                  const feature_mate_options& options)
+                  const placement_options& options)
         : moving_(moving),
           fixed_(fixed),
           from_(from),
@@ -191,7 +191,7 @@ class feature_mover {
     std::span<const prepared_mesh> fixed_;
     const mesh_feature& from_;
     const mesh_feature& to_;
-    feature_mate_options options_;
+    placement_options options_;
     detail::base::work_progress work_;
     feature_mating result_{};
 };
@@ -200,7 +200,7 @@ class feature_mover {
 
 feature_mating mate_features(const mesh_ref& given_moving, const mesh_refs& given_fixed,
                              const mesh_feature& of_moving, const mesh_feature& of_fixed,
-                             const feature_mate_options& options) {
+                             const placement_options& options) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;

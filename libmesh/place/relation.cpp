@@ -33,8 +33,8 @@ struct pair_searches {
     detail::base::effort* effort = nullptr;
     bool stopped = false;
 
-    [[nodiscard]] mesh_intersection_result pairs(const shape& a, const shape& b,
-                                                 const mesh_intersection_options& options) {
+    [[nodiscard]] intersection_result pairs(const shape& a, const shape& b,
+                                            const mesh_intersection_options& options) {
         auto found = detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(),
                                                            options, effort);
         stopped = stopped || found.status == treeform::status::cancelled;

@@ -27,7 +27,7 @@ using detail::place::unit_axis;
 constexpr double degrees_of_radian = 180.0 / std::numbers::pi;
 constexpr unsigned most_steps_back = 60;
 
-void check(const turn_axis& axis, const turn_options& o) {
+void check(const turn_axis& axis, const placement_options& o) {
     const auto refuse = [](const char* what) {
         throw std::invalid_argument(std::string("treeform::turn: ") + what);
     };
@@ -45,7 +45,7 @@ void check(const turn_axis& axis, const turn_options& o) {
 class turning {
   public:
     turning(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
-            const turn_axis& axis, const turn_options& options)
+            const turn_axis& axis, const placement_options& options)
         : moving_(moving),
           fixed_(fixed),
           axis_(axis),
@@ -183,7 +183,7 @@ class turning {
     const prepared_mesh& moving_;
     std::span<const prepared_mesh> fixed_;
     unit_axis axis_;
-    turn_options options_;
+    placement_options options_;
     detail::base::work_progress work_;
     std::vector<placement_contact> contacts_;
     turn_result result_{};
@@ -192,7 +192,7 @@ class turning {
 }  // namespace
 
 turn_result turn(const mesh_ref& given_moving, const mesh_refs& given_fixed, const turn_axis& axis,
-                 const turn_options& options) {
+                 const placement_options& options) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;

@@ -37,7 +37,7 @@ rounding_effects effects_of_rounding(const mesh_ref& given, const transform<3>& 
                        (to_float32 || found.max_displacement > 1e-6 * (box ? box->diagonal() : 0));
     const bool coarser = found.step > coordinate_step(moving.points, options.before);
     if (!coarser || !(found.max_displacement > 0.0) || mesh.is_cloud()) return found;
-    const rounding_defects defects = find_rounding_defects(moving, placed, options.progress);
+    const rounding_effects defects = find_rounding_defects(moving, placed, options.progress);
     found.compared = true;
     found.collapsed = defects.collapsed;
     found.meeting = defects.meeting;

@@ -114,7 +114,7 @@ std::vector<Record> all_of(const std::filesystem::path& path, const record_count
     return records;
 }
 
-void add_counts(self_intersection_result& sum, const self_intersection_result& one) {
+void add_counts(intersection_result& sum, const intersection_result& one) {
     for (std::size_t k = 0; k < pair_kind_count; ++k) sum.counts[k] += one.counts[k];
     sum.box_pairs += one.box_pairs;
     sum.exact_pairs += one.exact_pairs;
@@ -425,7 +425,7 @@ void tile_search::search_as(std::size_t tile) {
         }
         return true;
     };
-    self_intersection_result all = self_intersections(
+    intersection_result all = self_intersections(
         m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
     if (all.status == treeform::status::cancelled) throw cancelled{};
     survey_.found.tree_seconds += all.tree_seconds;  // of the tiles that this process searches

@@ -67,10 +67,8 @@ BOUND = [
     Bound("hull_side", kind="same"),
     # intersections.h
     Bound("face_pair", kind="same"),
-    Bound("self_intersection_result", "pairs", counts={"pairs": "count"},
+    Bound("intersection_result", "pairs", counts={"pairs": "count"},
           leave="exact_pairs predicates tree_seconds pair_seconds"),
-    Bound("mesh_intersection_result", "pairs", counts={"pairs": "count"},
-          leave="exact_pairs predicates searched"),
     Bound("self_intersection_options", "self_intersections_options", custom={
         "component_of_face": [Member("const uint32_t* component_of_face",
                                      "[F] for `between` and `within`; or null")]}),
@@ -217,10 +215,7 @@ BOUND = [
             Member("int32_t still_within_known", "",
                    "to.still_within_known = from.written.still_within.has_value();")]}),
     # placement.h
-    Bound("place_options", leave="direction",
-          of="slide_options mate_options drop_options separate_options turn_options "
-             "feature_mate_options measure_among_options",
-          doc="How to slide, mate, separate, turn. What an operation does not use is ignored."),
+    Bound("placement_options", "place_options"),
     Bound("placement_contact", "contact", "part", custom={"fixed": [
         Member("uint32_t fixed", "number of the fixed mesh",
                "to.fixed = static_cast<std::uint32_t>(from.fixed);")]}),
@@ -243,7 +238,6 @@ BOUND = [
               Member("double offset", "of `treeform_mate_features`: distance of the features' "
                      "centers")]}),
     Bound("impact", leave="exact predicates", counts={"contacts": "contact_listed"}),
-    Bound("approach", "impact", leave="exact predicates", counts={"contacts": "contact_listed"}),
     Bound("face_contact", "impact_contact", "same", custom={"at": [
         Member("uint8_t on_a", "the part of the face, as in `treeform_hit::at`"),
         Member("uint8_t on_b")]}),

@@ -138,8 +138,8 @@ RESULTS = [
     Result("topology_counts", "Topology", "_properties"),
     Result("mesh_feature", "Feature", "_properties"),
     # _intersections
-    *[Result(f"{cpp}_intersection_result", "FacePairs", "_intersections",
-             leave="box_pairs exact_pairs predicates searched tree_seconds pair_seconds",
+    Result("intersection_result", "FacePairs", "_intersections",
+             leave="box_pairs exact_pairs predicates tree_seconds pair_seconds",
              custom={"pairs": [
                  column("pairs", "Ids", "(n, 2) uint32, ascending; of one mesh, the lower face "
                         "first.", "pairs", "std::array{one.a, one.b}"),
@@ -147,8 +147,7 @@ RESULTS = [
                         "`KINDS`.", "pairs", "static_cast<std::uint8_t>(one.kind)")],
                  "counts": [Attribute("counts", "dict[str, int]",
                                       "How many of each kind there are, listed or not.",
-                                      "counts_of<tf::pair_kind>(from.counts)")]})
-      for cpp in ("self", "mesh")],
+                                      "counts_of<tf::pair_kind>(from.counts)")]}),
     Result("intersection_region", "Region", "_intersections", custom={
         "min": [Attribute("bounds", "Floats", "(2, 3) the box around them.",
                           "as_python(std::array{from.min, from.max})")], "max": []}),
@@ -380,9 +379,7 @@ OPTIONS = {
     "mesh_intersection_options": "", "stream_search_options": "box communicator",
     "weld_options": "label may_merge search", "weld_stream_options": "communicator shared "
                                                                      "las_scale las_offset",
-    "slide_options": "close_in limit vertices", "drop_options": "limit vertices",
-    "mate_options": "limit vertices", "separate_options": "normals face_pairs limit vertices",
-    "turn_options": "max_steps limit vertices", "feature_mate_options": "limit vertices",
+    "placement_options": "max_steps close_in normals face_pairs limit vertices",
     "measure_options": "", "depth_options": "vertices", "impact_options": "limit",
     "lay_flat_options": "overhang_sides", "align_options": "accelerate", "pack_options": "tighten",
     "deviation_options": "", "clash_options": "ignored effort", "pose_options": "ignored",

@@ -44,6 +44,17 @@ def _operation(name: str, operation: str, what: str, leave: str = "gap",
                     body=f'combined("{operation}", meshes, how, progress)')
 
 
+def _of_others(own: str) -> str:
+    """The options of placements that not all of these functions have, without its own."""
+    return " ".join(sorted({"bed", "effort", "flip", "max_angle", "tolerance"} - {*own.split()}))
+
+
+def _placed(signature: str, call: str, own: str = "", **more: dict[str, str]) -> Function:
+    words = {"fixed": "onto"} if "onto" in signature else {}
+    return Function(f"{signature} -> Placement", call, "moving", leave=_of_others(own),
+                    words=words, **more)
+
+
 FUNCTIONS = [
     # _booleans
     _operation("union", "union", "What is in any of the solids: `union(a, b, ...)`, or `union([a, "
@@ -107,7 +118,7 @@ FUNCTIONS = [
     # _cuts
     Function("section(mesh: Mesh, normal: Vector = (0, 0, 1), at: Vector = (0, 0, 0), *, "
              "heights: Heights = None) -> Section",
-             "tf::section($mesh, {$at, $normal}, $heights, {report})", docs=_PLANE | _HEIGHTS),
+             "tf::section($mesh, {$at, $normal}, $heights, report)", docs=_PLANE | _HEIGHTS),
     Function("layer_heights(mesh: Mesh, thickness: float, normal: Vector = (0, 0, 1), "
              "at: Vector = (0, 0, 0)) -> Floats",
              "tf::oriented_plane{$at, $normal}.layer_heights(mesh.view().points, thickness)",
@@ -172,7 +183,7 @@ FUNCTIONS = [
     Function("oriented_box(points: Cloud) -> Optional[OrientedBox]",
              "tf::find_oriented_box($points)", docs={"points": "(n, 3), or a mesh."}),
     Function("isolines(mesh: Mesh, values: Numbers, levels: Levels) -> Isolines",
-             "tf::isolines($mesh, $values, $levels, {report})",
+             "tf::isolines($mesh, $values, $levels, report)",
              docs={"values": "(V,) of the vertices, linear in each face.", "levels": "(K,)"}),
     # _repair
     Function("resolve_self_intersections(mesh: Mesh, mode: resolve_mode = \"outer\", "
@@ -380,26 +391,37 @@ FUNCTIONS = [
              "t_max: float = np.inf) -> AllRayHits",
              body="all_hits(mesh, origins, directions, t_min, t_max, progress)", docs=_RAYS),
     # _placement
-    Function("slide(moving: Body, onto: Bodies, direction: Vector, options: "
-             "slide_options(clearance))"
-             " -> Placement", "tf::slide($moving, $onto, $direction, options)", "moving",
-             words={"fixed": "onto"},
-             docs={"onto": _FIXED, "direction": "(3,) of any length."}),
-    Function("drop(moving: Body, onto: Bodies = None, options: drop_options) -> Placement",
-             "onto.empty() ? tf::drop($moving, options) : tf::drop($moving, $onto, options)",
-             "moving", words={"fixed": "onto"}, docs={"onto": _FIXED, "clearance": "As of `slide`.",
-                   "max_travel": "As of `slide`.", "precision": "As of `slide`."}),
-    Function("mate(moving: Body, onto: Bodies, options: mate_options) -> Placement",
-             "tf::mate($moving, $onto, options)", "moving", words={"fixed": "onto"},
-             docs={"onto": _FIXED}),
-    Function("separate(moving: Body, fixed: Bodies, options: separate_options(clearance))"
-             " -> Placement", "tf::separate($moving, $fixed, options)", "moving",
-             docs={"fixed": _FIXED}),
-    Function("turn(moving: Body, fixed: Bodies, axis: Vector, origin: Vector = (0.0, 0.0, 0.0), "
-             "options: turn_options) -> Placement",
-             "tf::turn($moving, $fixed, {$origin, $axis}, options)", "moving",
-             docs={"fixed": _FIXED, "axis": "(3,) of any length.",
-                   "origin": "(3,) a point of the axis."}),
+    _placed("slide(moving: Body, onto: Bodies, direction: Vector, options: "
+            "placement_options(clearance))", "tf::slide($moving, $onto, $direction, options)",
+            "bed", docs={"onto": _FIXED, "direction": "(3,) of any length.", "bed":
+                         "z of a bed, which also stops the mesh: points that rest on it have "
+                         "exactly its z (with float32, the least one not below it), and no point "
+                         "is below."}),
+    _placed("drop(moving: Body, onto: Bodies = None, *, direction: Vector = (0, 0, -1), "
+            "options: placement_options)",
+            "onto.empty() ? tf::drop($moving, options, $direction) : "
+            "tf::drop($moving, $onto, options, $direction)", "bed",
+            docs={"onto": _FIXED, "direction": "(3,) of any length, downward.",
+                  "bed": "z of the bed; without fixed bodies, there is one at 0.",
+                  "clearance": "As of `slide`.", "max_travel": "As of `slide`.",
+                  "precision": "As of `slide`."}),
+    _placed("mate(moving: Body, onto: Bodies, options: placement_options)",
+            "tf::mate($moving, $onto, options)", docs={"onto": _FIXED}),
+    _placed("separate(moving: Body, fixed: Bodies, options: placement_options(clearance))",
+            "tf::separate($moving, $fixed, options)", "effort", docs={
+                "fixed": _FIXED,
+                "effort": "pairs of faces that the search may look at, a pair in motion counting "
+                          "as two; 0: 20 million and 200 for each face. Distances for a clearance "
+                          "do not count."}),
+    _placed("turn(moving: Body, fixed: Bodies, axis: Vector, "
+            "origin: Vector = (0.0, 0.0, 0.0), options: placement_options)",
+            "tf::turn($moving, $fixed, {$origin, $axis}, options)", "max_angle tolerance",
+            docs={"fixed": _FIXED, "axis": "(3,) of any length.",
+                  "origin": "(3,) a point of the axis.",
+                  "max_angle": "in degrees; greater than 0, up to 360.",
+                  "tolerance": "the gap, beyond the clearance, that counts as contact; greater "
+                               "than 0. None: 2^-32 of the largest distance of a point from the "
+                               "axis."}),
     Function("measure(a: Body, b: Body, options: measure_options) -> Optional[Measure]",
              "tf::measure(a.prepared(), b.prepared(), options)",
              doc="How two bodies lie to each other: separate, touching or penetrating, how far "
@@ -425,11 +447,13 @@ FUNCTIONS = [
              docs={"scale": "find a uniform scale, too; a pair is its bounds, in addition to the "
                             "scale of `start`."}),
     Function("mate_features(moving: Body, onto: Bodies, of_moving: Feature, of_fixed: Feature, "
-             "options: feature_mate_options) -> Placement",
+             "options: placement_options) -> Placement",
              words={"fixed": "onto"}, body="mated(moving, onto, of_moving, of_fixed, how, "
-                                           "progress)",
+                                           "progress)", leave=_of_others("flip"),
              docs={"onto": _FIXED, "of_moving": "a plane or an axis of `find_features`.",
-                   "of_fixed": "one of the same kind."}),
+                   "of_fixed": "one of the same kind.",
+                   "flip": "planes look the same way rather than at each other; axes are turned "
+                           "around."}),
     Function("pack(parts: Parts, size: ArrayLike, options: pack_options) -> Packing",
              given="size=extent_of(size)", leave="size",
              docs={"size": "(2,) or (3,): length, depth and height of a plate."}),

@@ -9,12 +9,6 @@
 
 namespace glue {
 
-inline tf::section_result section(const tf::mesh_ref& mesh, const tf::oriented_plane& plane,
-                                  std::span<const double> heights,
-                                  const tf::progress_callback& progress) {
-    return tf::section(mesh, plane, heights, {progress});
-}
-
 /// Heights above `plane` (null: as above) of the middles of layers of this thickness, from the
 /// lowest point of the mesh to the highest.
 inline std::vector<double> layer_heights(tf::mesh_view mesh, const tf::oriented_plane& plane,

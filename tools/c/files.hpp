@@ -284,8 +284,8 @@ inline void link_transforms(const tf::urdf_robot& robot, const char* const* join
                             const double* values, std::size_t count, double* places) {
     const std::vector<std::string> names = texts(joints, count, "joints");
     const std::span all = array(values, count, "values");
-    std::vector<tf::joint_value> given;
-    for (std::size_t i = 0; i < count; ++i) given.push_back({names[i], all[i]});
+    std::map<std::string, double> given;
+    for (std::size_t i = 0; i < count; ++i) given[names[i]] = all[i];
     const auto found = robot.link_transforms(given);
     (void)array(places, 12 * found.size(), "places");
     for (std::size_t i = 0; i < found.size(); ++i) copy(found[i], places + 12 * i);

@@ -166,7 +166,7 @@ inline tf::rounding_effects rounding_effects(const treeform_mesh* mesh,
     const tf::rounding_options how = read(o);
     tf::rounding_effects found = tf::effects_of_rounding(ref(mesh, "mesh"), matrix, after, how);
     if (found.status == tf::status::ok && o.always_compare != 0 && !found.compared) {
-        const tf::rounding_defects defects = tf::find_rounding_defects(view, after, how.progress);
+        const tf::rounding_effects defects = tf::find_rounding_defects(view, after, how.progress);
         check(defects.status);
         found.compared = true;
         found.collapsed = defects.collapsed;

@@ -43,17 +43,16 @@ inline treeform_code give(tf::feature_mating&& mated, treeform_placement** out) 
 /// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of
 /// which there may be none.
 inline tf::placement drop(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
-                          const double* direction, const treeform_place_options* options) {
-    auto how = read_as<tf::drop_options>(options);
-    if (direction) how.direction = point(direction, "direction");
-    return fixed.size() == 0 ? tf::drop(moving, how) : tf::drop(moving, fixed, how);
+                          const double* direction, const tf::placement_options& options) {
+    return tf::drop(moving, fixed, options,
+                    direction ? point(direction, "direction") : tf::point3{0.0, 0.0, -1.0});
 }
 
 /// Turns `moving` about the axis through `origin` along `direction` until it first comes within the
 /// tolerance of one of `fixed`, or of the clearance from one.
 inline tf::turn_result turn(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
                             const tf::point3& origin, const tf::point3& direction,
-                            const tf::turn_options& options) {
+                            const tf::placement_options& options) {
     return tf::turn(moving, fixed, {origin, direction}, options);
 }
 
@@ -75,7 +74,7 @@ inline tf::mesh_feature feature_of(const treeform_feature* from, const char* nam
 inline tf::feature_mating mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
                                         const treeform_feature* of_moving,
                                         const treeform_feature* of_fixed,
-                                        const tf::feature_mate_options& options) {
+                                        const tf::placement_options& options) {
     return tf::mate_features(moving, fixed, feature_of(of_moving, "of_moving"),
                              feature_of(of_fixed, "of_fixed"), options);
 }
@@ -103,17 +102,6 @@ inline answer_of<treeform_contact_classes> classify_contacts(const treeform_mesh
     made->value.fixed_count = of_fixed.size();
     made->value.fixed = of_fixed.data();
     return made;
-}
-
-/// The first time after which it is nearer to `b` than `distance`, which is greater than 0;
-/// rounded.
-inline tf::approach time_to_distance(const tf::mesh_ref& a, const tf::mesh_ref& b,
-                                     const tf::point3& motion, double distance,
-                                     const treeform_impact_options* options) {
-    const tf::impact_options how = read(options);
-    if (options && (options->move_a || options->move_b))
-        throw std::invalid_argument("a distance is looked for where the meshes are");
-    return tf::time_to_distance(a, b, motion, distance, {how.latest, how.limit, how.progress});
 }
 
 }  // namespace glue

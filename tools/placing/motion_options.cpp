@@ -135,8 +135,7 @@ std::span<const char* const> feature_option_names() {
 
 std::optional<mating> mate_by_features(const feature_settings& s, const tf::body_set& moving,
                                        const tf::body_set& fixed,
-                                       const tf::feature_mate_options& options,
-                                       std::string& reason) {
+                                       const tf::placement_options& options, std::string& reason) {
     const char* const kind = kinds[static_cast<std::size_t>(*s.kind)];
     auto of_moving = find(moving, *s.kind, s.moving);
     auto of_fixed = find(fixed, *s.kind, s.fixed);

@@ -51,7 +51,7 @@ struct mating {
 [[nodiscard]] std::optional<mating> mate_by_features(const feature_settings& settings,
                                                      const tf::body_set& moving,
                                                      const tf::body_set& fixed,
-                                                     const tf::feature_mate_options& options,
+                                                     const tf::placement_options& options,
                                                      std::string& reason);
 
 [[nodiscard]] json turn_entry(const turn_settings& settings, const tf::turn_result& found);

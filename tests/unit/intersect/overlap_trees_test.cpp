@@ -105,7 +105,7 @@ TEST_CASE("overlap_trees: boxes that touch keep the faces that do, a hair apart 
     CHECK(none_b.boxes.size() == 0);
     const auto result =
         tf::mesh_intersections(a, b, {.move_a = positions.move_a, .move_b = positions.move_b});
-    CHECK(result.searched.candidates == 0);
+    CHECK(result.box_pairs == 0);
 }
 
 TEST_CASE("overlap_trees: roundings of a move are in the boxes") {

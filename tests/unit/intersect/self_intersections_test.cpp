@@ -23,7 +23,7 @@ using pairs = std::vector<tf::face_pair>;
 
 /// The pairs, after the counts have been compared with them.
 pairs pairs_in(const tf::mesh& mesh) {
-    const tf::self_intersection_result result =
+    const tf::intersection_result result =
         tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index});
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
     for (const tf::face_pair& pair : result.pairs) ++counts[static_cast<std::size_t>(pair.kind)];

@@ -166,7 +166,7 @@ TEST_CASE("mate features: a block comes to lie flat on another, center above cen
         const tf::mesh base = moved_by(test::box(9, 9, 4), random_move(source));
         const auto of_block = tf::find_features(block, feature_kind::plane)[0];
         const auto of_base = tf::find_features(base, feature_kind::plane)[0];
-        const tf::feature_mate_options options{.clearance = round % 2 == 0 ? 0.0 : 0.5};
+        const tf::placement_options options{.clearance = round % 2 == 0 ? 0.0 : 0.5};
         const auto found = tf::mate_features(block, base, of_block, of_base, options);
         check_features(block, base, found);
         CHECK(found.offset == doctest::Approx(options.clearance).epsilon(1e-12));

@@ -223,7 +223,7 @@ TEST_CASE("slide and drop: what cannot be meant is refused, and named") {
     for (const double c : {-1.0, infinity, std::nan("")})
         CHECK_THROWS_AS(static_cast<void>(tf::slide(a, b, down, {.clearance = c})),
                         std::invalid_argument);
-    CHECK_THROWS_WITH_AS(static_cast<void>(tf::drop(a, {.bed = 0.0, .direction = {0, 0, 1}})),
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::drop(a, {.bed = 0.0}, {0, 0, 1})),
                          "treeform::drop: the direction does not lead down to the bed",
                          std::invalid_argument);
     CHECK_THROWS_AS(

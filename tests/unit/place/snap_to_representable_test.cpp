@@ -28,8 +28,8 @@ using tf::detail::place::shape;
 using tf::detail::place::snap_to_representable;
 using tf::detail::place::sweep_among;
 
-tf::approach approach(const tf::mesh& a, const tf::mesh& b, const tf::point3& motion,
-                      double distance, const tf::approach_options& options = {}) {
+tf::impact approach(const tf::mesh& a, const tf::mesh& b, const tf::point3& motion, double distance,
+                    const tf::impact_options& options = {}) {
     return tf::time_to_distance(a, b, motion, distance, options);
 }
 
@@ -46,6 +46,10 @@ TEST_CASE("time to distance: a box stops the clearance above another") {
     CHECK(approach(a, floor, {0, 0, -2}, 0.5).time == 2.0);
     CHECK(approach(a, floor, {0, 0, 1}, 0.5).end == motion_end::free);
     CHECK(approach(a, floor, {0, 0, -1}, 0.5, {.latest = 3.5}).end == motion_end::free);
+    const auto up = tf::transform<3>::translation(tf::point3{0, 0, 1}),
+               down = tf::transform<3>::translation(tf::point3{0, 0, -1});
+    CHECK(approach(a, floor, {0, 0, -1}, 0.5, {.move_a = up, .move_b = down}).time ==
+          found.time + 2);
     CHECK(approach(a, floor, {0, 0, -1}, 4.5).time == 0.0);
     CHECK(approach(a, floor, {0, 0, -1}, 5.0).end == motion_end::at_start);
 }

@@ -38,7 +38,7 @@ tf::transform<3> about_z(double angle) {
 
 /// What the header says of a place.
 void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::turn_result& found,
-                const tf::turn_options& options = {}) {
+                const tf::placement_options& options = {}) {
     REQUIRE(found);
     REQUIRE(found.at.points.size() == moving.points.size());
     const tf::mesh there{found.at.points, moving.faces};
@@ -76,7 +76,7 @@ TEST_CASE("turn: a door stops at the wall, at the angle that it is known to") {
     const double radius = std::sqrt(101.0), begin = std::atan2(1.0, 10.0);
     for (const double clearance : {0.0, 0.25})
         for (const auto precision : {tf::precision::float64, tf::precision::float32}) {
-            const tf::turn_options options{.clearance = clearance, .precision = precision};
+            const tf::placement_options options{.clearance = clearance, .precision = precision};
             const auto found = tf::turn(door, wall, {}, options);
             check_turn(door, wall, found, options);
             const double angle = (std::asin((5 - clearance) / radius) - begin) * 180 / pi;
@@ -110,7 +110,7 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     // where a corner of the screw is on a side of the nut
     const double angle = 30 - std::acos(11 * std::cos(pi / 6) / 10.5) * 180 / pi;
     CHECK(stuck.angle == doctest::Approx(angle).epsilon(1e-7));
-    tf::turn_options few{.max_steps = 3};
+    tf::placement_options few{.max_steps = 3};
     CHECK(tf::turn(shaft, bore, {}, few).at.end == tf::placement_end::too_many_steps);
     few = {.max_angle = 0.5 * angle};
     CHECK(tf::turn(screw, nut, {}, few).at.end == tf::placement_end::nothing_met);
@@ -127,7 +127,7 @@ TEST_CASE("turn: on the way nothing is met, and a little further something is") 
         tf::mesh b = test::moved(test::box(source.in(1, 3), source.in(1, 3), source.in(1, 3)),
                                  {source.in(-7, -2), source.in(-4, 4), source.in(-2, 1)});
         if (tf::relation(a, b).relation != tf::mesh_relation::separate) continue;
-        const tf::turn_options options{.clearance = round % 3 == 0 ? 0.1 : 0.0};
+        const tf::placement_options options{.clearance = round % 3 == 0 ? 0.1 : 0.0};
         if (tf::distance(a, b) <= options.clearance) continue;
         const auto found = tf::turn(a, b, {}, options);
         const double last = found ? found.angle * pi / 180 : 2 * pi;
@@ -191,7 +191,7 @@ TEST_CASE("turn: what touches at the start stays, what penetrates has no place")
 TEST_CASE("turn: what cannot be meant is refused") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const tf::mesh box = test::box(1, 1, 1), other = test::moved(box, {3, 0, 0});
-    const auto refused = [&](const tf::turn_axis& axis, const tf::turn_options& o = {}) {
+    const auto refused = [&](const tf::turn_axis& axis, const tf::placement_options& o = {}) {
         CHECK_THROWS_AS(static_cast<void>(tf::turn(box, other, axis, o)), std::invalid_argument);
     };
     refused({.direction = {0, 0, 0}});

@@ -20,14 +20,7 @@ static_assert(offsetof(treeform_face_pair, a) == offsetof(tf::face_pair, a));
 static_assert(offsetof(treeform_face_pair, b) == offsetof(tf::face_pair, b));
 static_assert(offsetof(treeform_face_pair, kind) == offsetof(tf::face_pair, kind));
 
-void glue::fill(keeper&, const tf::self_intersection_result& from, treeform_pairs& to) {
-    to.pairs = same<treeform_face_pair>(from.pairs);
-    to.count = from.pairs.size();
-    std::copy(from.counts.begin(), from.counts.end(), to.counts);
-    to.box_pairs = from.box_pairs;
-}
-
-void glue::fill(keeper&, const tf::mesh_intersection_result& from, treeform_pairs& to) {
+void glue::fill(keeper&, const tf::intersection_result& from, treeform_pairs& to) {
     to.pairs = same<treeform_face_pair>(from.pairs);
     to.count = from.pairs.size();
     std::copy(from.counts.begin(), from.counts.end(), to.counts);

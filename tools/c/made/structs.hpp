@@ -46,8 +46,7 @@ void fill(keeper& kept, const tf::mesh_defects& from, treeform_defects& to);
 void fill(keeper& kept, const tf::mesh_feature& from, treeform_feature& to);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options* options);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options& o);
-void fill(keeper& kept, const tf::self_intersection_result& from, treeform_pairs& to);
-void fill(keeper& kept, const tf::mesh_intersection_result& from, treeform_pairs& to);
+void fill(keeper& kept, const tf::intersection_result& from, treeform_pairs& to);
 [[nodiscard]] tf::self_intersection_options read(
     const treeform_self_intersections_options* options);
 [[nodiscard]] tf::self_intersection_options read(const treeform_self_intersections_options& o);
@@ -109,34 +108,11 @@ void fill(keeper& kept, const tf::file_weld_result& from, treeform_weld_result& 
 [[nodiscard]] tf::weld_stream_options read(const treeform_weld_stream_options* options);
 [[nodiscard]] tf::weld_stream_options read(const treeform_weld_stream_options& o);
 void fill(keeper& kept, const tf::weld_stream_result& from, treeform_weld_stream_result& to);
-/// Those of the options that an operation has.
-template <class Options>
-[[nodiscard]] Options read_as(const treeform_place_options* options) {
-    const auto o = chosen(options, treeform_place_options_init);
-    Options how;
-    if constexpr (requires { how.clearance; }) how.clearance = o.clearance;
-    if constexpr (requires { how.max_travel; }) how.max_travel = given(o.max_travel);
-    if constexpr (requires { how.precision; })
-        how.precision = choice<tf::precision>(o.precision, 2, "precision");
-    if constexpr (requires { how.bed; }) how.bed = given(o.bed);
-    if constexpr (requires { how.close_in; }) how.close_in = o.close_in != 0;
-    if constexpr (requires { how.limit; }) how.limit = limit(o.limit);
-    if constexpr (requires { how.vertices; })
-        how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
-    if constexpr (requires { how.progress; }) how.progress = progress(o);
-    if constexpr (requires { how.normals; }) how.normals = limit(o.normals);
-    if constexpr (requires { how.face_pairs; }) how.face_pairs = limit(o.face_pairs);
-    if constexpr (requires { how.effort; }) how.effort = o.effort;
-    if constexpr (requires { how.max_angle; }) how.max_angle = o.max_angle;
-    if constexpr (requires { how.tolerance; }) how.tolerance = given(o.tolerance);
-    if constexpr (requires { how.max_steps; }) how.max_steps = limit(o.max_steps);
-    if constexpr (requires { how.flip; }) how.flip = o.flip != 0;
-    return how;
-}
+[[nodiscard]] tf::placement_options read(const treeform_place_options* options);
+[[nodiscard]] tf::placement_options read(const treeform_place_options& o);
 void fill(keeper& kept, const tf::placement_contact& from, treeform_contact& to);
 void fill(keeper& kept, const tf::placement& from, treeform_placement& to);
 void fill(keeper& kept, const tf::impact& from, treeform_impact& to);
-void fill(keeper& kept, const tf::approach& from, treeform_impact& to);
 [[nodiscard]] tf::impact_options read(const treeform_impact_options* options);
 [[nodiscard]] tf::impact_options read(const treeform_impact_options& o);
 [[nodiscard]] tf::lay_flat_options read(const treeform_lay_flat_options* options);

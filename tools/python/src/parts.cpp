@@ -117,7 +117,7 @@ py::object object(of_result, tf::curve_network&& from) {
         paths);
 }
 
-py::object object(of_result, tf::rounding_defects&& from) {
+py::object object(of_result, tf::rounding_effects&& from) {
     return py::make_tuple(from.collapsed, from.meeting);
 }
 

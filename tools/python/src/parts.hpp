@@ -42,7 +42,7 @@ py::object object(of_result, tf::section_result&& from);
 /// As placements with more of their own.
 py::object object(of_result, tf::turn_result&& from, const held_mesh& moving);
 /// The counts, as a pair.
-py::object object(of_result, tf::rounding_defects&& from);
+py::object object(of_result, tf::rounding_effects&& from);
 /// A placement with fields that only its operation has.
 py::object with_fields(tf::placement&& at, const held_mesh& moving,
                        std::initializer_list<std::pair<const char*, double>> more);

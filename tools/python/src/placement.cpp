@@ -6,8 +6,7 @@ namespace {
 py::object mate_features(const held_mesh& moving, const held_meshes& fixed, const std::string& kind,
                          const array_of<double>& origin, const array_of<double>& direction,
                          const array_of<double>& fixed_origin,
-                         const array_of<double>& fixed_direction,
-                         tf::feature_mate_options options) {
+                         const array_of<double>& fixed_direction, tf::placement_options options) {
     const auto feature = [&](const array_of<double>& at, const array_of<double>& along) {
         tf::mesh_feature made;
         made.kind = choice<tf::feature_kind>("kind", words_of<tf::feature_kind>::all, kind);

@@ -324,42 +324,13 @@ class WeldStreamOptions:
                  keep_degenerate: bool = ..., as_las: bool = ..., memory: Optional[int] = ...,
                  folder: str = ..., points_per_tile: Optional[int] = ...) -> None: ...
 
-class SlideOptions:
+class PlacementOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, clearance: float = ..., max_travel: Optional[float] = ...,
-                 precision: str = ..., bed: Optional[float] = ...) -> None: ...
-
-class DropOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., max_travel: Optional[float] = ...,
+                 flip: bool = ..., max_angle: float = ..., tolerance: Optional[float] = ...,
                  precision: str = ..., bed: Optional[float] = ...,
-                 direction: Floats = ...) -> None: ...
-
-class MateOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., max_travel: Optional[float] = ...,
-                 precision: str = ...) -> None: ...
-
-class SeparateOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., max_travel: Optional[float] = ...,
-                 precision: str = ..., effort: Optional[int] = ...) -> None: ...
-
-class TurnOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., max_angle: float = ...,
-                 tolerance: Optional[float] = ..., precision: str = ...) -> None: ...
-
-class FeatureMateOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., flip: bool = ...,
-                 precision: str = ...) -> None: ...
+                 effort: Optional[int] = ...) -> None: ...
 
 class MeasureOptions:
     names: tuple[str, ...]
@@ -493,16 +464,16 @@ def raycast_any(mesh: HeldMesh, origins: Floats, directions: Floats, t_min: floa
                 progress: Watched = ...) -> Bytes: ...
 def deviation(a: HeldMesh, b: HeldMesh, options: DeviationOptions,
               progress: Watched = ...) -> Optional[Deviation]: ...
-def slide(moving: HeldMesh, onto: Sequence[HeldMesh], direction: Floats, options: SlideOptions,
+def slide(moving: HeldMesh, onto: Sequence[HeldMesh], direction: Floats, options: PlacementOptions,
           progress: Watched = ...) -> Placement: ...
-def drop(moving: HeldMesh, onto: Sequence[HeldMesh], options: DropOptions,
+def drop(moving: HeldMesh, onto: Sequence[HeldMesh], direction: Floats, options: PlacementOptions,
          progress: Watched = ...) -> Placement: ...
-def mate(moving: HeldMesh, onto: Sequence[HeldMesh], options: MateOptions,
+def mate(moving: HeldMesh, onto: Sequence[HeldMesh], options: PlacementOptions,
          progress: Watched = ...) -> Placement: ...
-def separate(moving: HeldMesh, fixed: Sequence[HeldMesh], options: SeparateOptions,
+def separate(moving: HeldMesh, fixed: Sequence[HeldMesh], options: PlacementOptions,
              progress: Watched = ...) -> Placement: ...
 def turn(moving: HeldMesh, fixed: Sequence[HeldMesh], axis: Floats, origin: Floats,
-         options: TurnOptions, progress: Watched = ...) -> Placement: ...
+         options: PlacementOptions, progress: Watched = ...) -> Placement: ...
 def measure(a: HeldMesh, b: HeldMesh, options: MeasureOptions,
             progress: Watched = ...) -> Optional[Measure]: ...
 def penetration_depth(a: HeldMesh, b: HeldMesh, options: DepthOptions,

@@ -26,7 +26,7 @@ KINDS = tuple(_core.KINDS)
 
 
 # made of results:
-#   self_intersection_result
+#   intersection_result
 @dataclass(frozen=True, repr=False)
 class FacePairs(Result):
     """Pairs of faces that meet.

@@ -144,7 +144,7 @@ class Placement(MeshResult):
 
 
 def mated(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature,
-          how: _core.FeatureMateOptions, progress: Progress) -> Placement:
+          how: _core.PlacementOptions, progress: Progress) -> Placement:
     """`mate_features`, of features of one kind."""
     need(of_moving, "of_moving", Feature)
     need(of_fixed, "of_fixed", Feature)
@@ -190,7 +190,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
-    bed: Z of a bed, which also stops the mesh. Points that rest on it have exactly its z (with
+    bed: z of a bed, which also stops the mesh: points that rest on it have exactly its z (with
         float32, the least one not below it), and no point is below.
 
     Raises ValueError for a direction that is zero or not finite, a clearance that is negative or
@@ -206,23 +206,23 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     >>> bool(seated), seated.travel, seated.at_place
     (True, 4.0, 'touching')
     """
-    how = options(_core.SlideOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.slide(held_body(moving), bodies(onto), _arrays.vector(direction, "direction"), how,
                        progress=progress)
 
 
-def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0, max_travel: float | None = None,
-         precision: str = "float64", bed: float | None = None,
-         direction: ArrayLike = (0.0, 0.0, -1.0), progress: Progress = None) -> Placement:
+def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
+         clearance: float = 0.0, max_travel: float | None = None, precision: str = "float64",
+         bed: float | None = None, progress: Progress = None) -> Placement:
     """Moves `moving` down until it rests on the bed. From below the bed it goes up, back along the
     direction.
 
     onto: a fixed body, or a list of them.
+    direction: (3,) of any length, downward.
     clearance: As of `slide`.
     max_travel: As of `slide`.
     precision: As of `slide`.
-    bed: Z of the bed. None: 0 without fixed meshes, no bed with them.
-    direction: (3,) has to lead down.
+    bed: z of the bed; without fixed bodies, there is one at 0.
 
     Raises ValueError as `slide`, and for a direction that does not lead down.
 
@@ -234,8 +234,9 @@ def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0, max_travel: 
     >>> low.travel, low.mesh.bounds[:, 2].tolist()
     (3.25, [0.0, 1.0])
     """
-    how = options(_core.DropOptions, locals())
-    return _core.drop(held_body(moving), bodies(onto), how, progress=progress)
+    how = options(_core.PlacementOptions, locals())
+    return _core.drop(held_body(moving), bodies(onto), _arrays.vector(direction, "direction"), how,
+                      progress=progress)
 
 
 def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
@@ -246,7 +247,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
 
     onto: a fixed body, or a list of them.
     clearance: The gap to leave, a distance; 0: until contact.
-    max_travel: A length.
+    max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError as `slide`.
@@ -258,7 +259,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     >>> treeform.mate((cube.vertices + [0, 3, 0], cube.faces), cube).travel
     2.0
     """
-    how = options(_core.MateOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.mate(held_body(moving), bodies(onto), how, progress=progress)
 
 
@@ -274,10 +275,10 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     places that take much of it, as that of `penetration_depth` does: `Placement.effort` says so.
 
     fixed: a fixed body, or a list of them.
-    clearance: The least distance wanted; 0: only not to penetrate.
-    max_travel: A length.
+    clearance: The gap to leave, a distance; 0: until contact.
+    max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
-    effort: Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20
+    effort: pairs of faces that the search may look at, a pair in motion counting as two; 0: 20
         million and 200 for each face. Distances for a clearance do not count.
 
     Raises ValueError as `slide`.
@@ -291,13 +292,14 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     >>> apart.travel, apart.at_start, apart.at_place
     (0.25, 'penetrating', 'touching')
     """
-    how = options(_core.SeparateOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.separate(held_body(moving), bodies(fixed), how, progress=progress)
 
 
 def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
-         clearance: float = 0.0, max_angle: float = 360.0, tolerance: float | None = None,
-         precision: str = "float64", progress: Progress = None) -> Placement:
+         clearance: float = 0.0, max_travel: float | None = None, max_angle: float = 360.0,
+         tolerance: float | None = None, precision: str = "float64",
+         progress: Progress = None) -> Placement:
     """Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or
     of the clearance from one.
 
@@ -315,8 +317,9 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     axis: (3,) of any length.
     origin: (3,) a point of the axis.
     clearance: The gap to leave, a distance; 0: until contact.
-    max_angle: In degrees; greater than 0, up to 360.
-    tolerance: The gap, beyond the clearance, that counts as contact; greater than 0. None: 2^-32 of
+    max_travel: A length; whatever is further along is ignored.
+    max_angle: in degrees; greater than 0, up to 360.
+    tolerance: the gap, beyond the clearance, that counts as contact; greater than 0. None: 2^-32 of
         the largest distance of a point from the axis.
     precision: 'float32' or 'float64'. Of the points returned.
 
@@ -333,14 +336,14 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     >>> bool(door), 0 < door.angle < 180
     (True, True)
     """
-    how = options(_core.TurnOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.turn(held_body(moving), bodies(fixed), _arrays.vector(axis, "axis"),
                       _arrays.vector(origin, "origin"), how, progress=progress)
 
 
 def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
-                  clearance: float = 0.0, flip: bool = False, precision: str = "float64",
-                  progress: Progress = None) -> Placement:
+                  clearance: float = 0.0, max_travel: float | None = None, flip: bool = False,
+                  precision: str = "float64", progress: Progress = None) -> Placement:
     """Turns `moving` by the least angle that makes the two features' directions opposite (planes)
     or parallel (axes), puts center above center, and slides it from outside along the direction of
     the fixed feature until first contact with any of `onto`, or the clearance, exactly as `slide`
@@ -355,7 +358,8 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     of_moving: a plane or an axis of `find_features`.
     of_fixed: one of the same kind.
     clearance: The gap to leave, a distance; 0: until contact.
-    flip: Planes look the same way rather than at each other; axes are turned around.
+    max_travel: A length; whatever is further along is ignored.
+    flip: planes look the same way rather than at each other; axes are turned around.
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError for features of two kinds, or with a direction that is not of length 1 or an
@@ -370,7 +374,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     >>> treeform.mate_features(other, cube, side, top).at_place
     'touching'
     """
-    how = options(_core.FeatureMateOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return mated(moving, onto, of_moving, of_fixed, how, progress)
 # end
 

@@ -308,7 +308,8 @@ def rounded(points: ArrayLike, precision: str = "float32", *, progress: Progress
 def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
                           progress: Progress = None) -> tuple[int, int]:
     """What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved
-    and turned, too: distances are not compared, only how faces lie to each other.
+    and turned, too: distances are not compared, only how faces lie to each other: `collapsed` and
+    `meeting` are found, the latter of all kinds except touching and degenerate.
 
     Returns the number of faces that have lost their area, and of pairs of faces that meet now and
     did not before.

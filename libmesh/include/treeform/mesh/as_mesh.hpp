@@ -81,12 +81,6 @@ struct part_options {
 /// before of each face that stays; empty where all do.
 TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
-struct join_options {
-    /// Also LAS files of different reference systems, or whose GPS time is counted in different
-    /// ways; what the first one says of it is written.
-    bool mixed = false;
-};
-
 /// One file with the points and faces of all `files`, one after the other, in the format of the
 /// first.
 ///
@@ -98,16 +92,17 @@ struct join_options {
 /// Columns of points that formats call by different names get that of the first file's format
 /// (`normal_x` of PCD, `nx` of PLY). The header of LAS is that of the first file. Where scales or
 /// offsets differ, it gets the finest of the scales that holds the points of all, as their headers
-/// say where these are; extra bytes are described as in the first file that has them.
+/// say where these are; extra bytes are described as in the first file that has them. LAS files of
+/// different reference systems, or whose GPS time is counted in different ways, are joined only if
+/// `mixed`: what the first one says of it is written.
 ///
-/// \throws std::invalid_argument for LAS files that `options.mixed` is about, when a column holds
+/// \throws std::invalid_argument for such LAS files unless `mixed`, when a column holds
 ///         lists in one file and single values in another, when no type holds all values, or when
 ///         there is not one name for each file; std::length_error for more points or triangles than
 ///         32 bits can number
 /// \cost   O(size of all files)
 [[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
-                                          std::span<const std::string> names,
-                                          const join_options& options = {});
+                                          std::span<const std::string> names, bool mixed = false);
 
 /// Of a scene: a file, and what it is called.
 struct scene_member {

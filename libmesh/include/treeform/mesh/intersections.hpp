@@ -38,17 +38,6 @@ struct mesh_intersection_options {
     progress_callback progress{};
 };
 
-struct mesh_intersection_result {
-    std::vector<face_pair> pairs;  ///< face `a` of the first mesh, `b` of the second; ascending
-    std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
-    /// Pairs of faces whose boxes overlap, as moved; of prepared meshes, under a move both ways.
-    std::uint64_t box_pairs = 0;
-    std::uint64_t exact_pairs = 0;    ///< of these, undecided by the filter
-    predicate_counters predicates{};  ///< what the undecided pairs cost
-    search_statistics searched{};     ///< what was looked at; the rest of both meshes was skipped
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`
-};
-
 /// All pairs of a face of `a` and a face of `b` that have a common point.
 ///
 /// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
@@ -63,7 +52,7 @@ struct mesh_intersection_result {
 ///         overlap and the nodes above them. Of prepared meshes up to twice as fast
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
-[[nodiscard]] TREEFORM_API mesh_intersection_result mesh_intersections(
+[[nodiscard]] TREEFORM_API intersection_result mesh_intersections(
     const mesh_ref& a, const mesh_ref& b, const mesh_intersection_options& options = {});
 
 /// Where each mesh is; see `mesh_intersection_options`.

@@ -102,21 +102,6 @@ struct placement {
                                                              const body_set& fixed) const;
 };
 
-struct measure_among_options {
-    double clearance = 0.0;    ///< smaller distances are `closer_than_clearance`
-    std::size_t limit = 1000;  ///< contacts listed for each fixed mesh
-    vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
-    progress_callback progress{};
-};
-
-/// How `moving` lies to all of `fixed` where it is. Moves nothing.
-///
-/// \throws std::invalid_argument as `slide`
-/// \cost   `measure` for the fixed meshes that may be the nearest, and the pairs of faces that meet
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
-                                                   const measure_among_options& options = {});
-
 /// How a face lies to the other meshes.
 enum class contact_class : std::uint8_t {
     none,

@@ -184,7 +184,7 @@ struct cloud_inputs {
     std::string format{};                 ///< as for `read`
     std::vector<named_column> columns{};  ///< as in `read_options`
     std::vector<std::string> names{};     ///< for warnings; empty: the paths
-    bool mixed = false;                   ///< as in `join_options`
+    bool mixed = false;                   ///< as in `join`
 
     /// What is in the files, before their points are read.
     /// One file alone may be a mesh, as `point_reader` reads it with rows. Text is read once,

@@ -95,15 +95,15 @@ struct self_intersection_options {
 };
 
 /// Pairs of faces that meet.
-struct self_intersection_result {
-    std::vector<face_pair> pairs;                         ///< ascending by (a, b)
+struct intersection_result {
+    std::vector<face_pair> pairs;  ///< ascending by (a, b); of two meshes, `a` is of the first
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
-    std::uint64_t box_pairs = 0;                          ///< pairs of faces whose boxes overlap
-    std::uint64_t exact_pairs = 0;                        ///< of these, undecided by the filter
-    predicate_counters predicates{};                      ///< what the undecided pairs cost
-    double tree_seconds = 0.0;                            ///< time to build the tree
-    double pair_seconds = 0.0;                            ///< time to find and decide pairs
-    treeform::status status = treeform::status::ok;       ///< or `cancelled`
+    std::uint64_t box_pairs = 0;      ///< pairs of faces whose boxes overlap, as moved
+    std::uint64_t exact_pairs = 0;    ///< of these, undecided by the filter
+    predicate_counters predicates{};  ///< what the undecided pairs cost
+    double tree_seconds = 0.0;        ///< of one mesh: to build the tree
+    double pair_seconds = 0.0;        ///< to find and decide pairs
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`
 };
 
 /// All pairs of faces that meet where they should not: in a point that is neither a shared corner
@@ -119,7 +119,7 @@ struct self_intersection_result {
 /// \cost   O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
-[[nodiscard]] TREEFORM_API self_intersection_result
+[[nodiscard]] TREEFORM_API intersection_result
 self_intersections(const mesh_ref& mesh, const self_intersection_options& options = {});
 
 /// Faces that meet, in one place of the mesh.
@@ -178,7 +178,7 @@ struct stream_search_result {
     /// are those of all faces.
     usable_mesh part{};
     /// Pairs of faces of `part`. Its counters are sums over the tiles.
-    self_intersection_result found{};
+    intersection_result found{};
     std::uint64_t stored_faces = 0;  ///< faces of the file
     std::uint64_t triangles = 0;     ///< that they are cut into
     std::uint64_t searched = 0;      ///< triangles that are finite, and meet the box

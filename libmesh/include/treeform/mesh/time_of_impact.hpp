@@ -5,8 +5,8 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -81,27 +81,6 @@ struct impact {
                                                  const point3& motion,
                                                  const impact_options& options = {});
 
-/// How far to look.
-struct approach_options {
-    double latest = std::numeric_limits<double>::infinity();  ///< as for `time_of_impact`
-    std::size_t limit = 1000;
-    progress_callback progress{};
-};
-
-/// When two meshes come within a distance of each other.
-struct approach {
-    /// contact: the meshes are nearer than the distance right after `time`. at_start: they are
-    /// nearer where they are.
-    motion_end end = motion_end::free;
-    double time = 0.0;
-    /// The pairs of faces at the distance at `time`, as computed; ascending. Their points are on
-    /// `b`; their features mean nothing.
-    std::vector<face_contact> contacts{};
-    std::uint64_t contact_count = 0;
-    std::uint64_t pairs_tested = 0;
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
-};
-
 /// The first time t >= 0 after which `a`, moved by t times `motion`, is nearer to `b` than
 /// `distance` (not squared).
 ///
@@ -109,6 +88,10 @@ struct approach {
 /// coordinate, so a mesh that slides along a wall at just the distance moves on. The time has
 /// rounding errors of that size along the motion, and larger ones where the motion nearly grazes.
 /// `slide` checks the place itself. For the distance 0, use `time_of_impact`, which is exact.
+///
+/// The impact is a contact if they are nearer right after its time, and at the start if they are
+/// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on
+/// `b`, their features mean nothing. Nothing of it is `exact`.
 ///
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.
@@ -119,28 +102,14 @@ struct approach {
 /// \same   on every machine
 /// \source convex distance in motion: Cameron, Enhancing GJK, ICRA 1997, and Mirtich's conservative
 ///         advancement, here for pairs of faces
-[[nodiscard]] TREEFORM_API approach time_to_distance(const mesh_ref& a, const mesh_ref& b,
-                                                     const point3& motion, double distance,
-                                                     const approach_options& options = {});
+[[nodiscard]] TREEFORM_API impact time_to_distance(const mesh_ref& a, const mesh_ref& b,
+                                                   const point3& motion, double distance,
+                                                   const impact_options& options = {});
 
 /// A line to turn about, to the right (counter-clockwise, seen against `direction`).
 struct turn_axis {
     point3 origin{};                  ///< any point of the line
     point3 direction{0.0, 0.0, 1.0};  ///< of any length but 0
-};
-
-/// How to turn.
-struct turn_options {
-    double clearance = 0.0;    ///< the gap to leave, a distance; 0: until contact
-    double max_angle = 360.0;  ///< in degrees; greater than 0, up to 360
-    /// The gap, beyond the clearance, that counts as contact; greater than 0. Default: 2^-32 of the
-    /// largest distance of a point from the axis.
-    std::optional<double> tolerance{};
-    std::size_t max_steps = 20'000;
-    treeform::precision precision = treeform::precision::float64;  ///< of the points returned
-    std::size_t limit = 1000;                                      ///< contacts listed
-    vertex_identity vertices = vertex_identity::by_coordinates;    ///< as in `relation`
-    progress_callback progress{};
 };
 
 /// Where a turn ended.
@@ -181,6 +150,6 @@ struct turn_result {
 ///         Rigid Body Systems (1996), conservative advancement
 [[nodiscard]] TREEFORM_API turn_result turn(const mesh_ref& moving, const mesh_refs& fixed,
                                             const turn_axis& axis,
-                                            const turn_options& options = {});
+                                            const placement_options& options = {});
 
 }  // namespace treeform

@@ -15,7 +15,7 @@ py::object section(const held_mesh& mesh, const array_of<double>& normal,
                    const array_of<double>& at, const array_of<double>& heights) {
     return as_python(run([&](const tf::progress_callback& report) {
         return tf::section(mesh.ref(), {point_of(at), point_of(normal)}, rows_of<double>(heights),
-                           {report});
+                           report);
     }));
 }
 
@@ -78,7 +78,7 @@ py::object oriented_box(const points_array& points) {
 py::object isolines(const held_mesh& mesh, const array_of<double>& values,
                     const array_of<double>& levels) {
     return as_python(run([&](const tf::progress_callback& report) {
-        return tf::isolines(mesh.ref(), rows_of<double>(values), rows_of<double>(levels), {report});
+        return tf::isolines(mesh.ref(), rows_of<double>(values), rows_of<double>(levels), report);
     }));
 }
 

@@ -130,7 +130,7 @@ py::object repair(const held_mesh& mesh, tf::repair_options options) {
 }
 
 py::object slide(const held_mesh& moving, const held_meshes& onto,
-                 const array_of<double>& direction, tf::slide_options options) {
+                 const array_of<double>& direction, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::slide(moving.ref(), refs_of(onto), point_of(direction),
@@ -139,16 +139,18 @@ py::object slide(const held_mesh& moving, const held_meshes& onto,
                      moving);
 }
 
-py::object drop(const held_mesh& moving, const held_meshes& onto, tf::drop_options options) {
+py::object drop(const held_mesh& moving, const held_meshes& onto, const array_of<double>& direction,
+                tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return onto.empty() ? tf::drop(moving.ref(), options)
-                                             : tf::drop(moving.ref(), refs_of(onto), options);
+                         return onto.empty() ? tf::drop(moving.ref(), options, point_of(direction))
+                                             : tf::drop(moving.ref(), refs_of(onto), options,
+                                                        point_of(direction));
                      }),
                      moving);
 }
 
-py::object mate(const held_mesh& moving, const held_meshes& onto, tf::mate_options options) {
+py::object mate(const held_mesh& moving, const held_meshes& onto, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::mate(moving.ref(), refs_of(onto), options);
@@ -157,7 +159,7 @@ py::object mate(const held_mesh& moving, const held_meshes& onto, tf::mate_optio
 }
 
 py::object separate(const held_mesh& moving, const held_meshes& fixed,
-                    tf::separate_options options) {
+                    tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::separate(moving.ref(), refs_of(fixed), options);
@@ -166,7 +168,7 @@ py::object separate(const held_mesh& moving, const held_meshes& fixed,
 }
 
 py::object turn(const held_mesh& moving, const held_meshes& fixed, const array_of<double>& axis,
-                const array_of<double>& origin, tf::turn_options options) {
+                const array_of<double>& origin, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::turn(moving.ref(), refs_of(fixed),

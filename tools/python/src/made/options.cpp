@@ -169,50 +169,15 @@ void each_field(tf::weld_stream_options& how, const Visit& visit) {
 }
 
 template <class Visit>
-void each_field(tf::slide_options& how, const Visit& visit) {
+void each_field(tf::placement_options& how, const Visit& visit) {
     visit("clearance", how.clearance);
     visit("max_travel", how.max_travel);
-    visit("precision", how.precision);
-    visit("bed", how.bed);
-}
-
-template <class Visit>
-void each_field(tf::drop_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
-    visit("max_travel", how.max_travel);
-    visit("precision", how.precision);
-    visit("bed", how.bed);
-    visit("direction", how.direction);
-}
-
-template <class Visit>
-void each_field(tf::mate_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
-    visit("max_travel", how.max_travel);
-    visit("precision", how.precision);
-}
-
-template <class Visit>
-void each_field(tf::separate_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
-    visit("max_travel", how.max_travel);
-    visit("precision", how.precision);
-    visit("effort", how.effort);
-}
-
-template <class Visit>
-void each_field(tf::turn_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
+    visit("flip", how.flip);
     visit("max_angle", how.max_angle);
     visit("tolerance", how.tolerance);
     visit("precision", how.precision);
-}
-
-template <class Visit>
-void each_field(tf::feature_mate_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
-    visit("flip", how.flip);
-    visit("precision", how.precision);
+    visit("bed", how.bed);
+    visit("effort", how.effort);
 }
 
 template <class Visit>
@@ -318,12 +283,7 @@ void add_options(py::module_& module) {
     add_options_of<tf::stream_search_options>(module, "StreamSearchOptions");
     add_options_of<tf::weld_options>(module, "WeldOptions");
     add_options_of<tf::weld_stream_options>(module, "WeldStreamOptions");
-    add_options_of<tf::slide_options>(module, "SlideOptions");
-    add_options_of<tf::drop_options>(module, "DropOptions");
-    add_options_of<tf::mate_options>(module, "MateOptions");
-    add_options_of<tf::separate_options>(module, "SeparateOptions");
-    add_options_of<tf::turn_options>(module, "TurnOptions");
-    add_options_of<tf::feature_mate_options>(module, "FeatureMateOptions");
+    add_options_of<tf::placement_options>(module, "PlacementOptions");
     add_options_of<tf::measure_options>(module, "MeasureOptions");
     add_options_of<tf::depth_options>(module, "DepthOptions");
     add_options_of<tf::impact_options>(module, "ImpactOptions");

@@ -242,16 +242,7 @@ py::object object(of_result, tf::mesh_feature&& from) {
     return object_of("treeform._properties", "Feature", made);
 }
 
-py::object object(of_result, tf::self_intersection_result&& from) {
-    py::dict made;
-    made["pairs"] = column(from.pairs, [](const auto& one) { return std::array{one.a, one.b}; });
-    made["kinds"] =
-        column(from.pairs, [](const auto& one) { return static_cast<std::uint8_t>(one.kind); });
-    made["counts"] = counts_of<tf::pair_kind>(from.counts);
-    return object_of("treeform._intersections", "FacePairs", made);
-}
-
-py::object object(of_result, tf::mesh_intersection_result&& from) {
+py::object object(of_result, tf::intersection_result&& from) {
     py::dict made;
     made["pairs"] = column(from.pairs, [](const auto& one) { return std::array{one.a, one.b}; });
     made["kinds"] =

@@ -28,10 +28,6 @@ struct words_of<tf::contact_class> {
     static constexpr words<4> all{"none", "penetrating", "touching", "near"};
 };
 template <>
-struct words_of<tf::face_order> {
-    static constexpr words<2> all{"kept", "any"};
-};
-template <>
 struct words_of<tf::feature> {
     static constexpr words<7> all{"v0", "v1", "v2", "e0", "e1", "e2", "interior"};
 };

@@ -32,7 +32,7 @@ enum {
 #define TREEFORM_ALL_KINDS 127u
 
 // made of the headers of C++:
-//   face_pair self_intersection_result self_intersection_options self_intersections()
+//   face_pair intersection_result self_intersection_options self_intersections()
 //   intersection_region intersection_regions group_pairs() mesh_intersection_options
 //   intersections=mesh_intersections() intersects() intersects_poses() faces_in_box()
 //   curve_segment segments intersection_curves() curve_path curve_network intersection_paths()
@@ -48,10 +48,11 @@ typedef struct treeform_face_pair {
 /// Pairs of faces that meet.
 typedef struct treeform_pairs {
     void* owner;
-    const treeform_face_pair* pairs;  ///< [count] ascending by (a, b)
+    /// [count] ascending by (a, b); of two meshes, `a` is of the first
+    const treeform_face_pair* pairs;
     size_t count;
     uint64_t counts[7];  ///< by kind
-    uint64_t box_pairs;  ///< pairs of faces whose boxes overlap
+    uint64_t box_pairs;  ///< pairs of faces whose boxes overlap, as moved
 } treeform_pairs;
 
 /// Which pairs to look for.
