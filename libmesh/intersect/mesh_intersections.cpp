@@ -78,7 +78,7 @@ class pairs_looked_at {
 /// What the chunks of a search give, in a narrow phase each.
 template <class Source>
 intersection_result classified(const pair_search<3>& search, const typename Source::input& meshes,
-                               const mesh_intersection_options& options,
+                               const intersection_options& options,
                                detail::base::effort* effort = nullptr) {
     const std::size_t chunks = search.chunks();
     pairs_looked_at looked(chunks, effort ? effort->allowance() : pairs_looked_at::unlimited);
@@ -121,7 +121,7 @@ intersection_result classified(const pair_search<3>& search, const typename Sour
 /// \param moves what is still to be done to the trees
 intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                         const tree<3>& tree_b,
-                                        const mesh_intersection_options& options,
+                                        const intersection_options& options,
                                         const mesh_positions& moves,
                                         detail::base::effort* effort = nullptr) {
     const pair_search<3> search(transformed(tree_a, moves.move_a),
@@ -133,7 +133,7 @@ intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh
 /// \param moves what is still to be done to the trees
 bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
               const mesh_positions& positions, const mesh_positions& moves) {
-    mesh_intersection_options all;
+    intersection_options all;
     const detail::intersect::face_candidates::input meshes{{a, tree_a, positions.move_a},
                                                            {b, tree_b, positions.move_b}};
     std::mutex mutex;  // taken for a bad face only
@@ -161,7 +161,7 @@ bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tr
 
 intersection_result detail::intersect::mesh_intersections(mesh_view a, const tree<3>& tree_a,
                                                           mesh_view b, const tree<3>& tree_b,
-                                                          const mesh_intersection_options& options,
+                                                          const intersection_options& options,
                                                           base::effort* effort) {
     check_tree("treeform::mesh_intersections", "first", a, tree_a);
     check_tree("treeform::mesh_intersections", "second", b, tree_b);
@@ -172,7 +172,7 @@ intersection_result detail::intersect::mesh_intersections(mesh_view a, const tre
 namespace {
 
 intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh& b,
-                                     const mesh_intersection_options& options) {
+                                     const intersection_options& options) {
     const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
     const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
     const pair_search<3> search(transformed(tree_a, options.move_a),
@@ -187,7 +187,7 @@ intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh
 }  // namespace
 
 intersection_result mesh_intersections(const mesh_ref& a, const mesh_ref& b,
-                                       const mesh_intersection_options& options) {
+                                       const intersection_options& options) {
     if (a.prepared() != nullptr || b.prepared() != nullptr)
         return between_prepared(detail::base::prepared_ref(a), detail::base::prepared_ref(b),
                                 options);

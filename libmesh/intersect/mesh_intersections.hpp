@@ -18,7 +18,7 @@ namespace treeform::detail::intersect {
 /// \throws std::invalid_argument when a tree has not one primitive a face
 [[nodiscard]] TREEFORM_API intersection_result
 mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-                   const mesh_intersection_options& options = {}, base::effort* effort = nullptr);
+                   const intersection_options& options = {}, base::effort* effort = nullptr);
 
 /// As `treeform::intersects`. Which bad face is met, if any, may depend on the threads.
 ///

@@ -60,7 +60,8 @@ std::pair<partial_tree<3>, partial_tree<3>> overlap_trees(const std::string& fun
                                                           mesh_view b,
                                                           const mesh_positions& positions) {
     const std::string name_a = function + ": a", name_b = function + ": b";
-    const auto& [move_a, move_b] = positions;
+    const transform<3>& move_a = positions.move_a;
+    const transform<3>& move_b = positions.move_b;
     if (!move_a.finite() || !move_b.finite())
         throw std::invalid_argument("treeform::" + function + ": a transform is not finite");
     base::check_faces(name_a.c_str(), a.points.size(), a.faces);

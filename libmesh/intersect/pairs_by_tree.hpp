@@ -15,7 +15,7 @@ namespace treeform::detail::intersect {
 /// As `self_intersections`; `tree` is that of the faces, and is gone when all has been found.
 /// \pre all that `self_intersections` checks
 [[nodiscard]] intersection_result pairs_by_tree(mesh_view mesh, tree<3>&& tree,
-                                                const self_intersection_options& options);
+                                                const intersection_options& options);
 
 /// Which of the pairs that meet are wanted. Called by many threads.
 using wanted_pairs = function_ref<bool(const face_pair& pair)>;
@@ -24,7 +24,7 @@ using wanted_pairs = function_ref<bool(const face_pair& pair)>;
 /// of the others is made, but counts include them. Where there are more pairs than `most`, some of
 /// them, more than that.
 [[nodiscard]] intersection_result pairs_by_tree(
-    mesh_view mesh, const tree<3>& tree, const self_intersection_options& options,
+    mesh_view mesh, const tree<3>& tree, const intersection_options& options,
     std::size_t most = std::numeric_limits<std::size_t>::max(),
     const wanted_pairs* wanted = nullptr);
 

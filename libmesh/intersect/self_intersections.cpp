@@ -28,7 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void check(mesh_view mesh, const self_intersection_options& options) {
+void check(mesh_view mesh, const intersection_options& options) {
     detail::base::check_faces("self_intersections", mesh.points.size(), mesh.faces);
     const std::size_t bad_point = detail::base::first_bad(mesh.points.size(), [&](std::size_t i) {
         return !detail::base::is_finite(mesh.points[i]);
@@ -72,7 +72,7 @@ constexpr std::size_t all_pairs = std::numeric_limits<std::size_t>::max();
 
 /// Goes on until more pairs than `most` have been found; keeps those that are wanted.
 intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
-                               const self_intersection_options& options,
+                               const intersection_options& options,
                                std::size_t most = all_pairs,
                                const detail::intersect::wanted_pairs* wanted = nullptr) {
     intersection_result result;
@@ -115,7 +115,7 @@ intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
 }  // namespace
 
 intersection_result self_intersections(const mesh_ref& given,
-                                       const self_intersection_options& options) {
+                                       const intersection_options& options) {
     const mesh_view mesh = given.view();
     check(mesh, options);
     if (given.prepared() != nullptr)
@@ -136,13 +136,13 @@ intersection_result self_intersections(const mesh_ref& given,
 }
 
 intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, tree<3>&& tree,
-                                                     const self_intersection_options& options) {
+                                                     const intersection_options& options) {
     const auto ours = std::move(tree);
     return find_pairs(mesh, ours, options);
 }
 
 intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, const tree<3>& tree,
-                                                     const self_intersection_options& options,
+                                                     const intersection_options& options,
                                                      std::size_t most, const wanted_pairs* wanted) {
     return find_pairs(mesh, tree, options, most, wanted);
 }

@@ -127,7 +127,7 @@ class escape_search {
             apart = apart || box_a_.min[k] + offset[k] > box_b_.max[k] ||
                     box_a_.max[k] + offset[k] < box_b_.min[k];
         if (apart) return true;
-        mesh_intersection_options options;
+        intersection_options options;
         options.move_a = transform<3>::translation(offset);
         options.first_only = true;
         options.kinds = pair_kind::crossing;

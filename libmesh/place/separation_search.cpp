@@ -173,7 +173,7 @@ class clearing {
         // What penetrates with its faces is found without a tree for the place.
         const std::vector<point3> points = points_at(offset);
         const mesh_view there{points, a_.faces};
-        mesh_intersection_options crossing{.move_a = transform<3>::translation(offset),
+        intersection_options crossing{.move_a = transform<3>::translation(offset),
                                            .first_only = true};
         crossing.progress = asking_;
         crossing.kinds = pair_kind::crossing;

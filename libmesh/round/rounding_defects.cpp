@@ -17,7 +17,7 @@ using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// Ascending; none where stopped, which `end` then says.
 pairs meeting_pairs(mesh_view mesh, const progress_callback& progress, status& end) {
-    const self_intersection_options options{
+    const intersection_options options{
         .vertices = vertex_identity::by_index,
         .kinds = pair_kinds::all - pair_kind::touching - pair_kind::degenerate,
         .progress = progress};

@@ -80,7 +80,7 @@ write_result points_out::commit() {
     std::vector<std::string> parts;
     for (state_reader& one : all_->exchange(chunks)) parts.push_back(one.text());
     write_result result;
-    const point_writer::part part = writer_.commit_part(result, parts);
+    const detail::io::written_part part = writer_.commit_part(result, parts);
     const std::string head = head_of_part(part);
     const bool is_last = all_->rank() + 1 == all_->size();
     const std::uint64_t rows = is_last ? fs::file_size(path_) - part.head - part.points : part.rows;
@@ -125,7 +125,7 @@ write_result points_out::commit() {
     return result;
 }
 
-std::string points_out::head_of_part(const point_writer::part& part) const {
+std::string points_out::head_of_part(const detail::io::written_part& part) const {
     std::string head(static_cast<std::size_t>(part.head), '\0');
     if (read_from(path_, 0, std::as_writable_bytes(std::span(head))) != head.size())
         fail_damaged(path_);

@@ -39,7 +39,7 @@ class points_out {
 
   private:
     void share_values(const std::filesystem::path& file, std::uint64_t mine);
-    [[nodiscard]] std::string head_of_part(const point_writer::part& part) const;
+    [[nodiscard]] std::string head_of_part(const detail::io::written_part& part) const;
 
     std::filesystem::path target_;
     std::filesystem::path path_;

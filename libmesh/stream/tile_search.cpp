@@ -7,6 +7,7 @@
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
 #include <algorithm>

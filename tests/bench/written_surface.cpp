@@ -1,6 +1,6 @@
 #include "bench/written_surface.hpp"
 
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>

@@ -214,13 +214,13 @@ static void test_repair(void) {
 
 static void test_wrap(void) {
     treeform_mesh* mesh = NULL;
-    treeform_wrap_options options;
-    treeform_wrap_result* result = NULL;
+    treeform_offset_options options;
+    treeform_offset_result* result = NULL;
     OK(treeform_mesh_create(cube_points, 8, cube_faces, 10, 0, &mesh));
-    treeform_wrap_options_init(&options, sizeof options);
+    treeform_offset_options_init(&options, sizeof options);
     options.offset = 0.25;
     OK(treeform_wrap(mesh, 2.0, &options, &result));
-    CHECK(result->offset == 0.25 && volume_of(&result->mesh) > 1.0);
+    CHECK(result->distance == 0.25 && volume_of(&result->mesh) > 1.0);
     treeform_free(result);
     INVALID("", treeform_wrap(mesh, -2.0, NULL, &result));
     CHECK(result == NULL);

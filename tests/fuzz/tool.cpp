@@ -11,7 +11,7 @@
 #include "tool.hpp"
 
 #include "bytes.hpp"
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>

@@ -38,7 +38,7 @@ GROUPS = {
     "placing": ("Where does a part go, and what is in its way?", "mesh",
                 "slide placement time_of_impact convex_hull pack align clash"),
     "trees": ("How do I build a tree over boxes?", "tree",
-              "aabb build build_within dynamic_tree lazy_tree refit strategy tree"),
+              "aabb build build_within dynamic_tree lazy_tree refit tree"),
     "searching": ("How do I search it?", "tree",
                   "answers nearness nearness_batch nearness_pair point_search ray search "
                   "search_pair"),

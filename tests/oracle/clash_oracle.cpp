@@ -2,7 +2,7 @@
 /// Clashes of the parts of a kitchen and of a robot's arm in 100 poses against CGAL: all pairs, by
 /// its trees of triangles, and its test of points inside closed meshes.
 
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/point_location.hpp>

@@ -5,7 +5,7 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/intersect/point_locator.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>

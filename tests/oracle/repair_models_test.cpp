@@ -6,7 +6,7 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/intersect/point_locator.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_location.hpp>

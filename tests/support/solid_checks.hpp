@@ -2,7 +2,7 @@
 /// \file
 /// What must hold of a solid's surface, looked at from outside the code that made it.
 
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>

@@ -44,8 +44,7 @@ HANDLES = {"mesh_file": "file", "urdf_robot": "robot", "stream_search": "search"
            "thread_scope": "thread_limit"}
 
 #: Results that `glue::give` makes others of.
-RESULTS = {"mesh": "treeform_made_mesh", "made_mesh": "treeform_made_mesh",
-           "turn_result": "treeform_placement", "feature_mating": "treeform_placement"}
+RESULTS = {"mesh": "treeform_made_mesh", "made_mesh": "treeform_made_mesh"}
 
 
 class Functions:

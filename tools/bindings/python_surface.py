@@ -89,7 +89,7 @@ RESULTS = [
     Result("mass_properties", "MassProperties", "_cuts"),
     # _shapes
     Result("offset_result", "OffsetResult", "_shapes", "MadeMesh",
-           doc="A solid at a distance from a mesh, around it or hollow.",
+           doc="A solid at a distance from a mesh: around it, hollow, or a wrap.",
            inherited="mesh certificate", docs={"statistics": "What it took, and was measured."}),
     Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh", context="attributes",
            doc="A mesh with fewer faces.", inherited="mesh certificate"),
@@ -115,9 +115,6 @@ RESULTS = [
                "is_left", "NDArray[np.bool_]", "(faces of the input,) whether something is left of "
                "each, also where it was merged with others.",
                'as_python(std::move(from.is_left)).attr("view")("bool")')]}),
-    Result("wrap_result", "WrapResult", "_repair", "MadeMesh",
-           doc="A closed surface around a mesh.", inherited="mesh certificate",
-           docs={"statistics": "What it took."}),
     Result("convex_hull_result", "ConvexHull", "_repair",
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) numbers of the points, outward."},
@@ -259,7 +256,7 @@ RESULTS = [
            docs={"relation": "'separate', 'touching' or 'penetrating'. Exact."}),
     Result("placement", "Placement", "_placement", "MeshResult", context="moving",
            doc="Where a mesh goes. True where it has a place; else `message` says why not.",
-           leave="clearance bed below_bed on_bed max_travel statistics",
+           leave="clearance bed below_bed on_bed max_travel steps statistics",
            docs={"end": "Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', "
                         "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
                         "'starts_touching', 'starts_below_bed', 'no_coordinates', "
@@ -276,14 +273,7 @@ RESULTS = [
                    "from.nearest ? py::object(py::make_tuple(from.nearest->fixed, "
                    "as_python(std::move(from.nearest->how)))) : py::none()")],
                "+": [Attribute("message", "str", "Half a sentence; empty where there is a place.",
-                               "py::cast(from.message())"),
-                     Attribute("angle", "float", "Of `turn` and `mate_features`: in degrees.",
-                               "py::cast(0.0)", "0.0"),
-                     Attribute("tolerance", "float", "Of `turn`: the gap beyond the clearance that "
-                               "counts as contact.", "py::cast(0.0)", "0.0"),
-                     Attribute("offset", "float", "Of `mate_features`: how far the center of the "
-                               "moving feature ended from the fixed one.", "py::cast(0.0)",
-                               "0.0")]}),
+                               "py::cast(from.message())")]}),
     Result("impact", "Impact", "_placement", "NamedTuple",
            leave="exact contact_count pairs_tested predicates",
            doc="The first contact of two meshes in motion.",
@@ -361,7 +351,7 @@ RESULTS = [
 
 #: Counters as dictionaries, and what is not among them.
 COUNTERS = {"boolean_statistics": "", "resolve_statistics": "", "repair_statistics": "",
-            "wrap_statistics": "", "offset_statistics": "", "weld_statistics": "",
+            "offset_statistics": "", "weld_statistics": "",
             "weld_stream_counts": "kept groups max_displacement faces"}
 
 #: Structs as bytes, for pickle, and the fields that are left out.
@@ -372,15 +362,15 @@ STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_val
 #: Options by name: structs, and the fields that Python gives in another way, or not at all.
 OPTIONS = {
     "read_options": "", "write_options": "keep_names",
-    "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
-    "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
-    "offset_options": "", "simplify_options": "face_groups corner_groups", "thickness_options": "",
-    "feature_options": "", "self_intersection_options": "component_of_face between within",
-    "mesh_intersection_options": "", "stream_search_options": "box communicator",
-    "weld_options": "label may_merge search", "weld_stream_options": "communicator shared "
+    "boolean_options": "face_groups", "cut_options": "keep_cuts",
+    "resolve_options": "removal_rounds", "repair_options": "",
+    "offset_options": "", "simplify_options": "face_groups corner_groups",
+    "feature_options": "", "intersection_options": "component_of_face between within",
+    "stream_search_options": "box communicator",
+    "weld_options": "label may_merge", "weld_stream_options": "communicator shared "
                                                                      "las_scale las_offset",
     "placement_options": "max_steps close_in normals face_pairs limit vertices",
     "measure_options": "", "depth_options": "vertices", "impact_options": "limit",
     "lay_flat_options": "overhang_sides", "align_options": "accelerate", "pack_options": "tighten",
-    "deviation_options": "", "clash_options": "ignored effort", "pose_options": "ignored",
+    "deviation_options": "", "clash_options": "ignored effort",
 }

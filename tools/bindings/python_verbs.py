@@ -140,8 +140,10 @@ FUNCTIONS = [
              "tf::cut_along($mesh, $values, $levels, {.progress = report})", "attributes of mesh",
              check="mesh",
              docs={"values": "(V,) of the vertices, linear in each face.", "levels": "(K,)"}),
-    Function("components(mesh: Mesh, options: components_options) -> list[MeshPart]",
-             "tf::components($mesh, options)", "attributes of mesh"),
+    Function("components(mesh: Mesh, *, min_volume: float = 0.0, largest: int = 0)"
+             " -> list[MeshPart]", "tf::components($mesh, min_volume, largest)",
+             "attributes of mesh",
+             docs={"min_volume": "of parts, in cubic units.", "largest": "how many; 0: all."}),
     Function("submesh(mesh: Mesh, faces: Chosen) -> MeshPart", "tf::submesh($mesh, $faces)",
              "attributes of mesh", also="Vertices keep their attributes.",
              docs={"faces": "(n,) numbers; or a mask (F,) of True and False."}),
@@ -157,15 +159,15 @@ FUNCTIONS = [
              docs={"matrix": "(4, 4)"}),
     # _shapes
     Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
-             "tf::offset($mesh, distance, options)", kind="long_work", check="solid"),
+             "tf::offset($mesh, distance, options)", kind="long_work", check="solid", leave="offset"),
     Function("hollow(mesh: Mesh, wall: float, *, drains: Drains = (), options: offset_options) "
              "-> OffsetResult",
-             "tf::hollow($mesh, wall, $drains, options)", kind="long_work", check="solid",
+             "tf::hollow($mesh, wall, $drains, options)", kind="long_work", check="solid", leave="offset",
              docs={"drains": "(n, 4) holes through the wall: a point, and the diameter of the hole "
                              "at the nearest point of the surface."}),
     Function("thicken(mesh: Mesh, thickness: float, *, side: thick_side = \"both\", "
              "options: offset_options) -> OffsetResult",
-             "tf::thicken($mesh, thickness, $side, options)", kind="long_work", check="solid",
+             "tf::thicken($mesh, thickness, $side, options)", kind="long_work", check="solid", leave="offset",
              docs={"side": "'both', or where the thickness goes: 'front' (faces are "
                            "counter-clockwise there) or 'back'."}),
     Function("simplify(mesh: Mesh, max_distance: float, *, face_groups: Groups = None, "
@@ -176,8 +178,8 @@ FUNCTIONS = [
                   "materials and of values of faces, are kept.",
              docs={"face_groups": "(F,) numbers; edges between faces of different ones are "
                                   "borders, too."}),
-    Function("wall_thickness(mesh: Mesh, options: thickness_options(by)) -> Thickness",
-             "tf::wall_thickness($mesh, options)",
+    Function("wall_thickness(mesh: Mesh, by: thickness_by = \"ray\") -> Thickness",
+             "tf::wall_thickness($mesh, $by, report)",
              docs={"by": "'ray', along the normal inward from the center of a face; or 'sphere', "
                          "the diameter of the largest ball within that touches the center."}),
     Function("oriented_box(points: Cloud) -> Optional[OrientedBox]",
@@ -203,8 +205,9 @@ FUNCTIONS = [
                    "keep_cuts": "as in `boolean`; faces that fill holes are merged with each other "
                                 "alone.",
                    "inside": "'automatic', 'nonzero', 'odd' or 'positive': what is solid."}),
-    Function("wrap(mesh: Mesh, size: float, options: wrap_options) -> WrapResult",
-             "tf::wrap($mesh, size, options)", kind="long_work", check="mesh"),
+    Function("wrap(mesh: Mesh, size: float, options: offset_options) -> OffsetResult",
+             "tf::wrap($mesh, size, options)", kind="long_work", check="mesh",
+             leave="resolution"),
     Function("convex_hull(points: Cloud) -> ConvexHull", "tf::convex_hull($points, report)",
              docs={"points": "(n, 3), or a mesh."}),
     Function("rounded(points: Points, precision: precision = \"float32\") -> Floats",
@@ -235,17 +238,17 @@ FUNCTIONS = [
     Function("find_solid_defects(mesh: Mesh) -> SolidDefects",
              "tf::find_solid_defects($mesh, report)", cpp="find_solid_defects in repair"),
     # _intersections
-    Function("self_intersections(mesh: Mesh, options: self_intersection_options) -> FacePairs",
-             "tf::self_intersections($mesh, options)",
+    Function("self_intersections(mesh: Mesh, options: intersection_options) -> FacePairs",
+             "tf::self_intersections($mesh, options)", leave="move_a move_b",
              docs={"kinds": "those to look for, of `KINDS`; None is all. 'crossing': interiors "
                             "pass through each other, no shared corner; 'pierce': the same with "
                             "one shared corner; 'overlap': coplanar, with a common area; 'fold': "
                             "coplanar, on the same side of a shared edge; 'duplicate': the same "
                             "three corners; 'touching': contact without crossing; 'degenerate': "
                             "one of them has no area."}),
-    Function("mesh_intersections(a: Mesh, b: Mesh, options: mesh_intersection_options) -> "
+    Function("mesh_intersections(a: Mesh, b: Mesh, options: intersection_options) -> "
              "FacePairs",
-             "tf::mesh_intersections($a, $b, options)", docs=_MOVES | {"kinds": "those to look "
+             "tf::mesh_intersections($a, $b, options)", leave="vertices", docs=_MOVES | {"kinds": "those to look "
                                                                                 "for, of `KINDS`; "
                                                                                 "None is all."}),
     Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
@@ -471,19 +474,20 @@ FUNCTIONS = [
              docs=_MOVES | {"radius": "beyond it, the answer is None."}),
     Function("clash_parts(parts: Parts, options: clash_options, ignored: Pairs) -> ClashResult",
              "(options.ignored = $ignored, tf::clash(borrowed(parts), options))"),
-    Function("clash_in_poses(parts: Parts, poses: Poses, options: pose_options, ignored: Pairs)"
+    Function("clash_in_poses(parts: Parts, poses: Poses, options: clash_options, ignored: Pairs)"
              " -> PoseClashes",
              "(options.ignored = $ignored, tf::check_poses(borrowed(parts), $poses, options))"),
     Function("clash(parts: Parts, options: clash_options(clearance), poses: ArrayLike = None, "
              "ignored: PartPairs = ()) -> ClashResult",
-             body="clashes(parts, poses, how, ignored, progress)",
+             body="clashes(parts, poses, how, ignored, progress)", leave="first_only",
              docs={"poses": "(N, 4, 4) an affine map for each of the N parts: where it is. Corners "
                             "are rounded to float64 after it, and then exact; what is returned is "
                             "where the parts are. `check_poses` is for many poses of all.",
                    "ignored": "pairs of numbers of parts that are not looked at."}),
-    Function("check_poses(parts: Parts, poses: Numbers, options: pose_options(clearance), "
+    Function("check_poses(parts: Parts, poses: Numbers, options: clash_options(clearance), "
              "ignored: PartPairs = ()) -> PoseClashes",
              body="clashes_in_poses(parts, poses, how, ignored, progress)",
+             leave="volumes depths limit",
              docs={"poses": "(P, N, 4, 4) an affine map for each of the N parts, or (P, 4, 4) for "
                             "a single one beside parts that stay: then it moves the first.",
                    "ignored": "pairs of numbers of parts that are not looked at."}),

@@ -34,8 +34,7 @@ inline void write_section(const std::filesystem::path& path, const treeform_sect
 /// `largest` ones where that is not 0.
 inline std::vector<tf::mesh_part> components(const tf::mesh_ref& mesh, double min_volume,
                                              std::size_t largest) {
-    return tf::components(mesh,
-                          {.min_volume = min_volume, .largest = largest != 0 ? largest : SIZE_MAX});
+    return tf::components(mesh, min_volume, largest);
 }
 
 /// Points and faces of all meshes, one after the other; nothing is joined. `index` [F] is the mesh

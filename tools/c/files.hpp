@@ -235,10 +235,9 @@ inline tf::mesh_file scene(const treeform_file* const* files, const char* const*
     const std::span all = array(files, count, "files");
     if (all.empty()) throw std::invalid_argument("no files for the scene");
     const std::vector<std::string> labels = names_of(names, count);
-    std::vector<tf::scene_member> members;
-    for (std::size_t i = 0; i < count; ++i)
-        members.push_back({&content(all[i], "files"), labels[i], labels[i]});
-    return tf::scene_of(members);
+    std::vector<const tf::mesh_file*> members;
+    for (const treeform_file* one : all) members.push_back(&content(one, "files"));
+    return tf::scene_of(members, labels, labels);
 }
 
 /// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have

@@ -49,7 +49,7 @@ inline treeform_closest closest_points(const tf::mesh_ref& a, const tf::mesh_ref
 /// The distance of the surfaces; infinite where one has no faces.
 inline double distance(const tf::mesh_ref& a, const tf::mesh_ref& b, const tf::transform<3>& move_a,
                        const tf::transform<3>& move_b) {
-    return tf::distance(a, b, tf::distance_options{move_a, move_b});
+    return tf::distance(a, b, tf::mesh_positions{move_a, move_b});
 }
 
 /// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
@@ -60,8 +60,8 @@ inline void distance_poses(const treeform_mesh* a, const treeform_mesh* b, const
     const std::span out = array(distances, count, "distances");
     in_positions(
         a, b, moves_a, moves_b, count,
-        [&](const auto& x, const auto& y, auto where) { return tf::distance(x, y, where, radius); },
-        out);
+        [&](const auto& x, const auto& y, auto where) { return tf::distance(x, y, where); }, out,
+        radius);
 }
 
 // ---- inside and outside ----
@@ -115,8 +115,8 @@ inline void locate_in_curves(const double* points, std::size_t point_count,
                              const std::uint32_t* edges, std::size_t edge_count,
                              const double* queries, std::size_t count, std::uint8_t* where,
                              std::int32_t* winding) {
-    const tf::curve_locator locator({rows_of<tf::point2>(points, point_count, "points"),
-                                     rows_of<tf::curve_edge>(edges, edge_count, "edges")});
+    const tf::curve_locator locator(rows_of<tf::point2>(points, point_count, "points"),
+                                    rows_of<tf::curve_edge>(edges, edge_count, "edges"));
     const auto all = rows_of<tf::point2>(queries, count, "queries");
     in_pieces(count, [&](std::size_t begin, std::size_t end) {
         answer_all(locator.locate(all.subspan(begin, end - begin)), from(where, begin),

@@ -10,34 +10,12 @@
 
 namespace glue {
 
-/// A placement, and what only its operation has: `more(to)` fills it.
-template <class More>
-treeform_code give_placed(tf::placement&& at, treeform_placement** out, const More& more) {
+inline treeform_code give(tf::placement&& at, treeform_placement** out) {
     check(at.certificate.status);
-    treeform_placement& to = hand_out(std::move(at), out);
-    more(to);
+    const treeform_placement& to = hand_out(std::move(at), out);
     if (to.certificate->status == TREEFORM_STATUS_OK) return TREEFORM_OK;
     say(to.message);
     return TREEFORM_NO_PLACE;
-}
-
-inline treeform_code give(tf::placement&& at, treeform_placement** out) {
-    return give_placed(std::move(at), out, [](treeform_placement&) {});
-}
-
-inline treeform_code give(tf::turn_result&& turned, treeform_placement** out) {
-    return give_placed(std::move(turned.at), out, [&](treeform_placement& to) {
-        to.angle = turned.angle;
-        to.tolerance = turned.tolerance;
-        to.steps = turned.steps;
-    });
-}
-
-inline treeform_code give(tf::feature_mating&& mated, treeform_placement** out) {
-    return give_placed(std::move(mated.at), out, [&](treeform_placement& to) {
-        to.angle = mated.turn_angle;
-        to.offset = mated.offset;
-    });
 }
 
 /// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of
@@ -50,7 +28,7 @@ inline tf::placement drop(const tf::mesh_ref& moving, const tf::mesh_refs& fixed
 
 /// Turns `moving` about the axis through `origin` along `direction` until it first comes within the
 /// tolerance of one of `fixed`, or of the clearance from one.
-inline tf::turn_result turn(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
+inline tf::placement turn(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
                             const tf::point3& origin, const tf::point3& direction,
                             const tf::placement_options& options) {
     return tf::turn(moving, fixed, {origin, direction}, options);
@@ -71,7 +49,7 @@ inline tf::mesh_feature feature_of(const treeform_feature* from, const char* nam
 }
 
 /// Brings two planes, or two axes, together, and slides `moving` until it meets one of `fixed`.
-inline tf::feature_mating mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
+inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
                                         const treeform_feature* of_moving,
                                         const treeform_feature* of_fixed,
                                         const tf::placement_options& options) {

@@ -102,12 +102,11 @@ tf::placement fit(placing& p, const tf::progress_callback& progress) {
 }
 
 tf::placement turn(placing& p, double clearance, const tf::progress_callback& progress) {
-    p.turned = tf::turn(p.moving.shapes[0], p.fixed.shapes, p.settings.turn.axis,
-                        {.clearance = clearance,
-                         .max_angle = p.settings.turn.max_angle,
-                         .precision = p.precision,
-                         .progress = progress});
-    return std::move(p.turned->at);
+    return tf::turn(p.moving.shapes[0], p.fixed.shapes, p.settings.turn.axis,
+                    {.clearance = clearance,
+                     .max_angle = p.settings.turn.max_angle,
+                     .precision = p.precision,
+                     .progress = progress});
 }
 
 tf::placement mate(placing& p, double clearance, const tf::progress_callback& progress) {
@@ -117,7 +116,7 @@ tf::placement mate(placing& p, double clearance, const tf::progress_callback& pr
                                 .precision = p.precision,
                                 .progress = progress},
                                p.reason);
-    if (p.mated) return std::move(p.mated->found.at);
+    if (p.mated) return std::move(p.mated->found);
     return {.certificate = {.status = tf::status::no_place}, .end = tf::placement_end::nothing_met};
 }
 

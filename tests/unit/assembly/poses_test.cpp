@@ -40,7 +40,7 @@ tf::mesh placed(tf::mesh mesh, const motion& by) {
 /// What `clash` says of the parts where they are moved to.
 void check_by_moving(const std::vector<tf::mesh>& parts, const std::vector<motion>& poses,
                      double clearance) {
-    tf::pose_options options;
+    tf::clash_options options;
     options.clearance = clearance;
     const auto found = tf::check_poses(prepared(parts), poses, options);
     REQUIRE(found.poses.size() == poses.size() / parts.size());
@@ -160,7 +160,7 @@ TEST_CASE("poses: ignored pairs, the first clash only, and counts") {
     CHECK(all.poses[1][0] == tf::pose_clash{0, 1, mesh_relation::touching, 0.0});
     CHECK(all.clashing == 1);
     CHECK(all.boxes_apart == 4);
-    tf::pose_options options;
+    tf::clash_options options;
     options.first_only = true;
     const std::vector<tf::part_pair> ignored{{1, 0}};
     options.ignored = ignored;
@@ -183,7 +183,7 @@ TEST_CASE("poses: what makes no sense is refused, and it stops when told to") {
                          "treeform::check_poses: pose 1: the transform of part 1 is not finite",
                          std::invalid_argument);
     poses[3] = {};
-    tf::pose_options options;
+    tf::clash_options options;
     options.progress = [](double) { return false; };
     CHECK(tf::check_poses(parts, poses, options).status == tf::status::cancelled);
     CHECK(tf::check_poses({}, {}).poses.empty());

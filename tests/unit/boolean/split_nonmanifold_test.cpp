@@ -1,5 +1,5 @@
 #include <libmesh/boolean/split_nonmanifold.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>

@@ -1,7 +1,7 @@
 /// \file
 /// Isolines: beside sections, on open sheets, through vertices; meshes cut along them.
 
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/section.hpp>

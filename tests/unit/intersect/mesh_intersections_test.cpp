@@ -44,7 +44,7 @@ pairs by_brute_force(const tf::mesh& a, const tf::mesh& b, const Common& common)
 /// The pairs, after the counts and the short answer have been compared with them, and the answer of
 /// the same meshes prepared. Those are indexed whole, the others where their boxes overlap.
 pairs found_in(const tf::mesh& a, const tf::mesh& b,
-               const tf::mesh_intersection_options& options = {}) {
+               const tf::intersection_options& options = {}) {
     const tf::intersection_result result = tf::mesh_intersections(a, b, options);
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
     for (const tf::face_pair& pair : result.pairs) ++counts[static_cast<std::size_t>(pair.kind)];
@@ -215,7 +215,7 @@ TEST_CASE("mesh_intersections: a move gives the pairs of the moved mesh, with th
         test::random source(seed);
         const tf::mesh a = test::random_soup(source, 400, 0.2);
         const tf::mesh b = test::lattice_soup(source, 100, 60, 2);
-        tf::mesh_intersection_options options;
+        tf::intersection_options options;
         if (seed % 3 != 0) options.move_a = random_map(source);
         if (seed % 3 != 1) options.move_b = random_map(source);
         if (seed == 10) options.move_a.rows[0] = options.move_a.rows[1];  // everything degenerate
@@ -235,7 +235,7 @@ TEST_CASE("mesh_intersections: turned meshes as all pairs of their images one by
         const double fineness = 1.0 / static_cast<double>(2 + 3 * (seed % 3));
         const tf::mesh a = test::scaled(ball(2), scale);
         const tf::mesh b = test::scaled(test::random_soup(source, 120, fineness), scale);
-        tf::mesh_intersection_options options;
+        tf::intersection_options options;
         if (seed % 2 == 0) options.move_a = turned(source, scale);
         options.move_b = turned(source, scale);
         const pairs found = found_in(a, b, options);
@@ -270,7 +270,7 @@ TEST_CASE("mesh_intersections: flat meshes in one plane, and seen from the side"
     CHECK(
         found_in(sheet, test::moved(sheet, {0.25, 0.5, std::numeric_limits<double>::denorm_min()}))
             .empty());
-    tf::mesh_intersection_options upright;
+    tf::intersection_options upright;
     upright.move_b.rows = {{{0, 0, 1, 2.5}, {0, 1, 0, 0.25}, {1, 0, 0, -2}}};
     CHECK(!found_in(sheet, sheet, upright).empty());
     tf::mesh line = sheet;  // no face has an area
@@ -354,7 +354,7 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
     CHECK_THROWS_AS((void)tf::detail::intersect::mesh_intersections({}, tree, sheet, tree),
                     std::invalid_argument);
     const auto far = tf::transform<3>::translation(tf::point3{1.7e308, 0, 0});
-    tf::mesh_intersection_options options{.move_a = far, .move_b = far};
+    tf::intersection_options options{.move_a = far, .move_b = far};
     options.move_a.rows[0][0] = 1e308;
     options.move_b.rows[0][0] = 1e308;
     CHECK_THROWS_AS(

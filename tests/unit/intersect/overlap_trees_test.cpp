@@ -55,7 +55,7 @@ void lay_beside(const tf::mesh& a, const tf::mesh& b, std::size_t axis,
 /// The answers with trees over all faces, which are moved with the meshes.
 void check_as_whole(const tf::mesh& a, const tf::mesh& b, const tf::mesh_positions& positions) {
     const auto tree_a = tf::build_face_tree(a), tree_b = tf::build_face_tree(b);
-    tf::mesh_intersection_options options;
+    tf::intersection_options options;
     options.move_a = positions.move_a;
     options.move_b = positions.move_b;
     const auto whole = tf::detail::intersect::mesh_intersections(a, tree_a, b, tree_b, options);

@@ -339,7 +339,7 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
             do writer.write(rows);
             while (first > 0 && reader.read(rows, 100));
             tf::write_result result;
-            const tf::point_writer::part part = writer.commit_part(result);
+            const tf::detail::io::written_part part = writer.commit_part(result);
             const std::string made = bytes_of(path);
             CHECK(part.points == bytes);
             CHECK(made.size() == part.head + part.points + room + part.rows);

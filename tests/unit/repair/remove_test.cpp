@@ -2,7 +2,7 @@
 /// Faces that meet, removed, and the holes they leave.
 
 #include <libmesh/repair/greedy_vertex_cover.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>

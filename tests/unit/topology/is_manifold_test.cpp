@@ -1,5 +1,5 @@
 #include <libmesh/topology/is_manifold.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 

@@ -1,6 +1,5 @@
 // Made by tools/bindings of solids.h and the headers of C++: see its README.
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/repair.hpp>
 
 #include <tools/c/made/structs.hpp>
@@ -244,38 +243,6 @@ void glue::fill(keeper& kept, const tf::solid_defects& from, treeform_solid_defe
     to.message = kept.keep(from.message()).c_str();
 }
 
-tf::wrap_options glue::read(const treeform_wrap_options* options) {
-    return read(chosen(options, treeform_wrap_options_init));
-}
-tf::wrap_options glue::read(const treeform_wrap_options& o) {
-    tf::wrap_options how;
-    how.offset = given(o.offset);
-    how.precision = choice<tf::precision>(o.precision, 2, "precision");
-    how.progress = progress(o);
-
-    return how;
-}
-
-void treeform_wrap_options_init(treeform_wrap_options* options, size_t size) {
-    treeform_wrap_options to{};
-    const tf::wrap_options from;
-    using namespace glue;
-    to.offset = not_known;
-    to.precision = static_cast<treeform_precision>(from.precision);
-    glue::init(options, size, to);
-}
-
-void glue::fill(keeper& kept, const tf::wrap_result& from, treeform_wrap_result& to) {
-    to.mesh = arrays(from.mesh);
-    to.certificate = &filled<treeform_certificate>(kept, from.certificate);
-    to.size = from.statistics.size;
-    to.offset = from.statistics.offset;
-    to.area = from.statistics.area;
-    to.points = from.statistics.points;
-    to.tetrahedra = from.statistics.tetrahedra;
-    to.filled = from.statistics.filled;
-}
-
 treeform_code treeform_boolean(const treeform_mesh* const* operands, size_t count,
                                const char* expression, const treeform_boolean_options* options,
                                treeform_boolean_result** result) {
@@ -436,13 +403,5 @@ treeform_code treeform_find_solid_defects_of_file(const treeform_file* file,
                                              glue::choice<tf::repair_scope>(scope, 2, "scope"),
                                              glue::progress(progress, progress_data)),
             defects);
-    });
-}
-
-treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
-                            const treeform_wrap_options* options, treeform_wrap_result** result) {
-    return glue::guard([&] {
-        glue::start(result);
-        return glue::give(tf::wrap(glue::ref(mesh, "mesh"), size, glue::read(options)), result);
     });
 }

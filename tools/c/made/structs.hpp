@@ -37,8 +37,6 @@
 namespace glue {
 
 void fill(keeper& kept, const tf::certificate& from, treeform_certificate& to);
-[[nodiscard]] tf::rounding_options read(const treeform_rounding_options* options);
-[[nodiscard]] tf::rounding_options read(const treeform_rounding_options& o);
 void fill(keeper& kept, const tf::rounding_effects& from, treeform_rounding& to);
 void fill(keeper& kept, const tf::mass_properties& from, treeform_mass_properties& to);
 void fill(keeper& kept, const tf::topology_counts& from, treeform_topology& to);
@@ -47,13 +45,10 @@ void fill(keeper& kept, const tf::mesh_feature& from, treeform_feature& to);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options* options);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options& o);
 void fill(keeper& kept, const tf::intersection_result& from, treeform_pairs& to);
-[[nodiscard]] tf::self_intersection_options read(
-    const treeform_self_intersections_options* options);
-[[nodiscard]] tf::self_intersection_options read(const treeform_self_intersections_options& o);
+[[nodiscard]] tf::intersection_options read(const treeform_intersections_options* options);
+[[nodiscard]] tf::intersection_options read(const treeform_intersections_options& o);
 void fill(keeper& kept, const tf::intersection_region& from, treeform_region& to);
 void fill(keeper& kept, const tf::intersection_regions& from, treeform_regions& to);
-[[nodiscard]] tf::mesh_intersection_options read(const treeform_intersections_options* options);
-[[nodiscard]] tf::mesh_intersection_options read(const treeform_intersections_options& o);
 void fill(keeper& kept, const tf::curve_path& from, treeform_path& to);
 void fill(keeper& kept, const tf::curve_network& from, treeform_paths& to);
 [[nodiscard]] tf::stream_search_options read(const treeform_search_file_options* options);
@@ -72,9 +67,6 @@ void fill(keeper& kept, const tf::repair_statistics& from, treeform_repair_stati
 void fill(keeper& kept, const tf::repair_result& from, treeform_repair_result& to);
 void fill(keeper& kept, const tf::repaired_file& from, treeform_repair_result& to);
 void fill(keeper& kept, const tf::solid_defects& from, treeform_solid_defects& to);
-[[nodiscard]] tf::wrap_options read(const treeform_wrap_options* options);
-[[nodiscard]] tf::wrap_options read(const treeform_wrap_options& o);
-void fill(keeper& kept, const tf::wrap_result& from, treeform_wrap_result& to);
 void fill(keeper& kept, const tf::section_result& from, treeform_section_result& to);
 [[nodiscard]] tf::cut_options read(const treeform_cut_options* options);
 [[nodiscard]] tf::cut_options read(const treeform_cut_options& o);
@@ -87,8 +79,6 @@ void fill(keeper& kept, const tf::offset_result& from, treeform_offset_result& t
 [[nodiscard]] tf::simplify_options read(const treeform_simplify_options* options);
 [[nodiscard]] tf::simplify_options read(const treeform_simplify_options& o);
 void fill(keeper& kept, const tf::simplify_result& from, treeform_simplify_result& to);
-[[nodiscard]] tf::thickness_options read(const treeform_thickness_options* options);
-[[nodiscard]] tf::thickness_options read(const treeform_thickness_options& o);
 void fill(keeper& kept, const tf::thickness_result& from, treeform_thickness_result& to);
 void fill(keeper& kept, const tf::oriented_box& from, treeform_oriented_box& to);
 void fill(keeper& kept, const tf::isolines_result& from, treeform_isolines_result& to);
@@ -130,8 +120,6 @@ void fill(keeper& kept, const tf::align_result& from, treeform_align_result& to)
 void fill(keeper& kept, const tf::contact_region& from, treeform_contact_region& to);
 void fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& to);
 void fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to);
-[[nodiscard]] tf::pose_options read(const treeform_poses_options* options);
-[[nodiscard]] tf::pose_options read(const treeform_poses_options& o);
 void fill(keeper& kept, const tf::named_column& from, treeform_named_column& to);
 void fill(keeper& kept, const tf::io_warning& from, treeform_warning& to);
 void fill(keeper& kept, const tf::column& from, treeform_column& to);

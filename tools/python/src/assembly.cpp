@@ -12,7 +12,7 @@ std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
                                     std::to_string(b.size()) + " of b");
     std::vector<tf::mesh_positions> all(a.size() == 1 ? b.size() : a.size());
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = {a[a.size() == 1 ? 0 : i], b[b.size() == 1 ? 0 : i]};
+        all[i] = {.move_a = a[a.size() == 1 ? 0 : i], .move_b = b[b.size() == 1 ? 0 : i]};
     return all;
 }
 
@@ -43,8 +43,10 @@ py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<doub
 
 py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
                    const array_of<double>& move_b, double radius) {
-    return as_array<double>(for_positions<double>(positions_of(move_a, move_b), [&](auto some) {
-        return tf::distance(a.prepared(), b.prepared(), some, radius);
+    auto positions = positions_of(move_a, move_b);
+    for (tf::mesh_positions& one : positions) one.radius = radius;
+    return as_array<double>(for_positions<double>(positions, [&](auto some) {
+        return tf::distance(a.prepared(), b.prepared(), some);
     }));
 }
 

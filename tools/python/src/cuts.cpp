@@ -37,7 +37,7 @@ py::tuple concatenate(const held_meshes& meshes) {
         for (std::uint32_t f = 0; f < views[i].faces.size(); ++f) faces.push_back({i, f});
         for (std::uint32_t v = 0; v < views[i].points.size(); ++v) vertices.push_back({i, v});
     }
-    const py::object data = attributes.to(made, {faces, vertices});
+    const py::object data = attributes.to(made, faces, vertices);
     return py::make_tuple(as_array(std::move(made.points)), as_array(std::move(made.faces)), data);
 }
 

@@ -13,7 +13,7 @@ py::tuple read_by(bool join, const Take& take) {
         if (join && !read.indexed) {
             for (tf::element& e : read.attributes.elements)
                 if (e.name == "vertex")
-                    e = e.gathered(tf::find_equal_points(read.mesh.points).first_of_new);
+                    e = e.gathered(tf::find_equal_points(read.mesh.points).first_of_group);
             read.mesh = tf::join_equal_points(read.mesh);
             read.indexed = true;
         }
@@ -46,7 +46,7 @@ py::tuple scene(const held_meshes& meshes, const std::vector<const file_data*>& 
     for (const file_data* one : data)
         kept.push_back(one == nullptr ? std::nullopt : std::optional(*one));
     tf::mesh_file made = run([&](const tf::progress_callback&) {
-        std::vector<tf::scene_member> members;
+        std::vector<const tf::mesh_file*> members;
         for (std::size_t i = 0; i < meshes.size(); ++i) {
             const auto [points, faces] = meshes[i]->view();
             tf::mesh_file one = kept[i] ? kept[i]->file() : tf::mesh_file{};
@@ -54,9 +54,8 @@ py::tuple scene(const held_meshes& meshes, const std::vector<const file_data*>& 
             if (one.stored_face.empty()) one.stored_faces = faces.size();
             files.push_back(std::move(one));
         }
-        for (std::size_t i = 0; i < files.size(); ++i)
-            members.push_back({.file = &files[i], .name = names[i], .label = names[i]});
-        return tf::scene_of(members);
+        for (const tf::mesh_file& one : files) members.push_back(&one);
+        return tf::scene_of(members, names, names);
     });
     py::array points = as_array(std::move(made.mesh.points));
     py::array faces = as_array(std::move(made.mesh.faces));

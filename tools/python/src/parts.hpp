@@ -39,13 +39,8 @@ py::object object(of_result, tf::curve_network&& from);
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes);
 /// As columns: of layers, of loops, of points.
 py::object object(of_result, tf::section_result&& from);
-/// As placements with more of their own.
-py::object object(of_result, tf::turn_result&& from, const held_mesh& moving);
 /// The counts, as a pair.
 py::object object(of_result, tf::rounding_effects&& from);
-/// A placement with fields that only its operation has.
-py::object with_fields(tf::placement&& at, const held_mesh& moving,
-                       std::initializer_list<std::pair<const char*, double>> more);
 
 /// `of(pose, clash)` of all clashes, pose after pose.
 template <class Of>

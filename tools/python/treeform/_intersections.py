@@ -67,8 +67,8 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
     segment or point that it is; its pairs have a kind of their own.
 
-    vertices: 'by_coordinates' or 'by_index'. Which corners two faces share: those with equal
-        coordinates, or with the same number.
+    vertices: 'by_coordinates' or 'by_index'. `self_intersections`: which corners two faces share:
+        those with equal coordinates, or with the same number.
     first_only: Stop at the first pair found: the same pair on any number of threads.
     kinds: those to look for, of `KINDS`; None is all. 'crossing': interiors pass through each
         other, no shared corner; 'pierce': the same with one shared corner; 'overlap': coplanar,
@@ -84,7 +84,7 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     >>> treeform.self_intersections(m)
     FacePairs(pairs=uint32[78, 2], kinds=uint8[78], counts={'crossing': 78})
     """
-    how = options(_core.SelfIntersectionOptions, locals())
+    how = options(_core.IntersectionOptions, locals())
     return _core.self_intersections(held(mesh), how, progress=progress)
 
 
@@ -118,7 +118,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     >>> treeform.mesh_intersections(a, b).counts["crossing"]
     6
     """
-    how = options(_core.MeshIntersectionOptions, locals())
+    how = options(_core.IntersectionOptions, locals())
     return _core.mesh_intersections(held(a), held(b), how, progress=progress)
 # end
 

@@ -99,8 +99,8 @@ class Placement(MeshResult):
     """Where a mesh goes. True where it has a place; else `message` says why not.
 
     mesh: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
-    matrix: (4, 4) new = M * old: a translation. `points` are moved by it and rounded once, except
-        for those that are set on the bed.
+    matrix: (4, 4) new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points`
+        are moved by it and rounded once, except for those that are set on the bed.
     end: Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', 'nothing_met', 'too_far',
         'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
         'no_coordinates', 'too_many_steps', 'out_of_range'.
@@ -116,9 +116,10 @@ class Placement(MeshResult):
     certificate: What was checked about the coordinates.
     effort: Of `separate`: what its search took. Where some of its questions were cut, a shorter way
         may exist; without a place, one that was not found.
-    angle: Of `turn` and `mate_features`: in degrees.
-    tolerance: Of `turn`: the gap beyond the clearance that counts as contact.
-    offset: Of `mate_features`: how far the center of the moving feature ended from the fixed one.
+    angle: Of `turn` and `mate_features`: in degrees, of the turn.
+    tolerance: Of `turn`: the gap, beyond the clearance, that counts as contact.
+    offset: Of `mate_features`: how far the center of the moving feature ended from that of the
+        fixed one, along the direction of the fixed one. Of planes: their distance.
     """
 
     mesh: Mesh
@@ -134,9 +135,9 @@ class Placement(MeshResult):
     nearest: tuple[int, Measure] | None
     certificate: Certificate
     effort: SearchEffort
-    angle: float = 0.0
-    tolerance: float = 0.0
-    offset: float = 0.0
+    angle: float
+    tolerance: float
+    offset: float
 # end
 
     def __bool__(self) -> bool:
@@ -311,6 +312,10 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     `nothing_met`, all of `max_angle` is free. With `too_many_steps` it was not found out: something
     is passed at a distance that is very small against the size, over a long way.
 
+    `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
+    coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
+    `at_place` is exact: separate, in general, by no more than the tolerance.
+
     Points that no face uses turn along and are otherwise ignored.
 
     fixed: a fixed body, or a list of them.
@@ -352,7 +357,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
 
     A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
     that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
-    coordinates returned.
+    coordinates returned. `travel` is 0.
 
     onto: a fixed body, or a list of them.
     of_moving: a plane or an axis of `find_features`.
@@ -514,7 +519,7 @@ class Alignment(MeshResult):
 # made of functions:
 #   align
 def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False,
-          method: str = "automatic", overlap: float = 1.0, weights: str = "welsch",
+          method: str = "automatic", overlap: float = 1.0, robust: bool = True,
           max_distance: float = np.inf, max_iterations: int = 100, tolerance: float = 1e-6,
           starts: int = 1, samples: int = 100_000, start: ArrayLike | None = None,
           precision: str = "float64", progress: Progress = None) -> Alignment:
@@ -547,7 +552,10 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     method: 'point_to_plane', 'point_to_point', 'automatic' or 'plane_to_plane'.
     overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share,
         the nearest ones, and ignores the rest.
-    weights: 'equal' or 'welsch'.
+    robust: Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
+        medians of the distances at the start, v is halved down to where a third of the points is
+        within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
+        no partner, and nobody needs to say how many. Otherwise all count alike.
     max_distance: Ignore partners further apart. Not squared, not negative.
     max_iterations: From each start.
     tolerance: Converged when in 5 steps in a row the cost falls by less than this share of itself,
@@ -699,7 +707,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     than `radius`. The relation is exact, and so is whether a distance is 0. Other distances are
     rounded as `distance` says.
 
-    radius: Inclusive.
+    radius: Of `measure`; inclusive.
     vertices: 'by_coordinates': corners with equal coordinates are shared; 'by_index': those with
         the same number.
 

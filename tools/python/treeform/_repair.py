@@ -1,4 +1,4 @@
-"""Meshes mended, wrapped, rounded."""
+"""Meshes mended and rounded."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
 from ._results import Certificate, Result
 
-__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "WrapResult", "convex_hull",
+__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "convex_hull",
            "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",
-           "rounded", "wrap"]
+           "rounded"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -66,19 +66,6 @@ class RepairResult(MadeMesh):
     vertex_source: Ids
     is_left: NDArray[np.bool_]
     steps: dict[str, Any]
-# end
-
-
-# made of results:
-#   wrap_result
-@dataclass(frozen=True, repr=False)
-class WrapResult(MadeMesh):
-    """A closed surface around a mesh.
-
-    statistics: What it took.
-    """
-
-    statistics: dict[str, Any]
 # end
 
 
@@ -149,7 +136,7 @@ def steps_of(steps: Iterable[str]) -> dict[str, bool]:
 
 
 # made of functions:
-#   repair wrap
+#   repair
 def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = None,
            largest_hole: int | None = None, strays: float = 0.001, inside: str = "automatic",
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
@@ -203,40 +190,6 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     """
     how = options(_core.RepairOptions, locals(), **steps_of(steps))
     return checked(_core.repair(held(mesh), how, progress=progress), check, of_one=True)
-
-
-def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
-         check: bool = True, progress: Progress = None) -> WrapResult:
-    """A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
-    no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters no
-    hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills cavities
-    that nothing leads to. A smaller size follows the mesh more closely, with more faces, some area
-    / `size`^2 of them.
-
-    No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
-    coordinates of both. The distance of its vertices is met as far as rounding allows.
-
-    offset: How far the vertices of the wrap are from the mesh, in its length unit; where it is not
-        given, a thirtieth of the size.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    check: False returns what could not be certified, too, with its `certificate`.
-
-    Raises NotCertifiedError where the result could not be certified; ValueError naming the face
-    with a corner out of range or not finite; where the mesh has no faces, where it is larger than
-    2^150 or smaller than 2^-150, for a size or offset that is not positive and finite, or so small
-    that coordinates of the precision do not tell apart what is as near as the offset, or the wrap
-    would have more than 2^30 faces.
-
-    Cost: for n points O(n log n) in most cases, O(n log F) queries of the tree over the faces; some
-    400 bytes a point; serial.
-
-    >>> import treeform
-    >>> around = treeform.wrap(treeform.read("data/two_spheres.stl"), 0.5)
-    >>> around.mesh.is_solid, bool(around.certificate)
-    (True, True)
-    """
-    how = options(_core.WrapOptions, locals())
-    return checked(_core.wrap(held(mesh), size, how, progress=progress), check, of_one=True)
 # end
 
 

@@ -46,15 +46,6 @@ struct carry_source {
     TREEFORM_API void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const;
 };
 
-/// The source of each face and vertex of the result, as in `boolean_result`.
-struct carried_elements {
-    std::span<const operand_element> face_source;           ///< [F]
-    std::span<const operand_element> vertex_source;         ///< [V]
-    std::span<const operand_element> face_of_cut_vertex{};  ///< [V] or empty
-    /// [3 F] or empty: of a single input, as in `simplify_result`
-    std::span<const std::uint32_t> corner_source{};
-};
-
 /// The inputs of an operation, whose attributes its result gets. Files are not copied: they must
 /// live as long.
 class carry_sources {
@@ -77,7 +68,9 @@ class carry_sources {
     ///
     /// \pre  sources are in range
     /// \cost O(V + F) for each column
-    TREEFORM_API void carry(mesh_file& file, const carried_elements& made) const;
+    TREEFORM_API void carry(mesh_file& file, std::span<const operand_element> face_source,
+                            std::span<const operand_element> vertex_source,
+                            std::span<const operand_element> face_of_cut_vertex = {}) const;
 
     /// The same for what was made of a single input, with sources as in `resolve_result`:
     /// `operand_element::none` stands for no source.

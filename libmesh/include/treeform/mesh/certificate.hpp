@@ -114,13 +114,6 @@ class TREEFORM_API not_certified_error : public std::runtime_error {
 /// its range.
 [[nodiscard]] TREEFORM_API std::vector<point3> rounded(points_view points, precision to);
 
-/// Which rounding to look at.
-struct rounding_options {
-    precision before = precision::float64;  ///< of the points before the move
-    precision after = precision::float64;   ///< of what is written
-    progress_callback progress{};
-};
-
 /// How far rounding moved points, and what it has broken.
 struct rounding_effects {
     double max_displacement = 0.0;  ///< largest change of a coordinate, apart from the move
@@ -155,6 +148,7 @@ find_rounding_defects(mesh_view mesh, points_view placed, const progress_callbac
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API rounding_effects
 effects_of_rounding(const mesh_ref& moving, const transform<3>& by, points_view placed,
-                    const rounding_options& options = {});
+                    precision before = precision::float64, precision after = precision::float64,
+                    const progress_callback& progress = {});
 
 }  // namespace treeform

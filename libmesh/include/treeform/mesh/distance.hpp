@@ -18,10 +18,10 @@
 namespace treeform {
 
 /// Where each of two meshes is, and how far apart they may be.
-struct distance_options {
+struct mesh_positions {
     transform<3> move_a{};  ///< applied to the corners first; the moved ones are rounded to double
     transform<3> move_b{};
-    /// Ignore everything further apart than this; inclusive.
+    /// Of distances: ignore everything further apart than this; inclusive.
     double radius = std::numeric_limits<double>::infinity();
 };
 
@@ -55,11 +55,11 @@ struct closest_points_result {
 ///         faces are skipped by the direction between the nearest points so far
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
-    const mesh_ref& a, const mesh_ref& b, const distance_options& options = {});
+    const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions = {});
 
 /// The distance of the surfaces `a` and `b`; infinite when `closest_points` finds none.
 [[nodiscard]] TREEFORM_API double distance(const mesh_ref& a, const mesh_ref& b,
-                                           const distance_options& options = {});
+                                           const mesh_positions& positions = {});
 
 /// The point of a mesh that is nearest to a query.
 struct closest_point_result {

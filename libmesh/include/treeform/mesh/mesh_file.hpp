@@ -33,6 +33,14 @@ class TREEFORM_API io_error : public std::runtime_error {
           reason_(reason),
           path_size_(path.size()) {}
 
+    /// What is no file of points, or not one that can be read in blocks: `read` takes all of it.
+    [[nodiscard]] static io_error of_blocks(const std::string& text) {
+        io_error error(text);
+        error.needs_all_ = true;
+        return error;
+    }
+    [[nodiscard]] bool needs_all() const { return needs_all_; }
+
     /// Of the system; none where the reason is in the file.
     [[nodiscard]] std::error_code reason() const { return reason_; }
     /// Of the file, where there is a `reason`; else empty.
@@ -41,6 +49,7 @@ class TREEFORM_API io_error : public std::runtime_error {
   private:
     std::error_code reason_{};
     std::size_t path_size_ = 0;
+    bool needs_all_ = false;
 };
 
 /// Something that a person should know about a file that was read or written.

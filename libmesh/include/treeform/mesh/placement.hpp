@@ -72,8 +72,8 @@ struct placement {
     treeform::certificate certificate{};
     placement_end end = placement_end::stays;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written
-    /// new = M * old: a translation. `points` are moved by it and rounded once, except for those
-    /// that are set on the bed.
+    /// new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points` are moved
+    /// by it and rounded once, except for those that are set on the bed.
     transform<3> matrix{};
     point3 direction{};           ///< of the travel, of length 1; 0 when there is none
     double travel = 0.0;          ///< a length; for `too_far` the one that would be needed
@@ -90,6 +90,12 @@ struct placement {
     /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way may
     /// exist; without a place, one that was not found.
     search_effort effort{};
+    double angle = 0.0;      ///< of `turn` and `mate_features`: in degrees, of the turn
+    double tolerance = 0.0;  ///< of `turn`: the gap, beyond the clearance, that counts as contact
+    std::uint64_t steps = 0;  ///< of `turn`
+    /// Of `mate_features`: how far the center of the moving feature ended from that of the fixed
+    /// one, along the direction of the fixed one. Of planes: their distance.
+    double offset = 0.0;
     placement_statistics statistics{};
 
     explicit operator bool() const { return static_cast<bool>(certificate); }

@@ -20,13 +20,6 @@
 
 namespace treeform {
 
-/// Of a file that is read whole, by `read`, and not in blocks: it has no points, or other things
-/// that blocks have not.
-class TREEFORM_API whole_file_error : public io_error {
-  public:
-    using io_error::io_error;
-};
-
 /// Consecutive points with their properties, as `mesh_file` has them for a whole file.
 struct point_block {
     std::vector<point3> points{};
@@ -57,7 +50,7 @@ class TREEFORM_API point_reader {
     /// many rows there are. They can be read next. The facets of an STL have the column
     /// "stl_attribute" also where all of it is zero.
     ///
-    /// \throws whole_file_error for a format without points, for a file with faces or other
+    /// \throws io_error, whose `needs_all()` is true, for a format without points, for a file with faces or other
     ///         elements that have rows; with `with_rows` for what is ahead of the points, for
     ///         strips of triangles, and for faces with texture coordinates of corners; io_error as
     ///         `read`
@@ -91,6 +84,27 @@ class TREEFORM_API point_reader {
     std::unique_ptr<state> state_;
 };
 
+namespace detail::io {
+
+/// A place that all parts see, as large as all values together. Parts put the values of their
+/// points there, field by field, and later get the bytes that they pack.
+struct shared_values {
+    std::uint64_t first_point = 0;  ///< of the part, by number in the whole
+    std::size_t part = 0;
+    std::size_t parts = 1;
+    std::function<void(std::uint64_t at, std::span<const std::byte> bytes)> put{};
+    std::function<void(std::uint64_t at, std::span<std::byte> bytes)> get{};
+};
+
+/// The bytes of a part of a file.
+struct written_part {
+    std::uint64_t head = 0;    ///< bytes ahead of its points
+    std::uint64_t points = 0;  ///< bytes of its points
+    std::uint64_t rows = 0;    ///< bytes of rows that came after `end_part`
+};
+
+}  // namespace detail::io
+
 /// Writes the same file as `write` would for all blocks together. A compressed PCD (the input was
 /// one) is put together in an unnamed file in /var/tmp, or by parts where they say.
 class TREEFORM_API point_writer {
@@ -123,22 +137,13 @@ class TREEFORM_API point_writer {
 
     /// Whether others can write the rest of the points.
     [[nodiscard]] bool has_parts() const;
-    /// A place that all parts see, as large as all values together. Parts put the values of their
-    /// points there, field by field, and later get the bytes that they pack.
-    struct shared_values {
-        std::uint64_t first_point = 0;  ///< of the part, by number in the whole
-        std::size_t part = 0;
-        std::size_t parts = 1;
-        std::function<void(std::uint64_t at, std::span<const std::byte> bytes)> put{};
-        std::function<void(std::uint64_t at, std::span<std::byte> bytes)> get{};
-    };
     /// Whether parts need such a place: those of a compressed PCD, whose values stand field by
     /// field.
     [[nodiscard]] bool has_shared_values() const;
     /// Names it, before the first point. When all parts have their points, and not before,
     /// `commit_part` gets a share of the bytes of all and packs them.
     /// \throws std::logic_error where there is no such place, or points were written
-    void share_values(const shared_values& place);
+    void share_values(const detail::io::shared_values& place);
     /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else
     /// 1.
     [[nodiscard]] std::uint64_t points_together() const;
@@ -149,11 +154,6 @@ class TREEFORM_API point_writer {
     /// \pre    a regular file, and `end_part` was called
     /// \throws io_error
     void leave_room(std::uint64_t bytes);
-    struct part {
-        std::uint64_t head = 0;    ///< bytes ahead of its points
-        std::uint64_t points = 0;  ///< bytes of its points
-        std::uint64_t rows = 0;    ///< bytes of rows that came after `end_part`
-    };
     /// What must be known of a part to finish others; call it when all of its points are there.
     [[nodiscard]] std::string tell_part();
     /// Finishes a file that has only some of the points. The joined head, the points of all parts,
@@ -161,7 +161,7 @@ class TREEFORM_API point_writer {
     /// have written.
     /// `told` is what `tell_part` gave for each part, in their order; LAZ needs it.
     /// \throws io_error, std::logic_error where it has no parts
-    part commit_part(write_result& result, const std::vector<std::string>& told = {});
+    detail::io::written_part commit_part(write_result& result, const std::vector<std::string>& told = {});
     /// The head of the whole from those of all parts that have points; if none has, from one.
     [[nodiscard]] static std::string join_heads(const std::vector<std::string>& heads);
 
@@ -190,7 +190,7 @@ struct cloud_inputs {
     /// One file alone may be a mesh, as `point_reader` reads it with rows. Text is read once,
     /// shared by the ranks; every rank must call this.
     ///
-    /// \throws whole_file_error for what is no file of points, as `point_reader`, io_error for what
+    /// \throws io_error, whose `needs_all()` is true, for what is no file of points, as `point_reader`, io_error for what
     ///         cannot be read; std::invalid_argument for columns that `join` cannot unite
     [[nodiscard]] TREEFORM_API cloud_outline outline(const communicator& ranks = {}) const;
 };

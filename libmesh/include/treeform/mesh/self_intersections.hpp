@@ -77,15 +77,21 @@ struct face_pair {
     friend auto operator<=>(const face_pair&, const face_pair&) = default;
 };
 
-/// Which pairs to look for.
-struct self_intersection_options {
-    /// Which corners two faces share: those with equal coordinates, or with the same number.
+/// Which pairs to look for, and where meshes are. What an operation has no use for, it ignores.
+struct intersection_options {
+    /// `self_intersections`: which corners two faces share: those with equal coordinates, or with
+    /// the same number.
     vertex_identity vertices = vertex_identity::by_coordinates;
+    /// `mesh_intersections`: applied to each mesh first. A moved corner is what
+    /// `transform::operator()` gives, rounded to double; the answer is exact for these coordinates.
+    /// A prepared mesh itself is not changed.
+    transform<3> move_a{};
+    transform<3> move_b{};
     /// Stop at the first pair found: the same pair on any number of threads.
     bool first_only = false;
     /// Kinds to look for; the others are neither counted nor listed.
     pair_kinds kinds = pair_kinds::all;
-    /// [F] component of each face, for `between` and `within`; or empty.
+    /// `self_intersections`: [F] component of each face, for `between` and `within`; or empty.
     std::span<const std::uint32_t> component_of_face{};
     bool between = false;  ///< only pairs of faces of different components
     bool within = false;   ///< only pairs of faces of one component
@@ -108,7 +114,7 @@ struct intersection_result {
 
 /// All pairs of faces that meet where they should not: in a point that is neither a shared corner
 /// nor on a shared edge. A mesh that repeats its vertices, as an STL does, gives the same pairs as
-/// one that does not (`self_intersection_options::vertices`).
+/// one that does not (`intersection_options::vertices`).
 ///
 /// Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
 /// segment or point that it is; its pairs have a kind of their own.
@@ -120,7 +126,7 @@ struct intersection_result {
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
 [[nodiscard]] TREEFORM_API intersection_result
-self_intersections(const mesh_ref& mesh, const self_intersection_options& options = {});
+self_intersections(const mesh_ref& mesh, const intersection_options& options = {});
 
 /// Faces that meet, in one place of the mesh.
 struct intersection_region {

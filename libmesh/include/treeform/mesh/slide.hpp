@@ -118,18 +118,6 @@ struct placement_options {
 [[nodiscard]] TREEFORM_API placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
                                                    const placement_options& options = {});
 
-/// Two meshes brought together.
-struct feature_mating {
-    /// `travel` is 0; `matrix` is a turn and a translation.
-    placement at{};
-    double turn_angle = 0.0;  ///< in degrees, of the turn that makes the directions agree
-    /// How far the center of the moving feature ended from that of the fixed one, along the
-    /// direction of the fixed one. Of planes: their distance.
-    double offset = 0.0;
-
-    explicit operator bool() const { return static_cast<bool>(at); }
-};
-
 /// Turns `moving` by the least angle that makes the two features' directions opposite (planes) or
 /// parallel (axes), puts center above center, and slides it from outside along the direction of the
 /// fixed feature until first contact with any of `fixed`, or the clearance, exactly as `slide`
@@ -138,16 +126,15 @@ struct feature_mating {
 ///
 /// A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
 /// that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
-/// coordinates returned.
+/// coordinates returned. `travel` is 0.
 ///
 /// \throws std::invalid_argument for features of two kinds, or with a direction that is not of
 ///         length 1 or an origin that is not finite, and as `slide`
 /// \cost   that of `slide`, and two trees over `moving`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API feature_mating mate_features(const mesh_ref& moving,
-                                                        const mesh_refs& fixed,
-                                                        const mesh_feature& of_moving,
-                                                        const mesh_feature& of_fixed,
-                                                        const placement_options& options = {});
+[[nodiscard]] TREEFORM_API placement mate_features(const mesh_ref& moving, const mesh_refs& fixed,
+                                                   const mesh_feature& of_moving,
+                                                   const mesh_feature& of_fixed,
+                                                   const placement_options& options = {});
 
 }  // namespace treeform

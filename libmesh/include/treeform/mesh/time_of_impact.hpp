@@ -112,20 +112,6 @@ struct turn_axis {
     point3 direction{0.0, 0.0, 1.0};  ///< of any length but 0
 };
 
-/// Where a turn ended.
-struct turn_result {
-    /// `travel` is 0, `matrix` a turn about the axis, from which `points` differ by a few units in
-    /// the last place of the largest coordinate. `contacts` are the pairs of faces within the
-    /// tolerance, beyond the clearance. `mesh_relation` at the place is exact: separate, in
-    /// general, by no more than the tolerance.
-    placement at{};
-    double angle = 0.0;      ///< of the turn, in degrees
-    double tolerance = 0.0;  ///< that was used
-    std::uint64_t steps = 0;
-
-    explicit operator bool() const { return static_cast<bool>(at); }
-};
-
 /// Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or of
 /// the clearance from one.
 ///
@@ -136,6 +122,10 @@ struct turn_result {
 /// place. A mesh that touches at the start stays; one that penetrates has no place. With
 /// `nothing_met`, all of `max_angle` is free. With `too_many_steps` it was not found out: something
 /// is passed at a distance that is very small against the size, over a long way.
+///
+/// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
+/// coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
+/// `at_place` is exact: separate, in general, by no more than the tolerance.
 ///
 /// Points that no face uses turn along and are otherwise ignored. Clouds are
 /// `prepared_mesh::cloud`.
@@ -148,8 +138,8 @@ struct turn_result {
 /// \same   on any number of threads
 /// \source the idea of steps by a bound of the motion: Mirtich, Impulse-based Dynamic Simulation of
 ///         Rigid Body Systems (1996), conservative advancement
-[[nodiscard]] TREEFORM_API turn_result turn(const mesh_ref& moving, const mesh_refs& fixed,
-                                            const turn_axis& axis,
-                                            const placement_options& options = {});
+[[nodiscard]] TREEFORM_API placement turn(const mesh_ref& moving, const mesh_refs& fixed,
+                                          const turn_axis& axis,
+                                          const placement_options& options = {});
 
 }  // namespace treeform

@@ -92,7 +92,7 @@ template <any_tree Tree, std::ranges::random_access_range Queries, class Distanc
             if (before) one.offer(*before, from_query);
             detail::walk_near(
                 tree, detail::box_of_query<Tree::dimensions>(detail::element(queries, query)),
-                one.bound(), options.strategy, [&](std::uint32_t id) {
+                one.bound(), options.order, [&](std::uint32_t id) {
                     if (id != before) one.offer(id, from_query);
                     return one.bound();
                 });

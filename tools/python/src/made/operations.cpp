@@ -77,12 +77,12 @@ py::object cut_along(const held_mesh& mesh, const array_of<double>& values,
                      attributes);
 }
 
-py::object components(const held_mesh& mesh, tf::components_options options) {
+py::object components(const held_mesh& mesh, double min_volume, std::size_t largest) {
     carrying attributes({&mesh});
-    attributes.keep_apart(options);
-    return as_python(
-        run([&](const tf::progress_callback&) { return tf::components(mesh.ref(), options); }),
-        attributes);
+    return as_python(run([&](const tf::progress_callback&) {
+                         return tf::components(mesh.ref(), min_volume, largest);
+                     }),
+                     attributes);
 }
 
 py::object submesh(const held_mesh& mesh, const ids_array& faces) {

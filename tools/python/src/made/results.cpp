@@ -164,16 +164,6 @@ py::object object(of_result, tf::repair_result&& from, const carrying& attribute
     return object_of("treeform._repair", "RepairResult", made);
 }
 
-py::object object(of_result, tf::wrap_result&& from) {
-    const py::object certificate = as_python(tf::certificate(from.certificate));
-    const py::object data = py::none();
-    py::dict made;
-    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
-    made["certificate"] = certificate;
-    made["statistics"] = counters(from.statistics);
-    return object_of("treeform._repair", "WrapResult", made);
-}
-
 py::object object(of_result, tf::convex_hull_result&& from) {
     py::dict made;
     made["dimension"] = as_python(std::move(from.dimension));
@@ -375,17 +365,6 @@ py::dict counters(const tf::repair_statistics& from) {
     return made;
 }
 
-py::dict counters(const tf::wrap_statistics& from) {
-    py::dict made;
-    made["size"] = from.size;
-    made["offset"] = from.offset;
-    made["area"] = from.area;
-    made["points"] = from.points;
-    made["tetrahedra"] = from.tetrahedra;
-    made["filled"] = from.filled;
-    return made;
-}
-
 py::dict counters(const tf::offset_statistics& from) {
     py::dict made;
     made["distance"] = from.distance;
@@ -394,6 +373,9 @@ py::dict counters(const tf::offset_statistics& from) {
     made["greatest"] = from.greatest;
     made["cells"] = from.cells;
     made["sealed_cavities"] = from.sealed_cavities;
+    made["points"] = from.points;
+    made["tetrahedra"] = from.tetrahedra;
+    made["filled"] = from.filled;
     return made;
 }
 

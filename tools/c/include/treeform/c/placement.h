@@ -68,8 +68,8 @@ typedef struct treeform_placement {
     const char* message;   ///< half a sentence for people
     const double* points;  ///< [V] at the place, as they are to be written
     size_t point_count;
-    /// new = M * old: a translation. `points` are moved by it and rounded once, except for those
-    /// that are set on the bed.
+    /// new = M * old: a translation; of `treeform_turn` and `treeform_mate_features` a turn, too.
+    /// `points` are moved by it and rounded once, except for those that are set on the bed.
     double matrix[12];
     double direction[3];              ///< of the travel, of length 1; 0 when there is none
     double travel;                    ///< a length; for `too_far` the one that would be needed
@@ -88,11 +88,14 @@ typedef struct treeform_placement {
     uint32_t backed_off;     ///< steps back, where rounding made the mesh penetrate
     uint64_t fixed_culled;   ///< fixed meshes skipped because of their box
     uint64_t pairs_tested;   ///< pairs of faces, in motion
-    /// of `treeform_turn` and `treeform_mate_features`, in degrees; else 0
+    /// of `treeform_turn` and `treeform_mate_features`: in degrees, of the turn
     double angle;
-    double tolerance;  ///< of `treeform_turn`
-    uint64_t steps;    ///< of `treeform_turn`
-    double offset;     ///< of `treeform_mate_features`: distance of the features' centers
+    /// of `treeform_turn`: the gap, beyond the clearance, that counts as contact
+    double tolerance;
+    uint64_t steps;  ///< of `treeform_turn`
+    /// Of `treeform_mate_features`: how far the center of the moving feature ended from that of
+    /// the fixed one, along the direction of the fixed one. Of planes: their distance.
+    double offset;
     /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way
     /// may exist; without a place, one that was not found.
     treeform_search_effort effort;

@@ -12,8 +12,7 @@
 //   names_in() unite() subtract() intersection() symmetric_difference() unite_all() clip()
 //   split() resolve_mode resolve_options resolve_result resolve_self_intersections()
 //   repair_rule repair_options repair_statistics repair_result repair() repair_scope
-//   repair_file() solid_defects find_solid_defects() find_solid_defects_of_file() wrap_options
-//   wrap_result wrap()
+//   repair_file() solid_defects find_solid_defects() find_solid_defects_of_file()
 /// Which points are inside an operand, by how often its surface winds around them.
 typedef int32_t treeform_fill_rule;
 enum {
@@ -431,46 +430,4 @@ TREEFORM_C_API treeform_code treeform_find_solid_defects_of_file(const treeform_
                                                                  treeform_progress progress,
                                                                  void* progress_data,
                                                                  treeform_solid_defects** defects);
-
-/// How to wrap.
-typedef struct treeform_wrap_options {
-    size_t size;
-    /// How far the vertices of the wrap are from the mesh, in its length unit; where it is not
-    /// given, a thirtieth of the size; NaN: not given
-    double offset;
-    /// Precision of the coordinates returned. float32 values are stored as doubles; default
-    /// float64
-    treeform_precision precision;
-    treeform_progress progress;
-    void* progress_data;
-} treeform_wrap_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_wrap_options_init(treeform_wrap_options* options, size_t size);
-
-/// The wrap, and what was checked.
-typedef struct treeform_wrap_result {
-    void* owner;
-    treeform_arrays mesh;
-    /// Status ok says, checked on the coordinates above: a closed manifold, outward, no two faces
-    /// of which meet beyond common corners and edges.
-    const treeform_certificate* certificate;
-    double size;
-    double offset;
-    double area;          ///< of the mesh that was wrapped
-    uint64_t points;      ///< of the tetrahedra that were made
-    uint64_t tetrahedra;  ///< at the end
-    uint64_t filled;      ///< of them, filled so that the wrap is a manifold
-} treeform_wrap_result;
-
-/// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
-/// no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters
-/// no hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills
-/// cavities that nothing leads to. A smaller size follows the mesh more closely, with more faces,
-/// some area / `size`^2 of them.
-///
-/// No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
-/// coordinates of both. The distance of its vertices is met as far as rounding allows.
-TREEFORM_C_API treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
-                                           const treeform_wrap_options* options,
-                                           treeform_wrap_result** result);
 // end
