@@ -1,3 +1,4 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/clash.hpp>

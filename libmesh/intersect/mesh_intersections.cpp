@@ -193,7 +193,7 @@ intersection_result mesh_intersections(const mesh_ref& a, const mesh_ref& b,
                                 options);
     const auto [tree_a, tree_b] = detail::intersect::overlap_trees(
         "mesh_intersections", a.view(), b.view(), {options.move_a, options.move_b});
-    return classified_by_faces(a.view(), tree_a.boxes, b.view(), tree_b.boxes, options, {});
+    return classified_by_faces(a.view(), tree_a, b.view(), tree_b, options, {});
 }
 
 bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
@@ -210,7 +210,7 @@ bool intersects(const mesh_ref& a, const mesh_ref& b, const mesh_positions& posi
     }
     const auto [tree_a, tree_b] =
         detail::intersect::overlap_trees("intersects", a.view(), b.view(), positions);
-    return any_meet(a.view(), tree_a.boxes, b.view(), tree_b.boxes, positions, {});
+    return any_meet(a.view(), tree_a, b.view(), tree_b, positions, {});
 }
 
 }  // namespace treeform

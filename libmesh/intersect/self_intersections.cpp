@@ -79,9 +79,9 @@ intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
     const detail::intersect::own_faces own{mesh.points, faces.span(), &options, fits_filter(tree)};
-    const node_marks<3> fields =
+    const detail::node_marks<3> fields =
         own.filtered ? detail::intersect::find_height_fields(mesh.points, faces.span(), tree)
-                     : node_marks<3>(tree);
+                     : detail::node_marks<3>(tree);
     const self_search<3> search(tree, fields);
     std::vector<detail::intersect::narrow_phase_output> found(search.chunks());
     detail::intersect::search_progress progress(options.progress, search.chunks());

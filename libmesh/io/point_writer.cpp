@@ -120,7 +120,7 @@ struct point_writer::state {
             refuse_block("a coordinate is no float32 value, as the header says");
     }
 
-    void check(const row_block& block) {
+    void check(const detail::io::row_block& block) {
         const element& given = block.rows;
         const auto is_over = [&](const element& e) {  // other parts may have the rest of it
             return e.rows == 0 || (points_end && e.name != given.name);
@@ -183,7 +183,7 @@ void point_writer::write(const point_block& block) {
     s.written += block.points.size();
 }
 
-void point_writer::write(const row_block& block) {
+void point_writer::write(const detail::io::row_block& block) {
     state_->check(block);
     state_->rows.behind(block);
 }

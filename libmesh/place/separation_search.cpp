@@ -243,7 +243,7 @@ class clearing {
                          .limit = 1,
                          .effort = options_.effort,
                          .progress = asking_});
-        return back.end == motion_end::contact ? time - back.time : time;
+        return back.end == placement_end::contact ? time - back.time : time;
     }
 
     [[nodiscard]] std::vector<point3> directions() {

@@ -101,7 +101,7 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
     const auto near = detail::nearness::closest_points(a, tree_a, b, tree_b, distance);
     detail::base::work_progress work(options.progress);
     if (near && near->distance < distance) {
-        result.end = motion_end::at_start;
+        result.end = placement_end::starts_touching;
         work.reach(1.0);
         return result;
     }
@@ -135,7 +135,7 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
     if (work.cancelled() || !work.reach(1.0)) return {.status = status::cancelled};
     if (pairs.empty()) return result;
 
-    result.end = motion_end::contact;
+    result.end = placement_end::contact;
     result.contact_count = pairs.size();
     std::sort(pairs.begin(), pairs.end());
     pairs.resize(std::min(pairs.size(), options.limit));

@@ -88,10 +88,10 @@ thickness_result wall_thickness(const mesh_ref& given, thickness_by by,
             rays.push_back({{from.back().x, from.back().y, from.back().z}, {-n.x, -n.y, -n.z}});
             of_ray.push_back(f);
         }
-        const mesh_hits met = raycast_all(prepared, rays);
+        const answer_lists<mesh_hit> met = raycast_all(prepared, rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const std::span hits =
-                std::span(met.hits).subspan(met.begin[i], met.begin[i + 1] - met.begin[i]);
+                std::span(met.answers).subspan(met.begin[i], met.begin[i + 1] - met.begin[i]);
             double& thickness = result.of_face[of_ray[i]];
             thickness = along_ray(mesh, of_ray[i], inward[i], hits);
             const point3 n{-inward[i].x, -inward[i].y, -inward[i].z};

@@ -9,17 +9,17 @@ namespace treeform::detail::stream {
 
 namespace fs = std::filesystem;
 
-points_out::points_out(const weld_stream_outputs::file& to, const mesh_file& header,
+points_out::points_out(const output_path& to, const mesh_file& header,
                        std::uint64_t count, const communicator* all, const fs::path& part,
                        std::size_t most_corners)
-    : target_(to.path),
-      path_(all == nullptr ? to.path : part_path(to.path, all, part)),
+    : target_(to.first),
+      path_(all == nullptr ? to.first : part_path(to.first, all, part)),
       all_(all),
       writer_(path_, header, count, options_of(to), most_corners) {}
 
-write_options points_out::options_of(const weld_stream_outputs::file& to) {
-    write_options options = to.options;
-    const std::string extension = to.path.extension().string();
+write_options points_out::options_of(const output_path& to) {
+    write_options options = to.second;
+    const std::string extension = to.first.extension().string();
     if (options.format.empty() && !extension.empty()) options.format = extension.substr(1);
     return options;
 }

@@ -254,7 +254,7 @@ job own_k_batch(const shared_clouds& input) {
     return k_nearest_job(input, [search, queries = arrays_of(input->queries)] {
         std::vector<std::uint32_t> ids;
         ids.reserve(queries.size() * k);
-        for (const near_point& one : search->k_nearest(std::span(queries), k).neighbors)
+        for (const near_point& one : search->k_nearest(std::span(queries), k).answers)
             ids.push_back(one.id);
         return ids;
     });

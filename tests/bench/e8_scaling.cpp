@@ -103,7 +103,7 @@ contest contest_of_library(std::size_t size) {
                              const point_search<3> search(m.points);
                              std::vector<std::array<double, 3>> queries;
                              for (const point3& p : m.points) queries.push_back({p.x, p.y, p.z});
-                             return search.k_nearest(std::span(queries), 10).neighbors.size();
+                             return search.k_nearest(std::span(queries), 10).answers.size();
                          }),
                  of_ring("nearest face of each point", size,
                          [](const mesh& m) {

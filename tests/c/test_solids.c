@@ -130,7 +130,7 @@ static treeform_mesh* two_cubes(void) {
 static void test_resolve(void) {
     treeform_mesh* mesh = model("data/two_spheres.stl");
     treeform_resolve_options options;
-    treeform_resolve_result* result = NULL;
+    treeform_repair_result* result = NULL;
     treeform_resolve_options_init(&options, sizeof options);
     options.precision = TREEFORM_FLOAT32;
     OK(treeform_resolve_self_intersections(mesh, TREEFORM_RESOLVE_OUTER, &options, &result));

@@ -21,7 +21,6 @@ ENUMS = {
     "feature": ("uint8_t", ""),
     "feature_kind": ("treeform_feature_kind", ""),
     "placement_end": ("treeform_placement_end", "END_"),
-    "motion_end": ("int32_t", ""),
     "mass_of": ("int32_t", ""),
     "urdf_joint_kind": ("int32_t", ""),
     "lay_choice": ("treeform_lay_choice", "LAY_"),
@@ -94,7 +93,6 @@ BOUND = [
     Bound("operand_volumes", "volumes", "part"),
     Bound("boolean_result", counts={"vanished_at": "vanished_listed"}),
     Bound("resolve_options"),
-    Bound("resolve_result"),
     Bound("repair_options"),
     Bound("repair_statistics", kind="part"),
     Bound("repair_result", custom={"+": [FILE]}),
@@ -224,7 +222,7 @@ BOUND = [
                    "if (from.nearest) "
                    "to.nearest = &filled<treeform_relation>(kept, from.nearest->how);")],
         "+": [MESSAGE]}),
-    Bound("impact", leave="exact predicates", counts={"contacts": "contact_listed"}),
+    Bound("impact", leave="predicates", counts={"contacts": "contact_listed"}),
     Bound("face_contact", "impact_contact", "same", custom={"at": [
         Member("uint8_t on_a", "the part of the face, as in `treeform_hit::at`"),
         Member("uint8_t on_b")]}),

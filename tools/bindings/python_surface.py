@@ -101,13 +101,6 @@ RESULTS = [
     Result("isoline", "Isoline", "_shapes"),
     Result("isolines_result", "Isolines", "_shapes"),
     # _repair
-    Result("resolve_result", "ResolveResult", "_repair", "MadeMesh", context="attributes",
-           doc="A mesh without self-intersections.", inherited="mesh certificate",
-           docs={"statistics": "Counts of what was done."},
-           custom={"vanished_components": [], "statistics": [Attribute(
-               "statistics", "dict[str, Any]", "Counts of what was done.",
-               'with(counters(from.statistics), "vanished_components", '
-               "from.vanished_components)")]}),
     Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
            doc="A mended mesh.", inherited="mesh certificate", names={"statistics": "steps"},
            docs={"steps": "What each step has done: faces flipped, holes filled, ..."},
@@ -275,9 +268,9 @@ RESULTS = [
                "+": [Attribute("message", "str", "Half a sentence; empty where there is a place.",
                                "py::cast(from.message())")]}),
     Result("impact", "Impact", "_placement", "NamedTuple",
-           leave="exact contact_count pairs_tested predicates",
+           leave="contact_count pairs_tested predicates",
            doc="The first contact of two meshes in motion.",
-           docs={"end": "'free', 'contact' or 'at_start'."},
+           docs={"end": "'nothing_met', 'contact' or 'starts_touching'."},
            custom={"contacts": [
                column("faces", "Ids", "(n, 2) the faces of `a` and `b` that meet at that time.",
                       "contacts", "std::array{one.face_a, one.face_b}"),
@@ -350,7 +343,7 @@ RESULTS = [
 ]
 
 #: Counters as dictionaries, and what is not among them.
-COUNTERS = {"boolean_statistics": "", "resolve_statistics": "", "repair_statistics": "",
+COUNTERS = {"boolean_statistics": "", "repair_statistics": "",
             "offset_statistics": "", "weld_statistics": "",
             "weld_stream_counts": "kept groups max_displacement faces"}
 

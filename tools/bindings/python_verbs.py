@@ -189,7 +189,7 @@ FUNCTIONS = [
              docs={"values": "(V,) of the vertices, linear in each face.", "levels": "(K,)"}),
     # _repair
     Function("resolve_self_intersections(mesh: Mesh, mode: resolve_mode = \"outer\", "
-             "options: resolve_options) -> ResolveResult",
+             "options: resolve_options) -> RepairResult",
              "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh",
              check="solid",
              docs={"mode": "'outer' cuts faces along each other and keeps what bounds the solid; "

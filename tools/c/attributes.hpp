@@ -58,7 +58,7 @@ inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std:
 }
 
 /// The same for what was made of one input: `face_source` [F] and `vertex_source` [V] are those of
-/// a `treeform_resolve_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
+/// a `treeform_repair_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
 /// `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
 inline void carry_one(tf::mesh_file& file, const treeform_carry_source* input,
                       const std::uint32_t* face_source, const std::uint32_t* vertex_source,

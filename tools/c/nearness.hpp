@@ -162,13 +162,13 @@ inline void raycast_any(const treeform_mesh* mesh, const treeform_ray* rays, std
 inline answer_of<treeform_hits> raycast_all(const treeform_mesh* mesh, const treeform_ray* rays,
                                             std::size_t count) {
     auto made = make<treeform_hits>();
-    auto& found = made->keep(tf::mesh_hits{{0}, {}});
+    auto& found = made->keep(tf::answer_lists<tf::mesh_hit>{{0}, {}});
     along_rays(mesh, rays, count, [&](const auto& m, auto some, std::size_t) {
         auto more = tf::raycast_all(m, some);
-        append(found.begin, found.hits, std::move(more.begin), std::move(more.hits));
+        append(found.begin, found.answers, std::move(more.begin), std::move(more.answers));
     });
     made->value.begin = found.begin.data();
-    made->value.hits = same<treeform_hit>(found.hits);
+    made->value.hits = same<treeform_hit>(found.answers);
     made->value.count = count;
     return made;
 }

@@ -94,7 +94,7 @@ void write_curves(job& work, const dirty_mesh& input, const repair_settings& set
     work.call_ended(found.status == tf::status::cancelled);
     tf::pair_column kinds{"tf_class", {}};
     for (const tf::face_pair& pair : found.pairs)
-        kinds.of_pair.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
+        kinds.second.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
     write_curves(work, settings.curves, joined, found.pairs, {std::move(kinds)});
 }
 

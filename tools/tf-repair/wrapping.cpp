@@ -61,7 +61,7 @@ void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& m
     if (edges.boundary_edges <= edges.nonmanifold_edges) return;
     work.warn("skin",
               "the wrap is a skin on both sides of the faces: the way inside is wider than " +
-                  brief(made.statistics.size) + "; a larger --wrap closes it");
+                  brief(made.statistics.resolution) + "; a larger --wrap closes it");
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ exit_status wrap(job& work, const dirty_mesh& input, const wrap_settings& settin
         throw std::logic_error("the wrap is no solid: " + made.certificate.message());
     const std::string verdict = "wrap, " + counted(made.mesh.faces.size(), "face", "faces") +
                                 ", volume " + brief(volume) + " (was " + brief(input.volume) +
-                                "), " + brief(made.statistics.offset) + " from the faces";
+                                "), " + brief(made.statistics.distance) + " from the faces";
     work.out.result(work.name + ": " + verdict);
     warn_of_skin(work, input, made, volume);
     write_page(work, input, verdict, true, made.mesh,

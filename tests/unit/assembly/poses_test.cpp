@@ -71,10 +71,13 @@ TEST_CASE("poses: batches say what single questions say, in their order") {
     const tf::prepared_mesh a(ball(2, 1.0)), b(test::ring(1.5, 0.3, 20, 8));
     std::vector<tf::mesh_positions> positions;
     for (int i = 0; i < 300; ++i)
-        positions.push_back({random_motion(source, 1.5), random_motion(source, 1.5)});
+        positions.push_back(
+            {.move_a = random_motion(source, 1.5), .move_b = random_motion(source, 1.5)});
     const auto meet = tf::intersects(a, b, positions);
     const auto apart = tf::distance(a, b, positions);
-    const auto near = tf::distance(a, b, positions, 0.5);
+    auto within = positions;
+    for (tf::mesh_positions& one : within) one.radius = 0.5;
+    const auto near = tf::distance(a, b, within);
     std::size_t meeting = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         REQUIRE(meet[i] == tf::intersects(a, b, positions[i]));

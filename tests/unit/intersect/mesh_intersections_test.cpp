@@ -342,7 +342,7 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::detail::intersect::mesh_intersections(sheet, tree, bad, tree),
                          doctest::Contains(": b: face 7"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::intersects(tf::mesh{}, sheet, {{{{{nan}}}}, {}}),
+    CHECK_THROWS_WITH_AS((void)tf::intersects(tf::mesh{}, sheet, {.move_a = {{{{nan}}}}}),
                          doctest::Contains("not finite"), std::invalid_argument);
     bad = sheet;
     bad.points[6].y = nan;
@@ -362,7 +362,7 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
         std::invalid_argument);
     const tf::prepared_mesh model = tf::prepared_mesh::borrow(sheet);
     CHECK_THROWS_AS((void)tf::mesh_intersections(model, model, options), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::mesh_intersections(model, model, {{{{{nan}}}}, {}}),
+    CHECK_THROWS_WITH_AS((void)tf::mesh_intersections(model, model, {.move_a = {{{{nan}}}}}),
                          doctest::Contains("not finite"), std::invalid_argument);
 }
 

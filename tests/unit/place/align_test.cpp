@@ -219,7 +219,7 @@ TEST_CASE("align: never worse than the start, whatever is fitted to what") {
         // what is said of it is what one finds there
         const auto again = tf::align(there, fixed,
                                      {.overlap = options.overlap,
-                                      .weights = options.weights,
+                                      .robust = options.robust,
                                       .max_iterations = 0,
                                       .start = found.matrix});
         CHECK(again.rms_at_start == doctest::Approx(found.rms).epsilon(1e-9));

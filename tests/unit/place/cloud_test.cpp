@@ -148,7 +148,7 @@ TEST_CASE("clouds: sliding ends at the first exact contact of any point") {
                     tf::first_contact(triangle_of(given, i), triangle_of(still, j), motion);
                 if (one && (!first || tf::compare(motion, *one, *first) < 0)) first = one;
             }
-        REQUIRE((found.end == tf::motion_end::contact) == first.has_value());
+        REQUIRE((found.end == tf::placement_end::contact) == first.has_value());
         if (!first) continue;
         ++met;
         CHECK(tf::compare(motion, *first, found.exact) == 0);

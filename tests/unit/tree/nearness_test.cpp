@@ -35,7 +35,7 @@ answers first(answers all, std::size_t k) {
     return all;
 }
 
-const std::vector<tf::node_order> orders{tf::node_order::depth_first, tf::node_order::best_first};
+const std::vector<tf::node_order> node_orders{tf::node_order::depth_first, tf::node_order::best_first};
 
 /// Those whose squared distances are doubles.
 const std::vector<std::string> families{"random", "grid", "equal", "line", "far", "mixed"};
@@ -64,7 +64,7 @@ void compare_with_brute_force(const std::string& family, std::size_t count) {
         const auto distance_of = [&](std::uint32_t id) { return squared_between(of[id], query); };
         const answers all = neighbors_by_brute_force(of, query);
         const double radius = all.empty() ? 1.0 : std::sqrt(all[all.size() / 2].answer);
-        const tf::node_order order = orders[turn++ % orders.size()];
+        const tf::node_order order = node_orders[turn++ % node_orders.size()];
         const auto one = tf::nearest(tree, query, distance_of, {.order = order});
         REQUIRE(one.has_value() == !all.empty());
         if (one) REQUIRE(*one == all[0]);
@@ -135,7 +135,7 @@ TEST_CASE("nearness: of equally near primitives the lowest comes first") {
     const auto tree = tf::build(same, test::itself);
     const tf::aabb<double, 3> query = test::box_at<3>({0, 0, 0}, 0.5);
     const auto distance_of = [&](std::uint32_t id) { return squared_between(same[id], query); };
-    for (const tf::node_order order : orders) {
+    for (const tf::node_order order : node_orders) {
         CHECK(tf::nearest(tree, query, distance_of, {.order = order})->id == 2);
         const auto some = tf::k_nearest(tree, query, 20, distance_of, {.order = order});
         for (std::uint32_t i = 0; i < 20; ++i) CHECK(some[i].id == i + 2);

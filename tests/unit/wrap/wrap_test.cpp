@@ -36,7 +36,7 @@ tf::offset_result wrapped(const tf::mesh& mesh, double size, const tf::offset_op
     const double offset = options.offset.value_or(size / 30);
     for (const tf::point3& p : made.mesh.points)
         CHECK(tf::closest_point(mesh, p)->distance == doctest::Approx(offset).epsilon(0.02));
-    CHECK(made.statistics.offset == offset);
+    CHECK(made.statistics.distance == offset);
     return made;
 }
 

@@ -109,7 +109,7 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
 }
 
 void glue::fill(keeper&, const tf::impact& from, treeform_impact& to) {
-    to.end = static_cast<int32_t>(from.end);
+    to.end = static_cast<treeform_placement_end>(from.end);
     to.time = from.time;
     to.contacts = same<treeform_impact_contact>(from.contacts);
     to.contact_listed = from.contacts.size();

@@ -116,20 +116,6 @@ void treeform_resolve_options_init(treeform_resolve_options* options, size_t siz
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper& kept, const tf::resolve_result& from, treeform_resolve_result& to) {
-    to.mesh = arrays(from.mesh);
-    to.face_source = or_null(from.face_source);
-    to.vertex_source = or_null(from.vertex_source);
-    to.certificate = &filled<treeform_certificate>(kept, from.certificate);
-    to.vanished_components = from.vanished_components;
-    to.removed = from.statistics.removed;
-    to.covered = from.statistics.covered;
-    to.filled = from.statistics.filled;
-    to.left_open = from.statistics.left_open;
-    to.exact_faces = from.statistics.exact_faces;
-    to.split_vertices = from.statistics.split_vertices;
-}
-
 tf::repair_options glue::read(const treeform_repair_options* options) {
     return read(chosen(options, treeform_repair_options_init));
 }
@@ -197,6 +183,9 @@ void glue::fill(keeper&, const tf::repair_statistics& from, treeform_repair_stat
     to.dropped_area = from.dropped_area;
     to.turned_area = from.turned_area;
     to.removed = from.removed;
+    to.covered = from.covered;
+    to.left_open = from.left_open;
+    to.exact_faces = from.exact_faces;
     to.split_vertices = from.split_vertices;
     to.detached = from.detached;
     to.touching = from.touching;
@@ -352,7 +341,7 @@ treeform_code treeform_split(const treeform_mesh* const* operands, size_t count,
 treeform_code treeform_resolve_self_intersections(const treeform_mesh* mesh,
                                                   treeform_resolve_mode mode,
                                                   const treeform_resolve_options* options,
-                                                  treeform_resolve_result** result) {
+                                                  treeform_repair_result** result) {
     return glue::guard([&] {
         glue::start(result);
         return glue::give(tf::resolve_self_intersections(

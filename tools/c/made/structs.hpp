@@ -60,7 +60,6 @@ void fill(keeper& kept, const tf::operand_volumes& from, treeform_volumes& to);
 void fill(keeper& kept, const tf::boolean_result& from, treeform_boolean_result& to);
 [[nodiscard]] tf::resolve_options read(const treeform_resolve_options* options);
 [[nodiscard]] tf::resolve_options read(const treeform_resolve_options& o);
-void fill(keeper& kept, const tf::resolve_result& from, treeform_resolve_result& to);
 [[nodiscard]] tf::repair_options read(const treeform_repair_options* options);
 [[nodiscard]] tf::repair_options read(const treeform_repair_options& o);
 void fill(keeper& kept, const tf::repair_statistics& from, treeform_repair_statistics& to);

@@ -38,9 +38,8 @@ from ._placement import (Alignment, Contacts, Depth, Impact, LaidFlat, Measure, 
 from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_inside_out,
                           count_topology, face_components, find_defects, find_features,
                           find_solid_defects)
-from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, convex_hull,
-                      find_rounding_defects, join_equal_points, repair, resolve_self_intersections,
-                      rounded)
+from ._repair import (ConvexHull, MadeMesh, RepairResult, convex_hull, find_rounding_defects,
+                      join_equal_points, repair, resolve_self_intersections, rounded)
 from ._results import Certificate
 from ._robots import Joint, Robot, read_urdf
 from ._shapes import (Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness,
@@ -59,9 +58,9 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
            "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash", "Picture",
            "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
-           "RepairResult", "ResolveResult", "Robot", "SearchEffort", "Section", "SectionLoop",
-           "SimplifyResult", "SolidDefects", "StreamSearch", "StreamWeld", "Thickness", "Topology",
-           "View", "WeldResult", "WeldStreamResult", "Written", "__version__", "align", "boolean",
+           "RepairResult", "Robot", "SearchEffort", "Section", "SectionLoop", "SimplifyResult",
+           "SolidDefects", "StreamSearch", "StreamWeld", "Thickness", "Topology", "View",
+           "WeldResult", "WeldStreamResult", "Written", "__version__", "align", "boolean",
            "check_poses", "check_solid", "clash", "clip", "closest_point", "closest_points",
            "components", "concatenate", "contains", "convex_hull", "count_inside_out",
            "count_nearly_equal", "count_topology", "cut", "cut_along", "cut_to_fit", "deviation",

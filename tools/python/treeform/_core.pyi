@@ -35,7 +35,6 @@ from ._properties import SolidDefects
 from ._properties import Topology
 from ._repair import ConvexHull
 from ._repair import RepairResult
-from ._repair import ResolveResult
 from ._results import Certificate
 from ._shapes import Isoline
 from ._shapes import Isolines
@@ -402,7 +401,7 @@ def oriented_box(points: Floats, progress: Watched = ...) -> Optional[OrientedBo
 def isolines(mesh: HeldMesh, values: Floats, levels: Floats,
              progress: Watched = ...) -> Isolines: ...
 def resolve_self_intersections(mesh: HeldMesh, mode: str, options: ResolveOptions,
-                               progress: Watched = ...) -> ResolveResult: ...
+                               progress: Watched = ...) -> RepairResult: ...
 def repair(mesh: HeldMesh, options: RepairOptions, progress: Watched = ...) -> RepairResult: ...
 def wrap(mesh: HeldMesh, size: float, options: OffsetOptions,
          progress: Watched = ...) -> OffsetResult: ...

@@ -788,9 +788,9 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
 class Impact(NamedTuple):
     """The first contact of two meshes in motion.
 
-    end: 'free', 'contact' or 'at_start'.
+    end: 'nothing_met', 'contact' or 'starts_touching'.
     time: The greatest double that is not beyond the exact time t of the contact: `a` moved by
-        `time` times the motion has not passed it. 0 when `end` is at_start.
+        `time` times the motion has not passed it. 0 when they meet at the start.
     faces: (n, 2) the faces of `a` and `b` that meet at that time.
     points: (n, 3) a common point of each pair, rounded.
     """

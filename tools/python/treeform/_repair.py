@@ -15,7 +15,7 @@ from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
 from ._results import Certificate, Result
 
-__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "convex_hull",
+__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "convex_hull",
            "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",
            "rounded"]
 
@@ -30,23 +30,6 @@ class MadeMesh(MeshResult):
 
     mesh: Mesh
     certificate: Certificate
-
-
-# made of results:
-#   resolve_result
-@dataclass(frozen=True, repr=False)
-class ResolveResult(MadeMesh):
-    """A mesh without self-intersections.
-
-    face_source: (F',) input face, lowest of those merged, or `NONE`.
-    vertex_source: (V',) input vertex that each is, or `NONE`.
-    statistics: Counts of what was done.
-    """
-
-    face_source: Ids
-    vertex_source: Ids
-    statistics: dict[str, Any]
-# end
 
 
 # made of results:
@@ -75,7 +58,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
                                precision: str = "float64", max_displacement: float = np.inf,
                                keep_cuts: bool = False, touching: bool = False,
                                max_loss: float = 0.05, check: bool = True,
-                               progress: Progress = None) -> ResolveResult:
+                               progress: Progress = None) -> RepairResult:
     """`mesh` without self-intersections. Look at the certificate: it says whether this was
     possible.
 

@@ -129,7 +129,7 @@ TREEFORM_API void set_source_columns(mesh_file& file, const std::string& name,
 
 /// A part of a scene as a file of its own.
 struct file_part {
-    std::string name{};                        ///< as `scene_part::name`
+    std::string name{};                        ///< "object", "object/group", "group" or empty
     mesh_file file{};                          ///< with the attributes of its faces and points
     std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the whole file
 };
@@ -151,7 +151,7 @@ enum class repair_scope : std::uint8_t {
 
 /// A part of a file, mended.
 struct repaired_part {
-    std::string name{};            ///< as `scene_part::name`
+    std::string name{};            ///< "object", "object/group", "group" or empty
     std::uint32_t first_face = 0;  ///< in the mended mesh; its faces follow one another
     std::uint32_t faces = 0;
     treeform::certificate certificate{};  ///< with numbers of the mended mesh and the input file

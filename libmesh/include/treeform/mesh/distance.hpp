@@ -6,6 +6,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
@@ -102,12 +103,6 @@ struct mesh_hit {
     friend bool operator==(const mesh_hit&, const mesh_hit&) = default;
 };
 
-/// The hits of many rays: those of ray i are hits[begin[i]] ... hits[begin[i + 1] - 1].
-struct mesh_hits {
-    std::vector<std::size_t> begin;  ///< [R + 1]
-    std::vector<mesh_hit> hits;
-};
-
 /// The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
 /// lowest number.
 ///
@@ -129,7 +124,7 @@ struct mesh_hits {
                                                                         std::span<const ray3> rays);
 
 /// All faces that each ray hits, in the exact order along the ray, then by number.
-[[nodiscard]] TREEFORM_API mesh_hits raycast_all(const mesh_ref& mesh, std::span<const ray3> rays);
+[[nodiscard]] TREEFORM_API answer_lists<mesh_hit> raycast_all(const mesh_ref& mesh, std::span<const ray3> rays);
 
 /// [R] 1 when a ray hits any face, else 0.
 [[nodiscard]] TREEFORM_API std::vector<std::uint8_t> raycast_any(const mesh_ref& mesh,

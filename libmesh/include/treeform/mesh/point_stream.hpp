@@ -26,6 +26,8 @@ struct point_block {
     element properties{.name = "vertex"};  ///< a row a point
 };
 
+namespace detail::io {
+
 /// Consecutive rows of an element behind the points, such as faces.
 struct row_block {
     element rows{};                        ///< with the element's name
@@ -34,6 +36,8 @@ struct row_block {
     /// Faces of fewer than three corners that were among these: the header counts them.
     std::uint64_t left_out = 0;
 };
+
+}  // namespace detail::io
 
 /// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
 /// together are what `read` gives for the whole file.
@@ -77,7 +81,7 @@ class TREEFORM_API point_reader {
     /// over points that have not been read.
     ///
     /// \throws io_error as `read`
-    bool read(row_block& block, std::size_t most);
+    bool read(detail::io::row_block& block, std::size_t most);
 
   private:
     struct state;
@@ -130,7 +134,7 @@ class TREEFORM_API point_writer {
     void write(const point_block& block);
     /// Rows of the other elements, behind all points, in the order of the header.
     /// \throws io_error, std::invalid_argument for other columns or more rows than the header's
-    void write(const row_block& block);
+    void write(const detail::io::row_block& block);
     /// Finishes the file. Without this call, no file stays.
     /// \throws io_error, also when fewer than `count` points, or other rows, were written
     write_result commit();

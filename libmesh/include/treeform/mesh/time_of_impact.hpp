@@ -34,13 +34,6 @@ struct impact_options {
     progress_callback progress{};
 };
 
-/// How a motion ends.
-enum class motion_end : std::uint8_t {
-    free,      ///< the meshes do not meet
-    contact,   ///< they meet at a time greater than 0
-    at_start,  ///< they have a common point where they are
-};
-
 /// A pair of faces that meet when the meshes first do.
 struct face_contact {
     std::uint32_t face_a = 0;
@@ -52,12 +45,13 @@ struct face_contact {
 
 /// The first contact of two meshes.
 struct impact {
-    motion_end end = motion_end::free;
+    /// `contact`: they meet at a time greater than 0; `starts_touching`: they have a common point
+    /// where they are; `nothing_met`.
+    placement_end end = placement_end::nothing_met;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by
-    /// `time` times the motion has not passed it. 0 when `end` is at_start.
+    /// `time` times the motion has not passed it. 0 when they meet at the start.
     double time = 0.0;
-    sweep_contact exact{};                 ///< the exact time; that of the first of `contacts`
-    std::vector<face_contact> contacts{};  ///< pairs that meet at t, ascending; empty when at_start
+    std::vector<face_contact> contacts{};  ///< pairs that meet at t, ascending; empty at the start
     std::uint64_t contact_count = 0;       ///< all pairs that meet at t, listed or not
     std::uint64_t pairs_tested = 0;        ///< pairs of faces looked at; the rest was skipped
     predicate_counters predicates{};       ///< used for these and for the order of their times
@@ -91,7 +85,7 @@ struct impact {
 ///
 /// The impact is a contact if they are nearer right after its time, and at the start if they are
 /// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on
-/// `b`, their features mean nothing. Nothing of it is `exact`.
+/// `b`, their features mean nothing.
 ///
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.

@@ -54,13 +54,13 @@ template <std::size_t D, class Queries, class Search>
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i) found[order[i]] = search(order[i]);
                });
-    neighbor_lists<typename list::value_type> lists;
+    answer_lists<typename list::value_type> lists;
     lists.begin.resize(found.size() + 1);
     for (std::size_t i = 0; i < found.size(); ++i)
         lists.begin[i + 1] = lists.begin[i] + found[i].size();
-    lists.neighbors.reserve(lists.begin.back());
+    lists.answers.reserve(lists.begin.back());
     for (list& one : found)
-        lists.neighbors.insert(lists.neighbors.end(), std::move_iterator(one.begin()),
+        lists.answers.insert(lists.answers.end(), std::move_iterator(one.begin()),
                                std::move_iterator(one.end()));
     return lists;
 }

@@ -17,7 +17,6 @@ py::object object(of_result, tf::thickness_result&& from);
 py::object object(of_result, tf::oriented_box&& from);
 py::object object(of_result, tf::isoline&& from);
 py::object object(of_result, tf::isolines_result&& from);
-py::object object(of_result, tf::resolve_result&& from, const carrying& attributes);
 py::object object(of_result, tf::repair_result&& from, const carrying& attributes);
 py::object object(of_result, tf::convex_hull_result&& from);
 py::object object(of_result, tf::solid_defects&& from);
@@ -46,7 +45,6 @@ py::object object(of_result, tf::pose_result&& from);
 py::object object(of_result, tf::clash_result&& from);
 
 py::dict counters(const tf::boolean_statistics& from);
-py::dict counters(const tf::resolve_statistics& from);
 py::dict counters(const tf::repair_statistics& from);
 py::dict counters(const tf::offset_statistics& from);
 py::dict counters(const tf::weld_statistics& from);

@@ -138,19 +138,6 @@ py::object object(of_result, tf::isolines_result&& from) {
     return object_of("treeform._shapes", "Isolines", made);
 }
 
-py::object object(of_result, tf::resolve_result&& from, const carrying& attributes) {
-    const py::object certificate = as_python(tf::certificate(from.certificate));
-    const py::object data = data_of(from, attributes);
-    py::dict made;
-    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
-    made["face_source"] = as_python(std::move(from.face_source));
-    made["vertex_source"] = as_python(std::move(from.vertex_source));
-    made["certificate"] = certificate;
-    made["statistics"] =
-        with(counters(from.statistics), "vanished_components", from.vanished_components);
-    return object_of("treeform._repair", "ResolveResult", made);
-}
-
 py::object object(of_result, tf::repair_result&& from, const carrying& attributes) {
     const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = data_of(from, attributes);
@@ -318,17 +305,6 @@ py::dict counters(const tf::boolean_statistics& from) {
     return made;
 }
 
-py::dict counters(const tf::resolve_statistics& from) {
-    py::dict made;
-    made["removed"] = from.removed;
-    made["covered"] = from.covered;
-    made["filled"] = from.filled;
-    made["left_open"] = from.left_open;
-    made["exact_faces"] = from.exact_faces;
-    made["split_vertices"] = from.split_vertices;
-    return made;
-}
-
 py::dict counters(const tf::repair_statistics& from) {
     py::dict made;
     made["tetrahedra"] = from.tetrahedra;
@@ -352,6 +328,9 @@ py::dict counters(const tf::repair_statistics& from) {
     made["dropped_area"] = from.dropped_area;
     made["turned_area"] = from.turned_area;
     made["removed"] = from.removed;
+    made["covered"] = from.covered;
+    made["left_open"] = from.left_open;
+    made["exact_faces"] = from.exact_faces;
     made["split_vertices"] = from.split_vertices;
     made["detached"] = from.detached;
     made["touching"] = from.touching;

@@ -57,10 +57,6 @@ struct words_of<tf::mesh_relation> {
                                   "clear"};
 };
 template <>
-struct words_of<tf::motion_end> {
-    static constexpr words<3> all{"free", "contact", "at_start"};
-};
-template <>
 struct words_of<tf::node_order> {
     static constexpr words<2> all{"depth_first", "best_first"};
 };

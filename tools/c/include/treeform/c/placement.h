@@ -241,11 +241,13 @@ typedef struct treeform_impact_contact {
 /// The first contact of two meshes.
 typedef struct treeform_impact {
     void* owner;
-    int32_t end;
+    /// `contact`: they meet at a time greater than 0; `starts_touching`: they have a common point
+    /// where they are; `nothing_met`.
+    treeform_placement_end end;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by `time`
-    /// times the motion has not passed it. 0 when `end` is at_start.
+    /// times the motion has not passed it. 0 when they meet at the start.
     double time;
-    /// [contact_listed] pairs that meet at t, ascending; empty when at_start
+    /// [contact_listed] pairs that meet at t, ascending; empty at the start
     const treeform_impact_contact* contacts;
     size_t contact_listed;
     uint64_t contact_count;  ///< all pairs that meet at t, listed or not
@@ -291,7 +293,7 @@ TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, con
 ///
 /// The impact is a contact if they are nearer right after its time, and at the start if they are
 /// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on
-/// `b`, their features mean nothing. Nothing of it is `exact`.
+/// `b`, their features mean nothing.
 ///
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.
