@@ -138,12 +138,11 @@ std::vector<double> distance(const mesh_ref& given_a, const mesh_ref& given_b,
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     std::vector<double> found(positions.size());
-    for_chunks(
-        positions.size(), positions_per_chunk,
-        [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i)
-                found[i] = distance(*a, *b, positions[i]);
-        });
+    for_chunks(positions.size(), positions_per_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       found[i] = distance(*a, *b, positions[i]);
+               });
     return found;
 }
 

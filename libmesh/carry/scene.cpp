@@ -22,8 +22,7 @@ std::vector<part> parts_in_scene(const std::string& name, std::vector<part> part
     });
     for (part& p : parts)
         if (one) p = {.object = name, .material = p.material, .first_face = p.first_face};
-    if (parts.empty() || parts[0].first_face > 0)
-        parts.insert(parts.begin(), {.object = name});
+    if (parts.empty() || parts[0].first_face > 0) parts.insert(parts.begin(), {.object = name});
     if (one)
         parts.erase(
             std::unique(parts.begin(), parts.end(),

@@ -2,10 +2,10 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/topology/select_faces.hpp>
 #include <libmesh/weld/joined_faces.hpp>
-#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -101,8 +101,7 @@ void choose(std::vector<mesh_part>& parts, double min_volume, std::size_t larges
 
 }  // namespace
 
-std::vector<mesh_part> components(const mesh_ref& given, double min_volume,
-                                  std::size_t largest) {
+std::vector<mesh_part> components(const mesh_ref& given, double min_volume, std::size_t largest) {
     const mesh_view mesh = given.view();
     detail::base::check_faces("components", mesh.points.size(), mesh.faces);
     if (!(min_volume >= 0.0))

@@ -37,7 +37,7 @@ class field_marker {
 }  // namespace
 
 detail::node_marks<3> find_height_fields(points_view points, std::span<const numbered_face> faces,
-                                 const tree<3>& tree) {
+                                         const tree<3>& tree) {
     detail::node_marks<3> found(tree);
     if (tree.empty()) return found;
     unsigned top = 0;

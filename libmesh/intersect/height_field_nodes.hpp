@@ -16,7 +16,7 @@ namespace treeform::detail::intersect {
 /// tenth of testing their pairs.
 /// \pre `faces` are in leaf order; no coordinate is beyond `largest_filtered_coordinate`
 [[nodiscard]] detail::node_marks<3> find_height_fields(points_view points,
-                                               std::span<const numbered_face> faces,
-                                               const tree<3>& tree);
+                                                       std::span<const numbered_face> faces,
+                                                       const tree<3>& tree);
 
 }  // namespace treeform::detail::intersect

@@ -120,8 +120,7 @@ intersection_result classified(const pair_search<3>& search, const typename Sour
 
 /// \param moves what is still to be done to the trees
 intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                        const tree<3>& tree_b,
-                                        const intersection_options& options,
+                                        const tree<3>& tree_b, const intersection_options& options,
                                         const mesh_positions& moves,
                                         detail::base::effort* effort = nullptr) {
     const pair_search<3> search(transformed(tree_a, moves.move_a),

@@ -56,9 +56,8 @@ trees build_trees(std::span<const face> a, const BoxOfA& box_of_a, std::span<con
 
 }  // namespace
 
-std::pair<tree<3>, tree<3>> overlap_trees(const std::string& function, mesh_view a,
-                                                          mesh_view b,
-                                                          const mesh_positions& positions) {
+std::pair<tree<3>, tree<3>> overlap_trees(const std::string& function, mesh_view a, mesh_view b,
+                                          const mesh_positions& positions) {
     const std::string name_a = function + ": a", name_b = function + ": b";
     const transform<3>& move_a = positions.move_a;
     const transform<3>& move_b = positions.move_b;

@@ -72,8 +72,7 @@ constexpr std::size_t all_pairs = std::numeric_limits<std::size_t>::max();
 
 /// Goes on until more pairs than `most` have been found; keeps those that are wanted.
 intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
-                               const intersection_options& options,
-                               std::size_t most = all_pairs,
+                               const intersection_options& options, std::size_t most = all_pairs,
                                const detail::intersect::wanted_pairs* wanted = nullptr) {
     intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
@@ -114,8 +113,7 @@ intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
 
 }  // namespace
 
-intersection_result self_intersections(const mesh_ref& given,
-                                       const intersection_options& options) {
+intersection_result self_intersections(const mesh_ref& given, const intersection_options& options) {
     const mesh_view mesh = given.view();
     check(mesh, options);
     if (given.prepared() != nullptr)

@@ -239,7 +239,8 @@ detail::io::written_part point_writer::commit_part(write_result& result,
     const std::uint64_t behind = s.rows.finish_part ? s.rows.finish_part(told) : 0;
     s.out->flush();
     const std::uint64_t end = s.points_end.value_or(s.out->size() - behind);
-    const detail::io::written_part made{s.head_size, end - s.head_size, s.out->size() - behind - end};
+    const detail::io::written_part made{s.head_size, end - s.head_size,
+                                        s.out->size() - behind - end};
     s.file->commit();
     result = std::move(s.result);
     return made;

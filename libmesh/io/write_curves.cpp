@@ -77,8 +77,7 @@ void put_points(sink& out, const drawn_curves& drawn, const char* start) {
     }
 }
 
-void put_segments(sink& out, const drawn_curves::line& line,
-                  std::span<const pair_column> numbers) {
+void put_segments(sink& out, const drawn_curves::line& line, std::span<const pair_column> numbers) {
     for (std::size_t k = 0; k < line.pairs.size(); ++k) {
         out.number(line.points[k]);
         out.put(' ');

@@ -323,7 +323,7 @@ class pcd_writer {
     std::vector<const column*> columns_{};  ///< of `declared_`: those that are written
     std::vector<field> fields_{};
     std::size_t row_size_ = 0;
-    std::optional<scratch> blocks_{};                      ///< of a compressed file
+    std::optional<scratch> blocks_{};                    ///< of a compressed file
     std::optional<detail::io::shared_values> shared_{};  ///< instead, of one in parts
     std::uint64_t kept_ = 0;       ///< points in it, with those of parts ahead
     std::uint64_t head_size_ = 0;  ///< with the lengths

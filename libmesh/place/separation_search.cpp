@@ -174,7 +174,7 @@ class clearing {
         const std::vector<point3> points = points_at(offset);
         const mesh_view there{points, a_.faces};
         intersection_options crossing{.move_a = transform<3>::translation(offset),
-                                           .first_only = true};
+                                      .first_only = true};
         crossing.progress = asking_;
         crossing.kinds = pair_kind::crossing;
         for (const std::size_t i : close) {

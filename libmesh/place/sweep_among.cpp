@@ -36,7 +36,7 @@ part_end end_at(const shape& a, const shape& part, const point3& motion, double 
     auto one = impact_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion,
                          {.latest = latest, .limit = options.limit, .progress = progress},
                          options.effort, &exact);
-    return {one.end,           one.time,         exact,      std::move(one.contacts),
+    return {one.end,           one.time,         exact,          std::move(one.contacts),
             one.contact_count, one.pairs_tested, one.predicates, one.status};
 }
 

@@ -175,9 +175,9 @@ class turning {
         result_.end = cancelled() ? placement_end::cancelled : end;
         result_.certificate.precision = options_.precision;
         result_.certificate.status = cancelled()                            ? status::cancelled
-                                : end == placement_end::no_coordinates ? status::not_certified
-                                : end == placement_end::out_of_range   ? status::out_of_range
-                                                                       : status::no_place;
+                                     : end == placement_end::no_coordinates ? status::not_certified
+                                     : end == placement_end::out_of_range   ? status::out_of_range
+                                                                            : status::no_place;
         return std::move(result_);
     }
 

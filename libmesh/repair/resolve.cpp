@@ -54,7 +54,8 @@ void count_losses(mesh_view mesh, std::span<const std::uint8_t> is_left, repair_
         static_cast<std::uint64_t>(std::ranges::count(result.face_source, repair_result::none));
     const auto gone = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
     result.statistics.removed = gone - std::min(gone, result.statistics.covered);
-    result.statistics.vanished_components = static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
+    result.statistics.vanished_components =
+        static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
     if (result.certificate && result.mesh.faces.empty() && !mesh.faces.empty())
         result.certificate.status = status::vanished;
 }
@@ -100,7 +101,7 @@ resolved_mesh by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& 
 }  // namespace
 
 repair_result resolve_self_intersections(const mesh_ref& given, resolve_mode mode,
-                                          const resolve_options& options) {
+                                         const resolve_options& options) {
     const mesh_view mesh = given.view();
     using detail::base::require_limit;
     require_limit("resolve_self_intersections", options.max_loss, "the largest loss");

@@ -28,8 +28,7 @@ rounding_effects effects_of_rounding(const mesh_ref& given, const transform<3>& 
     if (placed.size() != moving.points.size())
         throw std::invalid_argument(
             "treeform::effects_of_rounding: as many points placed as there are is needed");
-    const bool to_float32 =
-        after == precision::float32 && before == precision::float64;
+    const bool to_float32 = after == precision::float32 && before == precision::float64;
     rounding_effects found;
     found.max_displacement = detail::max_displacement(moving.points, by, placed);
     found.step = coordinate_step(placed, after);

@@ -9,9 +9,8 @@ namespace treeform::detail::stream {
 
 namespace fs = std::filesystem;
 
-points_out::points_out(const output_path& to, const mesh_file& header,
-                       std::uint64_t count, const communicator* all, const fs::path& part,
-                       std::size_t most_corners)
+points_out::points_out(const output_path& to, const mesh_file& header, std::uint64_t count,
+                       const communicator* all, const fs::path& part, std::size_t most_corners)
     : target_(to.first),
       path_(all == nullptr ? to.first : part_path(to.first, all, part)),
       all_(all),

@@ -170,7 +170,7 @@ std::vector<std::uint32_t> sparse_leaders(points_view points, const weld_options
 }
 
 std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options& options,
-                                          neighbor_search search) {
+                                         neighbor_search search) {
     const std::size_t most = 16 * points.size() + 1024;
     base::union_find sets(points.size());
     std::atomic<std::size_t> count = 0;

@@ -225,8 +225,8 @@ constexpr std::size_t queries_per_chunk = 256;
 /// the lists are taken apart into the order of the queries.
 template <std::size_t D, class MakeKept>
 answer_lists<near_point> lists_of(const point_blocks<D>& points, double largest,
-                                    std::span<const std::array<double, D>> queries, double radius,
-                                    std::size_t k, const MakeKept& make_kept) {
+                                  std::span<const std::array<double, D>> queries, double radius,
+                                  std::size_t k, const MakeKept& make_kept) {
     check_radius(name, radius);
     for (std::size_t i = 0; i < queries.size(); ++i)
         check_query(queries[i], "query " + std::to_string(i));
@@ -304,7 +304,7 @@ std::vector<near_point> point_search<D>::all_within(const point& query, double r
 
 template <std::size_t D>
 answer_lists<near_point> point_search<D>::k_nearest(std::span<const point> queries, std::size_t k,
-                                                      double radius) const {
+                                                    double radius) const {
     k = std::min(k, size());
     return detail::lists_of<D>({&tree_, coordinates_.data()}, largest_, queries, radius, k,
                                [&] { return detail::k_offered(k, 0.0); });
@@ -312,7 +312,7 @@ answer_lists<near_point> point_search<D>::k_nearest(std::span<const point> queri
 
 template <std::size_t D>
 answer_lists<near_point> point_search<D>::all_within(std::span<const point> queries,
-                                                       double radius) const {
+                                                     double radius) const {
     return detail::lists_of<D>({&tree_, coordinates_.data()}, largest_, queries, radius, 0,
                                [] { return detail::all_offered(0.0); });
 }

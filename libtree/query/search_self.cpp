@@ -129,8 +129,9 @@ search_statistics search_items_2(const tree<2>& t, const node_marks<2>* settled,
                                  std::span<const node_pair> items, block_visitor visit) {
     return search_items(t, settled, level, items, visit);
 }
-search_statistics search_items_3(const tree<3>& t, const detail::node_marks<3>* settled, unsigned level,
-                                 std::span<const node_pair> items, block_visitor visit) {
+search_statistics search_items_3(const tree<3>& t, const detail::node_marks<3>* settled,
+                                 unsigned level, std::span<const node_pair> items,
+                                 block_visitor visit) {
     return search_items(t, settled, level, items, visit);
 }
 
@@ -160,8 +161,9 @@ search_statistics search_items(const tree<2>& t, const node_marks<2>* settled, u
                                std::span<const node_pair> items, block_visitor visit) {
     return HWY_DYNAMIC_DISPATCH(search_items_2)(t, settled, level, items, visit);
 }
-search_statistics search_items(const tree<3>& t, const detail::node_marks<3>* settled, unsigned level,
-                               std::span<const node_pair> items, block_visitor visit) {
+search_statistics search_items(const tree<3>& t, const detail::node_marks<3>* settled,
+                               unsigned level, std::span<const node_pair> items,
+                               block_visitor visit) {
     return HWY_DYNAMIC_DISPATCH(search_items_3)(t, settled, level, items, visit);
 }
 

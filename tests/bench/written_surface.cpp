@@ -1,7 +1,7 @@
 #include "bench/written_surface.hpp"
 
-#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <array>

@@ -166,8 +166,8 @@ static void test_rounding(void) {
     CHECK(effects->compared == 1 && effects->collapsed == 12);
     treeform_free(effects);
     ENDS(TREEFORM_CANCELLED, "cancelled",
-         treeform_rounding_effects(mesh, matrix, placed, TREEFORM_FLOAT64, TREEFORM_FLOAT32, 1, stop,
-                                   &calls, &effects));
+         treeform_rounding_effects(mesh, matrix, placed, TREEFORM_FLOAT64, TREEFORM_FLOAT32, 1,
+                                   stop, &calls, &effects));
     CHECK(effects == NULL && calls > 0);
     treeform_free(made);
     treeform_free(mesh);

@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto expected = options.rule == tf::weld_rule::first
                               ? tf::test::brute_leaders(points, linked)
                               : tf::test::brute_chains(points, linked);
-    const tf::point_groups found = 
+    const tf::point_groups found =
         tf::detail::weld::find_groups("group_points", points, options, search);
     require(found.group_of_point.size() == points.size(), "a group for each point");
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -2,12 +2,12 @@
 /// Clashes of the parts of a kitchen and of a robot's arm in 100 poses against CGAL: all pairs, by
 /// its trees of triangles, and its test of points inside closed meshes.
 
-#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/AABB_traits.h>

@@ -63,15 +63,17 @@ TEST_CASE("truth: chains are as many as an exact kernel found, by every search")
             finite_points(file.mesh.points, row.text("precision") == "f32");
         for (const tolerance_column& column : columns)
             for (const tf::detail::weld::neighbor_search search :
-                 {tf::detail::weld::neighbor_search::automatic, tf::detail::weld::neighbor_search::window,
-                  tf::detail::weld::neighbor_search::cells, tf::detail::weld::neighbor_search::tree}) {
+                 {tf::detail::weld::neighbor_search::automatic,
+                  tf::detail::weld::neighbor_search::window,
+                  tf::detail::weld::neighbor_search::cells,
+                  tf::detail::weld::neighbor_search::tree}) {
                 CAPTURE(column.groups);
                 CAPTURE(static_cast<int>(search));
                 const double tolerance =
                     column.tolerance == nullptr ? 0.0 : row.real(column.tolerance);
                 const tf::point_groups groups = tf::detail::weld::find_groups(
-                    "group_points", points,
-                    {.tolerance = tolerance, .rule = tf::weld_rule::chain}, search);
+                    "group_points", points, {.tolerance = tolerance, .rule = tf::weld_rule::chain},
+                    search);
                 CHECK(static_cast<std::int64_t>(groups.first_of_group.size()) ==
                       row.number(column.groups));
                 if (std::string(column.groups) == "weld_1e-3")

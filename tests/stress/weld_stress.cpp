@@ -21,9 +21,9 @@
 
 namespace {
 
-using tf::detail::weld::neighbor_search;
 using tf::point3;
 using tf::weld_rule;
+using tf::detail::weld::neighbor_search;
 using cloud = std::vector<point3>;
 
 constexpr std::array searches{neighbor_search::automatic, neighbor_search::window,
@@ -53,8 +53,7 @@ void check(const std::function<point3(std::size_t)>& make, std::vector<double> t
         for (const neighbor_search search : searches) {
             CAPTURE(static_cast<int>(search));
             CHECK(leaders(points, {.tolerance = tolerance}, search) == first);
-            CHECK(leaders(points,
-                          {.tolerance = tolerance, .rule = weld_rule::chain}, search) ==
+            CHECK(leaders(points, {.tolerance = tolerance, .rule = weld_rule::chain}, search) ==
                   chain);
         }
     }

@@ -8,7 +8,7 @@ from python_language import Attribute, Result
 #: Words of C++ in sentences, and those of Python.
 WORDS = {"columns as `las_header` says": "columns are the fields of its records",
          "what `las_header` says": "what their records hold",
-         "each of `scene_parts`": "each part",
+         "each part, as `split_parts` has them": "each part",
          " (`libmesh/attributes/known_columns.cpp` is the table)": "",
          "Of `file.attributes`, each": "Of `Attributes`, each", "`mesh_file::": "`Attributes.",
          "`attributes::": "`Attributes.",

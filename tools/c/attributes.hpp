@@ -52,8 +52,7 @@ inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std:
     if (face_of_cut_vertex)
         cut = elements(face_of_cut_vertex, vertices, "face_of_cut_vertex", from, faces_of);
     tf::carry_sources({from.begin(), from.end()})
-        .carry(file,
-               elements(face_source, file.mesh.faces.size(), "face_source", from, faces_of),
+        .carry(file, elements(face_source, file.mesh.faces.size(), "face_source", from, faces_of),
                elements(vertex_source, vertices, "vertex_source", from, points), cut);
 }
 

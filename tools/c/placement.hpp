@@ -29,8 +29,8 @@ inline tf::placement drop(const tf::mesh_ref& moving, const tf::mesh_refs& fixed
 /// Turns `moving` about the axis through `origin` along `direction` until it first comes within the
 /// tolerance of one of `fixed`, or of the clearance from one.
 inline tf::placement turn(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
-                            const tf::point3& origin, const tf::point3& direction,
-                            const tf::placement_options& options) {
+                          const tf::point3& origin, const tf::point3& direction,
+                          const tf::placement_options& options) {
     return tf::turn(moving, fixed, {origin, direction}, options);
 }
 
@@ -50,9 +50,9 @@ inline tf::mesh_feature feature_of(const treeform_feature* from, const char* nam
 
 /// Brings two planes, or two axes, together, and slides `moving` until it meets one of `fixed`.
 inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
-                                        const treeform_feature* of_moving,
-                                        const treeform_feature* of_fixed,
-                                        const tf::placement_options& options) {
+                                   const treeform_feature* of_moving,
+                                   const treeform_feature* of_fixed,
+                                   const tf::placement_options& options) {
     return tf::mate_features(moving, fixed, feature_of(of_moving, "of_moving"),
                              feature_of(of_fixed, "of_fixed"), options);
 }

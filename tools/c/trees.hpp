@@ -161,8 +161,7 @@ inline answer_of<treeform_neighbors> point_tree_within(const point_tree& tree,
             const auto all = rows(of, queries, count, "queries");
             in_pieces(count, [&](std::size_t begin, std::size_t end) {
                 auto some = of.all_within(all.subspan(begin, end - begin), radius);
-                append(found.begin, found.answers, std::move(some.begin),
-                       std::move(some.answers));
+                append(found.begin, found.answers, std::move(some.begin), std::move(some.answers));
             });
         },
         tree);

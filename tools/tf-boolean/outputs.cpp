@@ -4,11 +4,11 @@
 #include "tools/common/curve_file.hpp"
 #include "tools/common/mesh_output.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 #include "tools/tf-cut/cutting.hpp"
 
 #include "tools/common/console.hpp"
-#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>

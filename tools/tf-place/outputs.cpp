@@ -19,10 +19,9 @@ tf::rounding_effects rounding_of(job& work, const tf::body_set& moving,
     tf::rounding_effects sum;
     for (const placed_body& at : placed) {
         const bool was_single = is_single(moving.file_of(at.number).content);
-        sum += tf::effects_of_rounding(
-            moving.shapes[at.number], at.matrix, at.points,
-            was_single ? tf::precision::float32 : tf::precision::float64, precision,
-            work.progress("rounding"));
+        sum += tf::effects_of_rounding(moving.shapes[at.number], at.matrix, at.points,
+                                       was_single ? tf::precision::float32 : tf::precision::float64,
+                                       precision, work.progress("rounding"));
         work.call_ended();
     }
     return sum;

@@ -16,7 +16,7 @@ namespace tools {
 namespace {
 
 tf::offset_result wrapped(job& work, const dirty_mesh& input, const wrap_settings& settings,
-                        tf::precision precision) {
+                          tf::precision precision) {
     const auto timing = work.time("repair");
     tf::offset_options options{.precision = precision, .progress = work.progress("wrap")};
     if (settings.offset) options.offset = settings.offset->used(input.diagonal);
@@ -51,7 +51,8 @@ void enter(job& work, const dirty_mesh& input, const tf::offset_result& made, do
 
 /// Of a surface with a hole that is wider than the size, the wrap is on both sides, and encloses
 /// less than the surface nearly does.
-void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& made, double volume) {
+void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& made,
+                  double volume) {
     constexpr double much = 0.9;
     if (volume > much * std::abs(input.volume)) return;
     const tf::mesh_view mesh = input.file.mesh;

@@ -23,7 +23,7 @@ bool keeps_cuts(const tf::mesh_file& input, const repair_settings& settings) {
 }
 
 tf::repair_result compute(job& work, const tf::mesh_file& input, const findings& result,
-                           const repair_settings& settings, tf::precision precision) {
+                          const repair_settings& settings, tf::precision precision) {
     check_arrangeable(work.name, result.part.mesh);
     const auto timing = work.time("repair");
     tf::repair_result repaired = tf::resolve_self_intersections(
@@ -118,12 +118,13 @@ void say_result(job& work, const repair_settings& settings, const tf::repair_res
                 " at most";
     work.out.result(text);
     if (repaired.statistics.vanished_components > 0)
-        work.warn("lost-components",
-                  counted(repaired.statistics.vanished_components, "component has", "components have") +
-                      " disappeared" +
-                      (settings.mode == tf::resolve_mode::split && did.covered > 0
-                           ? ", or all of it lies on others"
-                           : ""));
+        work.warn(
+            "lost-components",
+            counted(repaired.statistics.vanished_components, "component has", "components have") +
+                " disappeared" +
+                (settings.mode == tf::resolve_mode::split && did.covered > 0
+                     ? ", or all of it lies on others"
+                     : ""));
 }
 
 /// The face that each one lies in, -1 where it fills a hole.

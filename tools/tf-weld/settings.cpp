@@ -149,9 +149,8 @@ failure property_failure(const tf::weld_property_error& error, const tf::attribu
     const std::string option = error.option() == "keep_by"    ? "--keep "
                                : error.option() == "order_by" ? "--order "
                                                               : "--" + error.option() + " ";
-    const std::string why = error.reason().empty()
-                                ? "no such property; " + known_properties(known)
-                                : error.reason();
+    const std::string why =
+        error.reason().empty() ? "no such property; " + known_properties(known) : error.reason();
     return {bad_input, "property", option + error.name() + ": " + why};
 }
 

@@ -1,11 +1,11 @@
 /// \file
 /// Isolines: beside sections, on open sheets, through vertices; meshes cut along them.
 
-#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -19,7 +19,6 @@
 
 namespace {
 
-
 tf::curve_network paths_of(const tf::mesh& mesh) {
     return tf::intersection_paths(mesh, tf::self_intersections(mesh).pairs);
 }
@@ -83,8 +82,7 @@ TEST_CASE("curve paths: a corner on a face is a point, named by its number") {
     REQUIRE(network.paths.size() == 1);
     CHECK(network.paths[0].points.size() == 1);
     CHECK(!network.paths[0].closed);
-    CHECK(network.points[network.paths[0].points[0]] ==
-          tf::curve_point{{3, 3}, {3, 3}, {1, 1, 0}});
+    CHECK(network.points[network.paths[0].points[0]] == tf::curve_point{{3, 3}, {3, 3}, {1, 1, 0}});
 }
 
 TEST_CASE("curve paths: the rim of an overlap is closed, common to all who have it") {

@@ -43,8 +43,7 @@ pairs by_brute_force(const tf::mesh& a, const tf::mesh& b, const Common& common)
 
 /// The pairs, after the counts and the short answer have been compared with them, and the answer of
 /// the same meshes prepared. Those are indexed whole, the others where their boxes overlap.
-pairs found_in(const tf::mesh& a, const tf::mesh& b,
-               const tf::intersection_options& options = {}) {
+pairs found_in(const tf::mesh& a, const tf::mesh& b, const tf::intersection_options& options = {}) {
     const tf::intersection_result result = tf::mesh_intersections(a, b, options);
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
     for (const tf::face_pair& pair : result.pairs) ++counts[static_cast<std::size_t>(pair.kind)];

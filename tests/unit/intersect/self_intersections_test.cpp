@@ -2,8 +2,8 @@
 /// Self-intersections against all pairs looked at one by one, and under changes that must not
 /// matter.
 
-#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

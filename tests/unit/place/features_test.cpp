@@ -73,8 +73,7 @@ tf::mesh moved_by(tf::mesh mesh, const tf::transform<3>& by) {
 }
 
 /// That it penetrates nothing, and that the matrix says how it went there.
-void check_features(const tf::mesh& moving, const tf::mesh& fixed,
-                    const tf::placement& found) {
+void check_features(const tf::mesh& moving, const tf::mesh& fixed, const tf::placement& found) {
     REQUIRE(found);
     const tf::mesh there{found.points, moving.faces};
     CHECK(tf::relation(there, fixed).relation != tf::mesh_relation::penetrating);

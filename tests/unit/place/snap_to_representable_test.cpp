@@ -114,7 +114,8 @@ TEST_CASE("sweep among: the first of several parts ends it, all that are met at 
         }
         if (clearance == 0.0) CHECK(second);
     }
-    CHECK(sweep_among(given, among.parts(), {0, 0, -1}, {.latest = 5.0}).end == placement_end::nothing_met);
+    CHECK(sweep_among(given, among.parts(), {0, 0, -1}, {.latest = 5.0}).end ==
+          placement_end::nothing_met);
     CHECK(sweep_among(given, {}, {0, 0, -1}).end == placement_end::nothing_met);
     among.add(moved(box(1, 1, 1), {3, 1, 9}));  // it touches this one
     const auto stuck = sweep_among(given, among.parts(), {0, 0, -1});

@@ -60,8 +60,7 @@ void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::placeme
         const tf::point3 q = found.matrix(moving.points[i]);
         for (std::size_t k = 0; k < 3; ++k) {
             CHECK(std::abs(q[k] - found.points[i][k]) <= unit);
-            if (single)
-                CHECK(found.points[i][k] == double{static_cast<float>(found.points[i][k])});
+            if (single) CHECK(found.points[i][k] == double{static_cast<float>(found.points[i][k])});
         }
     }
     CHECK(found.end == tf::placement_end::contact);

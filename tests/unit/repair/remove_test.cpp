@@ -2,10 +2,10 @@
 /// Faces that meet, removed, and the holes they leave.
 
 #include <libmesh/repair/greedy_vertex_cover.hpp>
-#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

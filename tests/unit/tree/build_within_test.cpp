@@ -70,8 +70,7 @@ TEST_CASE("build_within: keeps the elements whose boxes meet the box, and no oth
 TEST_CASE("build_within: touching counts, an empty box keeps nothing, an infinite one all") {
     const double next = std::nextafter(1.0, 2.0);
     const boxes<2> of{test::box_at<2>({0, 0}, 1.0), test::box_at<2>({next, 0}, 1.0)};
-    CHECK(sorted_ids(tf::build_within(of, itself, tf::aabb<double, 2>{{1, 1}, {1, 1}})) ==
-          ids{0});
+    CHECK(sorted_ids(tf::build_within(of, itself, tf::aabb<double, 2>{{1, 1}, {1, 1}})) == ids{0});
     CHECK(tf::build_within(of, itself, tf::aabb<double, 2>{}).empty());
     const tf::aabb<float, 2> all{{-HUGE_VALF, -HUGE_VALF}, {HUGE_VALF, HUGE_VALF}};
     CHECK(tf::build_within(of, itself, all).size() == 2);

@@ -35,7 +35,8 @@ answers first(answers all, std::size_t k) {
     return all;
 }
 
-const std::vector<tf::node_order> node_orders{tf::node_order::depth_first, tf::node_order::best_first};
+const std::vector<tf::node_order> node_orders{tf::node_order::depth_first,
+                                              tf::node_order::best_first};
 
 /// Those whose squared distances are doubles.
 const std::vector<std::string> families{"random", "grid", "equal", "line", "far", "mixed"};
@@ -69,12 +70,11 @@ void compare_with_brute_force(const std::string& family, std::size_t count) {
         REQUIRE(one.has_value() == !all.empty());
         if (one) REQUIRE(*one == all[0]);
         for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{40}, count + 1})
-            REQUIRE(tf::k_nearest(tree, query, k, distance_of, {.order = order}) ==
-                    first(all, k));
+            REQUIRE(tf::k_nearest(tree, query, k, distance_of, {.order = order}) == first(all, k));
         const answers inside = neighbors_by_brute_force(of, query, radius);
         REQUIRE(tf::all_within(tree, query, radius, distance_of, order) == inside);
-        REQUIRE(tf::k_nearest(tree, query, 9, distance_of,
-                              {.radius = radius, .order = order}) == first(inside, 9));
+        REQUIRE(tf::k_nearest(tree, query, 9, distance_of, {.radius = radius, .order = order}) ==
+                first(inside, 9));
     }
 }
 

@@ -70,7 +70,8 @@ TEST_CASE("equal_points: numbers go by first appearance") {
 TEST_CASE("equal_points: -0 equals +0, in every coordinate, and one bit more is another point") {
     constexpr double least = std::numeric_limits<double>::denorm_min();
     check({{0.0, 0.0, 0.0}, {-0.0, 0.0, 0.0}, {0.0, -0.0, 0.0}, {0.0, 0.0, -0.0}});
-    CHECK(tf::find_equal_points(points{{0.0, 1.0, -0.0}, {-0.0, 1.0, 0.0}}).first_of_group == ids{0});
+    CHECK(tf::find_equal_points(points{{0.0, 1.0, -0.0}, {-0.0, 1.0, 0.0}}).first_of_group ==
+          ids{0});
     CHECK(tf::find_equal_points(points{{0, 0, 0}, {least, 0, 0}, {-least, 0, 0}}).first_of_group ==
           ids{0, 1, 2});
     const double next = std::nextafter(1.0, 2.0);

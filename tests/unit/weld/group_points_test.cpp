@@ -23,12 +23,12 @@
 namespace {
 
 using tf::group_points;
-using tf::detail::weld::find_groups;
-using tf::detail::weld::neighbor_search;
 using tf::point3;
 using tf::point_groups;
 using tf::weld_options;
 using tf::weld_rule;
+using tf::detail::weld::find_groups;
+using tf::detail::weld::neighbor_search;
 using family = test::weld_family;
 using numbers = std::vector<std::uint32_t>;
 

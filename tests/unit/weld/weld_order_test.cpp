@@ -212,8 +212,7 @@ TEST_CASE("weld: orders that cannot be meant are refused") {
         }
     };
     refused({}, "q", "");
-    refused(vertex_columns({{"nx", {0}}, {"ny", {0}}}), "normal",
-            "is more than one property");
+    refused(vertex_columns({{"nx", {0}}, {"ny", {0}}}), "normal", "is more than one property");
     CHECK_THROWS_AS(static_cast<void>(tf::weld(cloud.points, {.keep = tf::weld_keep::mean,
                                                               .order = tf::weld_order::lowest,
                                                               .order_by = "x"})),

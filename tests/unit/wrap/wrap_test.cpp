@@ -26,7 +26,8 @@
 namespace {
 
 /// What holds of every wrap.
-tf::offset_result wrapped(const tf::mesh& mesh, double size, const tf::offset_options& options = {}) {
+tf::offset_result wrapped(const tf::mesh& mesh, double size,
+                          const tf::offset_options& options = {}) {
     tf::offset_result made = tf::wrap(mesh, size, options);
     CHECK(made.certificate);
     CHECK(test::is_clean_solid(made.mesh));

@@ -45,9 +45,8 @@ py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double
                    const array_of<double>& move_b, double radius) {
     auto positions = positions_of(move_a, move_b);
     for (tf::mesh_positions& one : positions) one.radius = radius;
-    return as_array<double>(for_positions<double>(positions, [&](auto some) {
-        return tf::distance(a.prepared(), b.prepared(), some);
-    }));
+    return as_array<double>(for_positions<double>(
+        positions, [&](auto some) { return tf::distance(a.prepared(), b.prepared(), some); }));
 }
 
 }  // namespace

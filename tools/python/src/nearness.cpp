@@ -98,7 +98,8 @@ py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
     std::vector<std::uint32_t> ray_of_hit, faces;
     std::vector<double> t;
     run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-        const tf::answer_lists<tf::mesh_hit> found = tf::raycast_all(mesh.prepared(), all.piece(begin, end));
+        const tf::answer_lists<tf::mesh_hit> found =
+            tf::raycast_all(mesh.prepared(), all.piece(begin, end));
         for (std::size_t i = 0; i + 1 < found.begin.size(); ++i)
             for (std::size_t h = found.begin[i]; h < found.begin[i + 1]; ++h) {
                 ray_of_hit.push_back(static_cast<std::uint32_t>(begin + i));

@@ -17,9 +17,11 @@ py::object mate_features(const held_mesh& moving, const held_meshes& fixed, cons
     const tf::mesh_feature mine = feature(origin, direction);
     const tf::mesh_feature other = feature(fixed_origin, fixed_direction);
     return as_python(run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::mate_features(moving.ref(), refs_of(fixed), mine, other, options);
-    }), moving);
+                         options.progress = report;
+                         return tf::mate_features(moving.ref(), refs_of(fixed), mine, other,
+                                                  options);
+                     }),
+                     moving);
 }
 
 py::object pack(const held_meshes& parts, tf::pack_options options) {

@@ -7,7 +7,8 @@ py::tuple join_equal_points(const held_mesh& mesh) {
     const carrying attributes({&mesh});
     std::vector<std::uint32_t> first, faces(mesh.view().faces.size());
     tf::mesh joined = run([&](const tf::progress_callback&) {
-        if (!mesh.data().is_none()) first = tf::find_equal_points(mesh.view().points).first_of_group;
+        if (!mesh.data().is_none())
+            first = tf::find_equal_points(mesh.view().points).first_of_group;
         return tf::join_equal_points(mesh.view());
     });
     std::iota(faces.begin(), faces.end(), 0U);

@@ -72,7 +72,7 @@ class carry_sources {
                             std::span<const operand_element> vertex_source,
                             std::span<const operand_element> face_of_cut_vertex = {}) const;
 
-    /// The same for what was made of a single input, with sources as in `resolve_result`:
+    /// The same for what was made of a single input, with sources as in `repair_result`:
     /// `operand_element::none` stands for no source.
     ///
     /// With those of `simplify_result`, faces may reach beyond their sources. Values of corners are
@@ -134,7 +134,7 @@ struct file_part {
     std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the whole file
 };
 
-/// The parts of a file (`scene_parts`), each with the points and faces that are its own, and with
+/// The parts of a file by its objects, groups or nodes, each with the points and faces that are its own, and with
 /// their attributes (`carry_sources`). Parts whose open edges coincide are patches of one surface,
 /// and one part; solids that touch are not.
 ///
@@ -173,7 +173,7 @@ struct repaired_file {
 
 /// `repair` of a file's mesh, or of each of its parts.
 ///
-/// Parts are those of `scene_parts` with the vertices as the file numbers them; those whose open
+/// Parts are the objects, groups or nodes, with the vertices as the file numbers them; those whose open
 /// edges coincide are patches of one surface, and one part. What `repair_options` says of the mesh,
 /// such as `max_loss`, then holds of each part. Cuts are kept where merging would mix values
 /// (`carry_sources::merging_mixes_values`), of faces within a part.

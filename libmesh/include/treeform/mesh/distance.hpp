@@ -124,7 +124,8 @@ struct mesh_hit {
                                                                         std::span<const ray3> rays);
 
 /// All faces that each ray hits, in the exact order along the ray, then by number.
-[[nodiscard]] TREEFORM_API answer_lists<mesh_hit> raycast_all(const mesh_ref& mesh, std::span<const ray3> rays);
+[[nodiscard]] TREEFORM_API answer_lists<mesh_hit> raycast_all(const mesh_ref& mesh,
+                                                              std::span<const ray3> rays);
 
 /// [R] 1 when a ray hits any face, else 0.
 [[nodiscard]] TREEFORM_API std::vector<std::uint8_t> raycast_any(const mesh_ref& mesh,

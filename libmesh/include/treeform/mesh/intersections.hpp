@@ -39,8 +39,8 @@ namespace treeform {
 ///         overlap and the nodes above them. Of prepared meshes up to twice as fast
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
-[[nodiscard]] TREEFORM_API intersection_result mesh_intersections(
-    const mesh_ref& a, const mesh_ref& b, const intersection_options& options = {});
+[[nodiscard]] TREEFORM_API intersection_result
+mesh_intersections(const mesh_ref& a, const mesh_ref& b, const intersection_options& options = {});
 
 /// Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns as
 /// soon as one pair is found. Of meshes that are not prepared, only faces that reach, as moved,

@@ -190,9 +190,9 @@ struct thickness_result {
 /// \same   on any number of threads
 /// \source Ma, Bae and Choi, 3D Medial Axis Point Approximation Using Nearest Neighbors and the
 ///         Normal Field, The Visual Computer 28 (2012)
-[[nodiscard]] TREEFORM_API thickness_result
-wall_thickness(const mesh_ref& mesh, thickness_by by = thickness_by::ray,
-               const progress_callback& progress = {});
+[[nodiscard]] TREEFORM_API thickness_result wall_thickness(const mesh_ref& mesh,
+                                                           thickness_by by = thickness_by::ray,
+                                                           const progress_callback& progress = {});
 
 /// How many points are inside a solid, on a surface, outside of all.
 struct side_counts {

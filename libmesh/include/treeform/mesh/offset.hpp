@@ -39,7 +39,8 @@ struct offset_options {
 
 /// What it took, and what was measured.
 struct offset_statistics {
-    double distance = 0.0;    ///< that was asked for, without its sign; of `wrap`, its `offset`
+    double distance =
+        0.0;  ///< that was asked for, without its sign; of `wrap`, how far its vertices are
     double resolution = 0.0;  ///< that was used; of `wrap`, its size
     /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
     /// that it is the offset of: all are in [least, greatest]. Found by branch and bound; each is

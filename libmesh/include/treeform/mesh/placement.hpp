@@ -90,8 +90,8 @@ struct placement {
     /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way may
     /// exist; without a place, one that was not found.
     search_effort effort{};
-    double angle = 0.0;      ///< of `turn` and `mate_features`: in degrees, of the turn
-    double tolerance = 0.0;  ///< of `turn`: the gap, beyond the clearance, that counts as contact
+    double angle = 0.0;       ///< of `turn` and `mate_features`: in degrees, of the turn
+    double tolerance = 0.0;   ///< of `turn`: the gap, beyond the clearance, that counts as contact
     std::uint64_t steps = 0;  ///< of `turn`
     /// Of `mate_features`: how far the center of the moving feature ended from that of the fixed
     /// one, along the direction of the fixed one. Of planes: their distance.
@@ -199,7 +199,7 @@ struct TREEFORM_API body_set {
     ///
     /// \cost O(V + F)
     body_file& add(mesh_file file, std::string label = {}, std::string name = {});
-    /// The same with a body for each part of the file (see `scene_parts`) where it has several.
+    /// The same with a body for each part of the file (as `split_parts` has them) where it has several.
     body_file& add_parts(mesh_file file, std::string label = {}, std::string name = {});
     /// The same with a body for each part that has a name of its own (OBJ o and g, nodes of a
     /// scene), or one body where there are no names. Unlike `add_parts`, parts that have points in

@@ -165,7 +165,8 @@ class TREEFORM_API point_writer {
     /// have written.
     /// `told` is what `tell_part` gave for each part, in their order; LAZ needs it.
     /// \throws io_error, std::logic_error where it has no parts
-    detail::io::written_part commit_part(write_result& result, const std::vector<std::string>& told = {});
+    detail::io::written_part commit_part(write_result& result,
+                                         const std::vector<std::string>& told = {});
     /// The head of the whole from those of all parts that have points; if none has, from one.
     [[nodiscard]] static std::string join_heads(const std::vector<std::string>& heads);
 

@@ -85,8 +85,7 @@ class builder {
 ///         `make_aabb` is called up to twice for each element, by several threads at once. Any
 ///         other range is read once, in order
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 1; the selection after Floyd and Rivest
-template <class Strategy = detail::bracketed_select, std::ranges::input_range Range,
-          class MakeBox>
+template <class Strategy = detail::bracketed_select, std::ranges::input_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<Range>>
 [[nodiscard]] auto build(Range&& range, const MakeBox& make_aabb) {
     using box = std::remove_cvref_t<decltype(make_aabb(*std::ranges::begin(range)))>;

@@ -133,7 +133,7 @@ template <std::size_t D, class Range, class MakeBox>
 /// The tree over some elements of a range of `size`.
 template <std::size_t D, class Range, class MakeBox>
 [[nodiscard]] tree<D> tree_over(const std::vector<std::uint32_t>& kept, const Range& range,
-                                        const MakeBox& make_aabb) {
+                                const MakeBox& make_aabb) {
     tree<D> result = build(kept, [&](std::uint32_t id) { return make_aabb(at_place(range, id)); });
     std::uint32_t* const places = result.ids_data();
     for_chunks(kept.size(), elements_per_chunk,
@@ -167,7 +167,7 @@ template <std::ranges::random_access_range Range, class MakeBox, std::floating_p
           std::size_t D>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 [[nodiscard]] tree<D> build_within(const Range& range, const MakeBox& make_aabb,
-                                           const aabb<T, D>& within) {
+                                   const aabb<T, D>& within) {
     for (std::size_t k = 0; k < D; ++k)
         if (within.min[k] != within.min[k] || within.max[k] != within.max[k])
             throw std::invalid_argument(

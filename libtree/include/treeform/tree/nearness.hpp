@@ -52,8 +52,7 @@ namespace detail {
 /// Calls `visit` as `visit_near` does, from the bound `squared` on.
 template <std::size_t D>
 TREEFORM_API void walk_near(const tree<D>& tree, const aabb<double, D>& query, double squared,
-                            node_order order,
-                            function_ref<double(std::uint32_t)> visit);
+                            node_order order, function_ref<double(std::uint32_t)> visit);
 
 template <tree_of_trees Trees, class Visit>
 void walk_near(const Trees& trees, const aabb<double, Trees::dimensions>& query, double squared,
@@ -123,8 +122,8 @@ requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
 void visit_near(const Tree& tree, const Query& query, const Visit& visit,
                 const nearness_options& options = {}) {
     detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query),
-                      detail::squared_radius("treeform::visit_near", options.radius),
-                      options.order, visit);
+                      detail::squared_radius("treeform::visit_near", options.radius), options.order,
+                      visit);
 }
 
 /// The nearest primitive, of equally near ones that of the lowest number; none when the tree is

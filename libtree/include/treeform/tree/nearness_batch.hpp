@@ -61,7 +61,7 @@ template <std::size_t D, class Queries, class Search>
     lists.answers.reserve(lists.begin.back());
     for (list& one : found)
         lists.answers.insert(lists.answers.end(), std::move_iterator(one.begin()),
-                               std::move_iterator(one.end()));
+                             std::move_iterator(one.end()));
     return lists;
 }
 

@@ -127,7 +127,8 @@ class TREEFORM_API self_search {
 
     /// Without the pairs among the primitives below a marked node.
     /// \pre so do `settled`
-    self_search(const tree<D>& tree, const detail::node_marks<D>& settled) : self_search(tree, &settled) {}
+    self_search(const tree<D>& tree, const detail::node_marks<D>& settled)
+        : self_search(tree, &settled) {}
 
     [[nodiscard]] std::size_t chunks() const;
 

@@ -53,7 +53,7 @@ typedef struct treeform_offset_result {
     /// says where. `vanished`: nothing is left, as the solid is nowhere that thick, or by less
     /// than a cell.
     const treeform_certificate* certificate;
-    /// that was asked for, without its sign; of `treeform_wrap`, its `treeform_offset`
+    /// that was asked for, without its sign; of `treeform_wrap`, how far its vertices are
     double distance;
     double resolution;  ///< that was used; of `treeform_wrap`, its size
     /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
