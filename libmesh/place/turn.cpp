@@ -91,7 +91,7 @@ class turning {
                                          .max_steps = options_.max_steps,
                                          .limit = options_.limit,
                                          .progress = work_.part(0.2, 0.8)});
-        result_.steps = found.steps;
+        result_.statistics.steps = found.steps;
         result_.statistics.pairs_tested = found.pairs;
         if (found.end == turn_search::end_of::gave_up) return ended(placement_end::too_many_steps);
         if (found.end != turn_search::end_of::met) return ended(placement_end::nothing_met);
@@ -166,7 +166,6 @@ class turning {
         }
         now.angle = at * degrees_of_radian;
         now.tolerance = result_.tolerance;
-        now.steps = result_.steps;
         result_ = std::move(now);
     }
 

@@ -249,7 +249,7 @@ RESULTS = [
            docs={"relation": "'separate', 'touching' or 'penetrating'. Exact."}),
     Result("placement", "Placement", "_placement", "MeshResult", context="moving",
            doc="Where a mesh goes. True where it has a place; else `message` says why not.",
-           leave="clearance bed below_bed on_bed max_travel steps statistics",
+           leave="clearance bed below_bed on_bed max_travel statistics",
            docs={"end": "Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', "
                         "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
                         "'starts_touching', 'starts_below_bed', 'no_coordinates', "

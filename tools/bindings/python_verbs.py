@@ -159,15 +159,18 @@ FUNCTIONS = [
              docs={"matrix": "(4, 4)"}),
     # _shapes
     Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
-             "tf::offset($mesh, distance, options)", kind="long_work", check="solid", leave="offset"),
+             "tf::offset($mesh, distance, options)", kind="long_work", check="solid",
+             leave="offset"),
     Function("hollow(mesh: Mesh, wall: float, *, drains: Drains = (), options: offset_options) "
              "-> OffsetResult",
-             "tf::hollow($mesh, wall, $drains, options)", kind="long_work", check="solid", leave="offset",
+             "tf::hollow($mesh, wall, $drains, options)", kind="long_work", check="solid",
+             leave="offset",
              docs={"drains": "(n, 4) holes through the wall: a point, and the diameter of the hole "
                              "at the nearest point of the surface."}),
     Function("thicken(mesh: Mesh, thickness: float, *, side: thick_side = \"both\", "
              "options: offset_options) -> OffsetResult",
-             "tf::thicken($mesh, thickness, $side, options)", kind="long_work", check="solid", leave="offset",
+             "tf::thicken($mesh, thickness, $side, options)", kind="long_work", check="solid",
+             leave="offset",
              docs={"side": "'both', or where the thickness goes: 'front' (faces are "
                            "counter-clockwise there) or 'back'."}),
     Function("simplify(mesh: Mesh, max_distance: float, *, face_groups: Groups = None, "
@@ -248,9 +251,8 @@ FUNCTIONS = [
                             "one of them has no area."}),
     Function("mesh_intersections(a: Mesh, b: Mesh, options: intersection_options) -> "
              "FacePairs",
-             "tf::mesh_intersections($a, $b, options)", leave="vertices", docs=_MOVES | {"kinds": "those to look "
-                                                                                "for, of `KINDS`; "
-                                                                                "None is all."}),
+             "tf::mesh_intersections($a, $b, options)", leave="vertices",
+             docs=_MOVES | {"kinds": "those to look for, of `KINDS`; None is all."}),
     Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
              "tf::faces_in_box(mesh.view(), $min, $max)", docs={"min": "(3,)", "max": "(3,)"}),
     Function("group_pairs(mesh: Mesh, pairs: PairIds, kinds: Kinds) -> tuple[list[Region], Ids]",

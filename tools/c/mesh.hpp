@@ -157,8 +157,8 @@ inline tf::mesh round(tf::mesh_view mesh, tf::precision precision) {
     return {tf::rounded(mesh.points, precision), {mesh.faces.begin(), mesh.faces.end()}};
 }
 
-/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved), of
-/// precision `before` and written as `after`; with `always_compare`, faces too where the step is
+/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved),
+/// of precision `before` and written as `after`; with `always_compare`, faces too where the step is
 /// too small to be noticed. Exact: faces that meet now, and did not, are found by
 /// `treeform_self_intersections`.
 inline tf::rounding_effects rounding_effects(const treeform_mesh* mesh,

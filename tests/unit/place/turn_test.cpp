@@ -44,7 +44,7 @@ void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::placeme
     const tf::mesh there{found.points, moving.faces};
     CHECK(tf::relation(there, fixed).relation != tf::mesh_relation::penetrating);
     const double gap = tf::distance(there, fixed);
-    CAPTURE(found.steps);
+    CAPTURE(found.statistics.steps);
     CAPTURE(found.statistics.backed_off);
     CAPTURE(found.nearest->how.distance);
     CAPTURE(found.contacts.size());
@@ -82,7 +82,7 @@ TEST_CASE("turn: a door stops at the wall, at the angle that it is known to") {
             const double unit = precision == tf::precision::float32 ? 1e-4 : 1e-7;
             CHECK(found.angle <= angle + unit);
             CHECK(found.angle >= angle - unit);
-            CHECK(found.steps < 100);
+            CHECK(found.statistics.steps < 100);
         }
     // The other way round it comes to the wall's other end.
     const auto back = tf::turn(door, wall, {.direction = {0, 0, -3}});
@@ -95,7 +95,7 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     const auto found = tf::turn(shaft, bore, {});
     CHECK_FALSE(found);
     CHECK(found.end == tf::placement_end::nothing_met);
-    CHECK(found.steps < 5000);
+    CHECK(found.statistics.steps < 5000);
     const auto nothing = tf::turn(shaft, test::moved(bore, {100, 0, 0}), {});
     CHECK(nothing.end == tf::placement_end::nothing_met);
     CHECK(nothing.statistics.fixed_culled == 1);
@@ -164,7 +164,7 @@ TEST_CASE("turn: about any line, with others about, the same on any number of th
         const auto other = tf::turn(moving, fixed, axis);
         CHECK(other.points == one.points);
         CHECK(other.angle == one.angle);
-        CHECK(other.steps == one.steps);
+        CHECK(other.statistics.steps == one.statistics.steps);
     }
 }
 

@@ -100,11 +100,11 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
     to.effort = same<treeform_search_effort>(from.effort);
     to.angle = from.angle;
     to.tolerance = from.tolerance;
-    to.steps = from.steps;
     to.offset = from.offset;
     to.backed_off = from.statistics.backed_off;
     to.fixed_culled = from.statistics.fixed_culled;
     to.pairs_tested = from.statistics.pairs_tested;
+    to.steps = from.statistics.steps;
     to.message = kept.keep(from.message()).c_str();
 }
 

@@ -59,6 +59,7 @@ struct placement_statistics {
     unsigned backed_off = 0;          ///< steps back, where rounding made the mesh penetrate
     std::uint64_t fixed_culled = 0;   ///< fixed meshes skipped because of their box
     std::uint64_t pairs_tested = 0;   ///< pairs of faces, in motion
+    std::uint64_t steps = 0;          ///< of `turn`
     predicate_counters predicates{};  ///< used for these
 };
 
@@ -90,9 +91,8 @@ struct placement {
     /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way may
     /// exist; without a place, one that was not found.
     search_effort effort{};
-    double angle = 0.0;       ///< of `turn` and `mate_features`: in degrees, of the turn
-    double tolerance = 0.0;   ///< of `turn`: the gap, beyond the clearance, that counts as contact
-    std::uint64_t steps = 0;  ///< of `turn`
+    double angle = 0.0;      ///< of `turn` and `mate_features`: in degrees, of the turn
+    double tolerance = 0.0;  ///< of `turn`: the gap, beyond the clearance, that counts as contact
     /// Of `mate_features`: how far the center of the moving feature ended from that of the fixed
     /// one, along the direction of the fixed one. Of planes: their distance.
     double offset = 0.0;
