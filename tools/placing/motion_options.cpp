@@ -153,8 +153,9 @@ std::optional<mating> mate_by_features(const feature_settings& s, const tf::body
 }
 
 json turn_entry(const turn_settings& s, const tf::placement& found) {
-    return {{"axis", s.axis.direction}, {"origin", s.axis.origin},      {"max_angle", s.max_angle},
-            {"angle", found.angle},     {"tolerance", found.tolerance}, {"steps", found.statistics.steps}};
+    return {{"axis", s.axis.direction},     {"origin", s.axis.origin},
+            {"max_angle", s.max_angle},     {"angle", found.angle},
+            {"tolerance", found.tolerance}, {"steps", found.statistics.steps}};
 }
 
 json mating_entry(const mating& m, const tf::placement& at) {

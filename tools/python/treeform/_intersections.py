@@ -67,9 +67,8 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
     segment or point that it is; its pairs have a kind of their own.
 
-    vertices: 'by_coordinates' or 'by_index'. `self_intersections`: which corners two faces share:
-        those with equal coordinates, or with the same number.
-    first_only: Stop at the first pair found: the same pair on any number of threads.
+    vertices: 'by_coordinates' or 'by_index'. `self_intersections`: which corners two faces share.
+    first_only: Stop at the first pair: the same on any number of threads.
     kinds: those to look for, of `KINDS`; None is all. 'crossing': interiors pass through each
         other, no shared corner; 'pierce': the same with one shared corner; 'overlap': coplanar,
         with a common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the
@@ -102,7 +101,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
 
     move_a: (4, 4) an affine map of `a`, applied first.
     move_b: (4, 4) the same of `b`.
-    first_only: Stop at the first pair found: the same pair on any number of threads.
+    first_only: Stop at the first pair: the same on any number of threads.
     kinds: those to look for, of `KINDS`; None is all.
     limit: List at most this many pairs, those of the lowest face numbers. All are counted.
 

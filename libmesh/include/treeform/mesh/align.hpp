@@ -42,10 +42,10 @@ struct align_options {
     /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share, the
     /// nearest ones, and ignores the rest.
     double overlap = 1.0;
-    /// Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3 medians
-    /// of the distances at the start, v is halved down to where a third of the points is within 2 v;
-    /// at the end it is 4.5 medians of what is near. Up to half of the points may have no partner,
-    /// and nobody needs to say how many. Otherwise all count alike.
+    /// Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
+    /// medians of the distances at the start, v is halved down to where a third of the points is
+    /// within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
+    /// no partner, and nobody needs to say how many. Otherwise all count alike.
     bool robust = true;
     /// Ignore partners further apart. Not squared, not negative.
     double max_distance = std::numeric_limits<double>::infinity();

@@ -104,10 +104,10 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 [[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
                                           std::span<const std::string> names, bool mixed = false);
 
-/// All files in one, with their parts, texture coordinates, normals, materials and textures.
-/// Other properties are left out. `warnings` says what could not be kept of textures. The format,
-/// and the type of its numbers, are those of the first. `names` are those of the faces of files that
-/// have a single part; `labels` are for warnings.
+/// All files in one, with their parts, texture coordinates, normals, materials and textures. Other
+/// properties are left out. `warnings` says what could not be kept of textures. The format, and the
+/// type of its numbers, are those of the first. `names` are those of the faces of files that have a
+/// single part; `labels` are for warnings.
 ///
 /// \pre  there is a file, and as many names and labels as files
 /// \cost O(size of all files)

@@ -134,9 +134,9 @@ struct file_part {
     std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the whole file
 };
 
-/// The parts of a file by its objects, groups or nodes, each with the points and faces that are its own, and with
-/// their attributes (`carry_sources`). Parts whose open edges coincide are patches of one surface,
-/// and one part; solids that touch are not.
+/// The parts of a file by its objects, groups or nodes, each with the points and faces that are its
+/// own, and with their attributes (`carry_sources`). Parts whose open edges coincide are patches of
+/// one surface, and one part; solids that touch are not.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V log V + F log F), and O(V + F) for each part and column
@@ -173,9 +173,9 @@ struct repaired_file {
 
 /// `repair` of a file's mesh, or of each of its parts.
 ///
-/// Parts are the objects, groups or nodes, with the vertices as the file numbers them; those whose open
-/// edges coincide are patches of one surface, and one part. What `repair_options` says of the mesh,
-/// such as `max_loss`, then holds of each part. Cuts are kept where merging would mix values
+/// Parts are the objects, groups or nodes, with the vertices as the file numbers them; those whose
+/// open edges coincide are patches of one surface, and one part. What `repair_options` says of the
+/// mesh, such as `max_loss`, then holds of each part. Cuts are kept where merging would mix values
 /// (`carry_sources::merging_mixes_values`), of faces within a part.
 ///
 /// \throws std::invalid_argument as `repair`

@@ -135,9 +135,9 @@ struct mesh_part {
 
 /// The faces that corners link, as meshes, in the order of their lowest faces. Corners with equal
 /// coordinates are one. A closed part that is inside out is a cavity, and goes with the smallest
-/// closed part that it is in, if any. Volumes count without their sign, those of open parts as 0. Parts with
-/// less than `min_volume`, in cubic units, are left out; `largest` parts of the greatest volume are
-/// kept, of equal ones those of the greatest area; 0: all.
+/// closed part that it is in, if any. Volumes count without their sign, those of open parts as 0.
+/// Parts with less than `min_volume`, in cubic units, are left out; `largest` parts of the greatest
+/// volume are kept, of equal ones those of the greatest area; 0: all.
 ///
 /// \pre    every coordinate of a corner is finite
 /// \throws std::invalid_argument naming the lowest face with a corner out of range, and for a

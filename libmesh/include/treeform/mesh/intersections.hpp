@@ -85,9 +85,10 @@ struct curve_segment {
 [[nodiscard]] TREEFORM_API std::vector<curve_segment> intersection_curves(
     mesh_view mesh, std::span<const face_pair> pairs);
 
-/// A point of a curve, named by the lowest-numbered corners, edges or faces that meet there: a point
-/// of the mesh, which `edge` and `by` hold twice; two edges that cross, `edge` and `by`, each by its
-/// points, ascending; or `edge` that meets the inside of face `by[0]`, and `by[1]` is `none`.
+/// A point of a curve, named by the lowest-numbered corners, edges or faces that meet there: a
+/// point of the mesh, which `edge` and `by` hold twice; two edges that cross, `edge` and `by`, each
+/// by its points, ascending; or `edge` that meets the inside of face `by[0]`, and `by[1]` is
+/// `none`.
 struct curve_point {
     static constexpr std::uint32_t none = operand_element::none;
 

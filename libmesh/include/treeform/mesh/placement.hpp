@@ -199,7 +199,8 @@ struct TREEFORM_API body_set {
     ///
     /// \cost O(V + F)
     body_file& add(mesh_file file, std::string label = {}, std::string name = {});
-    /// The same with a body for each part of the file (as `split_parts` has them) where it has several.
+    /// The same with a body for each part of the file (as `split_parts` has them) where it has
+    /// several.
     body_file& add_parts(mesh_file file, std::string label = {}, std::string name = {});
     /// The same with a body for each part that has a name of its own (OBJ o and g, nodes of a
     /// scene), or one body where there are no names. Unlike `add_parts`, parts that have points in

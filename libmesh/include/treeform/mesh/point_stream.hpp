@@ -54,10 +54,10 @@ class TREEFORM_API point_reader {
     /// many rows there are. They can be read next. The facets of an STL have the column
     /// "stl_attribute" also where all of it is zero.
     ///
-    /// \throws io_error, whose `needs_all()` is true, for a format without points, for a file with faces or other
-    ///         elements that have rows; with `with_rows` for what is ahead of the points, for
-    ///         strips of triangles, and for faces with texture coordinates of corners; io_error as
-    ///         `read`
+    /// \throws io_error, whose `needs_all()` is true, for a format without points, for a file with
+    ///         faces or other elements that have rows; with `with_rows` for what is ahead of the
+    ///         points, for strips of triangles, and for faces with texture coordinates of corners;
+    ///         io_error as `read`
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {},
                           std::uint64_t first = 0, bool with_rows = false,
                           const read_options& options = {});
@@ -195,8 +195,9 @@ struct cloud_inputs {
     /// One file alone may be a mesh, as `point_reader` reads it with rows. Text is read once,
     /// shared by the ranks; every rank must call this.
     ///
-    /// \throws io_error, whose `needs_all()` is true, for what is no file of points, as `point_reader`, io_error for what
-    ///         cannot be read; std::invalid_argument for columns that `join` cannot unite
+    /// \throws io_error, whose `needs_all()` is true, for what is no file of points, as
+    ///         `point_reader`, io_error for what cannot be read; std::invalid_argument for columns
+    ///         that `join` cannot unite
     [[nodiscard]] TREEFORM_API cloud_outline outline(const communicator& ranks = {}) const;
 };
 

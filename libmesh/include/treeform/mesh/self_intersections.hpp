@@ -79,18 +79,14 @@ struct face_pair {
 
 /// Which pairs to look for, and where meshes are. What an operation has no use for, it ignores.
 struct intersection_options {
-    /// `self_intersections`: which corners two faces share: those with equal coordinates, or with
-    /// the same number.
+    /// `self_intersections`: which corners two faces share.
     vertex_identity vertices = vertex_identity::by_coordinates;
-    /// `mesh_intersections`: applied to each mesh first. A moved corner is what
-    /// `transform::operator()` gives, rounded to double; the answer is exact for these coordinates.
-    /// A prepared mesh itself is not changed.
+    /// `mesh_intersections`: applied to each mesh first. The answer is exact for moved corners as
+    /// `transform::operator()` gives them, rounded to double. A prepared mesh is not changed.
     transform<3> move_a{};
     transform<3> move_b{};
-    /// Stop at the first pair found: the same pair on any number of threads.
-    bool first_only = false;
-    /// Kinds to look for; the others are neither counted nor listed.
-    pair_kinds kinds = pair_kinds::all;
+    bool first_only = false;  ///< stop at the first pair: the same on any number of threads
+    pair_kinds kinds = pair_kinds::all;  ///< the others are neither counted nor listed
     /// `self_intersections`: [F] component of each face, for `between` and `within`; or empty.
     std::span<const std::uint32_t> component_of_face{};
     bool between = false;  ///< only pairs of faces of different components
@@ -135,8 +131,7 @@ struct intersection_region {
     point3 max;
     std::uint64_t pairs = 0;  ///< pairs in this region
 
-    /// The point half-way between the corners of the box.
-    [[nodiscard]] point3 center() const {
+    [[nodiscard]] point3 center() const {  ///< half-way between the corners of the box
         return {0.5 * min.x + 0.5 * max.x, 0.5 * min.y + 0.5 * max.y, 0.5 * min.z + 0.5 * max.z};
     }
     friend bool operator==(const intersection_region&, const intersection_region&) = default;

@@ -93,8 +93,8 @@ struct weld_options {
 /// `weld_options` names a property that the vertices do not have, or not in a usable form.
 class TREEFORM_API weld_property_error : public std::invalid_argument {
   public:
-    /// `option` is the member of `weld_options`; `reason` half a sentence, empty for a property that
-    /// is missing.
+    /// `option` is the member of `weld_options`; `reason` half a sentence, empty for a property
+    /// that is missing.
     weld_property_error(std::string option, std::string name, std::string reason);
 
     [[nodiscard]] const std::string& option() const { return option_; }

@@ -91,8 +91,8 @@ struct write_result {
 ///   point gets a copy for each that it has.
 /// - 3MF: an object and an item of the build for each part, as `split_parts` has them, with its
 ///   name; materials of parts with the colors of their faces; else colors of faces, else of points;
-///   the line "unit ..." of `obj_info`, else millimeters. Polygons are written as triangles. A number in text is
-///   that of the double, so that readers of floats and of doubles get the same.
+///   the line "unit ..." of `obj_info`, else millimeters. Polygons are written as triangles. A
+///   number in text is that of the double, so that readers of floats and of doubles get the same.
 ///
 /// Columns of points that several formats know have the names and types of the format that is
 /// written (`libmesh/attributes/known_columns.cpp` is the table): colors are red, green and blue of

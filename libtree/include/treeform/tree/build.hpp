@@ -35,12 +35,6 @@ concept partition_strategy = requires(int* first, int* nth, int* last,
     S::partition(first, nth, last, less);
 };
 
-namespace detail {
-/// Names the built-in selection of `build` (libtree/build/split.cpp). It works on packed records
-/// with a scratch array, so it has no `partition` over arbitrary iterators.
-struct bracketed_select {};
-}  // namespace detail
-
 /// Makes the box of an element: returns a `treeform::aabb<T, D>` of float or double, D = 2 or 3.
 template <class F, class Element>
 concept box_maker = requires(const F& make_aabb, Element element) {

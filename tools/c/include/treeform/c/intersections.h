@@ -58,21 +58,19 @@ typedef struct treeform_pairs {
 /// Which pairs to look for, and where meshes are. What an operation has no use for, it ignores.
 typedef struct treeform_intersections_options {
     size_t size;
-    /// [12] `mesh_intersections`: applied to each mesh first. A moved corner is what
-    /// `transform::operator()` gives, rounded to double; the answer is exact for these
-    /// coordinates. A prepared mesh itself is not changed; or null
+    /// [12] `mesh_intersections`: applied to each mesh first. The answer is exact for moved
+    /// corners as `transform::operator()` gives them, rounded to double. A prepared mesh is not
+    /// changed; or null
     const double* move_a;
     const double* move_b;  ///< [12] ; or null
-    /// Stop at the first pair found: the same pair on any number of threads.
-    int32_t first_only;
-    uint32_t kinds;  ///< Kinds to look for; the others are neither counted nor listed.
+    int32_t first_only;    ///< stop at the first pair: the same on any number of threads
+    uint32_t kinds;        ///< the others are neither counted nor listed
     /// List at most this many pairs, those of the lowest face numbers. All are counted; default
     /// all
     uint64_t limit;
     treeform_progress progress;
     void* progress_data;
-    /// `treeform_self_intersections`: which corners two faces share: those with equal coordinates,
-    /// or with the same number.
+    /// `treeform_self_intersections`: which corners two faces share.
     treeform_vertices vertices;
     const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
     int32_t between;                    ///< only pairs of faces of different components
