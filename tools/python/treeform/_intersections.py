@@ -74,7 +74,7 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
         with a common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the
         same three corners; 'touching': contact without crossing; 'degenerate': one of them has no
         area.
-    limit: Pairs listed, the lowest; all are counted.
+    limit: Lowest pairs listed; all are counted.
 
     Cost: O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face.
 
@@ -103,7 +103,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     move_b: (4, 4) the same of `b`.
     first_only: Stop at the first pair: the same on any number of threads.
     kinds: those to look for, of `KINDS`; None is all.
-    limit: Pairs listed, the lowest; all are counted.
+    limit: Lowest pairs listed; all are counted.
 
     Raises ValueError when a transform is not finite, or naming the mesh and its face with a corner
     out of range or, as moved, not finite.

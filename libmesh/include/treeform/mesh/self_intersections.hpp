@@ -91,7 +91,7 @@ struct intersection_options {
     std::span<const std::uint32_t> component_of_face{};
     bool between = false;  ///< only pairs of faces of different components
     bool within = false;   ///< only pairs of faces of one component
-    std::size_t limit = static_cast<std::size_t>(-1);  ///< pairs listed, the lowest; all are counted
+    std::size_t limit = static_cast<std::size_t>(-1);  ///< lowest pairs listed; all are counted
     progress_callback progress{};
 };
 

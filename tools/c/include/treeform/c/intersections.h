@@ -65,7 +65,7 @@ typedef struct treeform_intersections_options {
     const double* move_b;  ///< [12] ; or null
     int32_t first_only;    ///< stop at the first pair: the same on any number of threads
     uint32_t kinds;        ///< the others are neither counted nor listed
-    uint64_t limit;        ///< pairs listed, the lowest; all are counted; default all
+    uint64_t limit;        ///< lowest pairs listed; all are counted; default all
     treeform_progress progress;
     void* progress_data;
     /// `treeform_self_intersections`: which corners two faces share.
