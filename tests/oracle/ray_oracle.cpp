@@ -4,6 +4,7 @@
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 5,000).
 
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>

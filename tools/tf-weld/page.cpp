@@ -85,7 +85,7 @@ void add_distances(scene& shown, const tf::mesh_file& file, const welding& w) {
     std::vector<std::array<double, 3>> asked;
     for (std::size_t i = 0; i < places.size(); i += step) asked.push_back(places[i]);
     std::vector<double> distances;
-    for (const auto& near : search.k_nearest(asked, 2).neighbors)
+    for (const auto& near : search.k_nearest(asked, 2).answers)
         if (near.distance > 0.0) distances.push_back(near.distance);
     if (distances.empty()) return;
     const auto [low, high] = std::ranges::minmax(distances);
