@@ -134,7 +134,7 @@ static void test_resolve(void) {
     treeform_resolve_options_init(&options, sizeof options);
     options.precision = TREEFORM_FLOAT32;
     OK(treeform_resolve_self_intersections(mesh, TREEFORM_RESOLVE_OUTER, &options, &result));
-    CHECK(result->mesh.face_count == 648 && result->removed == 112);
+    CHECK(result->mesh.face_count == 648 && result->statistics->removed == 112);
     CHECK(result->certificate->precision == TREEFORM_FLOAT32);
     CHECK(result->certificate->max_displacement > 0.0 && result->face_source[0] < 640);
     treeform_free(result);

@@ -1,5 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
