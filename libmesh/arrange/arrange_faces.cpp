@@ -390,7 +390,7 @@ arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& 
             }
         usable.faces = kept;
     }
-    self_intersection_result found = detail::intersect::pairs_by_tree(
+    intersection_result found = detail::intersect::pairs_by_tree(
         usable, detail::base::checked_face_tree(usable),
         {.vertices = vertex_identity::by_index, .progress = part_of(options.progress, 0.0, 0.5)});
     if (found.status == treeform::status::cancelled) return cancelled_result(std::move(degenerate));

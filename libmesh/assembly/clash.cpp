@@ -43,7 +43,7 @@ class pair_inspection {
         }
         found.how = how.relation == mesh_relation::touching ? mesh_relation::touching
                                                             : mesh_relation::penetrating;
-        mesh_intersection_options all;
+        intersection_options all;
         all.progress = asking_;
         const auto meeting =
             detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), all);

@@ -142,7 +142,7 @@ std::optional<bool> moved_part::holds_part_of(const moved_part& other) const {
 part_relation moved_part::relation_to(const moved_part& other, double clearance) const {
     const place::shape &a = part_->shape(), &b = other.part_->shape();
     if (intersects(a.prepared(), b.prepared(), {move_, other.move_})) {
-        mesh_intersection_options crossing;
+        intersection_options crossing;
         crossing.move_a = move_;
         crossing.move_b = other.move_;
         crossing.first_only = true;

@@ -1,8 +1,9 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/topology/select_faces.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <cstdint>
 #include <string>

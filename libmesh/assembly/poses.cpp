@@ -33,7 +33,7 @@ bool is_clash(const pose_clash& one, double clearance) {
 
 class pose_inspection {
   public:
-    pose_inspection(std::span<const prepared_mesh> parts, const pose_options& options)
+    pose_inspection(std::span<const prepared_mesh> parts, const clash_options& options)
         : options_(options),
           ignored_(detail::assembly::sorted_pairs("check_poses", options.ignored, parts.size())) {
         parts_.reserve(parts.size());
@@ -64,13 +64,13 @@ class pose_inspection {
     }
 
   private:
-    const pose_options& options_;
+    const clash_options& options_;
     std::vector<part_pair> ignored_;
     std::vector<resting_part> parts_;
 };
 
 void check_pose_input(std::span<const prepared_mesh> parts, std::span<const transform<3>> poses,
-                      const pose_options& options) {
+                      const clash_options& options) {
     const std::string name = "treeform::check_poses: ";
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
         throw std::invalid_argument(name + "the clearance is negative or not finite");
@@ -90,7 +90,7 @@ void check_pose_input(std::span<const prepared_mesh> parts, std::span<const tran
 }  // namespace
 
 pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<3>> poses,
-                        const pose_options& options) {
+                        const clash_options& options) {
     const detail::base::prepared_refs all_parts(given_parts);
     const std::span<const prepared_mesh> parts = all_parts;
     check_pose_input(parts, poses, options);
@@ -134,16 +134,15 @@ std::vector<bool> intersects(const mesh_ref& given_a, const mesh_ref& given_b,
 }
 
 std::vector<double> distance(const mesh_ref& given_a, const mesh_ref& given_b,
-                             std::span<const mesh_positions> positions, double radius) {
+                             std::span<const mesh_positions> positions) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     std::vector<double> found(positions.size());
-    for_chunks(
-        positions.size(), positions_per_chunk,
-        [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i)
-                found[i] = distance(*a, *b, {positions[i].move_a, positions[i].move_b, radius});
-        });
+    for_chunks(positions.size(), positions_per_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i)
+                       found[i] = distance(*a, *b, positions[i]);
+               });
     return found;
 }
 

@@ -1,3 +1,4 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <treeform/mesh/mesh_file.hpp>

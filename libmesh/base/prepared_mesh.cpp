@@ -11,7 +11,7 @@ namespace treeform {
 
 struct prepared_mesh::state {
     struct slot {
-        once filled;
+        detail::once filled;
         std::shared_ptr<const void> index;
     };
 

@@ -105,7 +105,7 @@ constexpr base::slot<known_pairs> first_found{base::slot_name::few_own_pairs};
 known_pairs find_pairs(const prepared_mesh& mesh, const progress_callback& progress,
                        std::size_t most, const intersect::wanted_pairs* wanted = nullptr) {
     if (mesh.view().faces.empty()) return {};
-    self_intersection_result met = intersect::pairs_by_tree(
+    intersection_result met = intersect::pairs_by_tree(
         mesh.view(), build_face_tree(mesh),
         {.vertices = vertex_identity::by_index, .progress = progress}, most, wanted);
     if (met.status == treeform::status::cancelled) throw stopped{};

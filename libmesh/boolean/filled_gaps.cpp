@@ -5,8 +5,8 @@
 #include <libmesh/boolean/filled_gaps.hpp>
 #include <libmesh/geometry/flat_triangle.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/search.hpp>
 

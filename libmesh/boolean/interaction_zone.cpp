@@ -102,10 +102,10 @@ void join_equal(interaction_zone& near) {
     mesh& local = near.local;
     const auto equal = weld::few_equal_points(local.points);
     if (!equal) return;
-    const std::size_t count = equal->first_of_new.size();
+    const std::size_t count = equal->first_of_group.size();
     for (std::size_t p = 0; p < count; ++p) {
-        local.points[p] = local.points[equal->first_of_new[p]];
-        near.point_of[p] = near.point_of[equal->first_of_new[p]];
+        local.points[p] = local.points[equal->first_of_group[p]];
+        near.point_of[p] = near.point_of[equal->first_of_group[p]];
     }
     local.points.resize(count);
     near.point_of.resize(count);
@@ -113,7 +113,7 @@ void join_equal(interaction_zone& near) {
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t f = begin; f < end; ++f)
                        for (std::uint32_t& corner : local.faces[f])
-                           corner = equal->new_of_old[corner];
+                           corner = equal->group_of_point[corner];
                });
 }
 
@@ -150,7 +150,7 @@ void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, intera
 
 void find_own_pairs_of_second(interaction_zone& near) {
     const std::span<const face> faces = near.local.faces;
-    const self_intersection_result found =
+    const intersection_result found =
         self_intersections({near.local.points, faces.subspan(near.first_of_b)},
                            {.vertices = vertex_identity::by_index});
     for (const auto& [a, b, kind] : found.pairs)

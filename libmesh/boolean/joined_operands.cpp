@@ -86,15 +86,15 @@ void join_equal(joined_operands& joined) {
     mesh& all = joined.all;
     const auto equal = weld::few_equal_points(all.points);
     if (!equal) return;
-    const std::size_t count = equal->first_of_new.size();
-    std::vector<std::uint32_t> number = equal->first_of_new;
+    const std::size_t count = equal->first_of_group.size();
+    std::vector<std::uint32_t> number = equal->first_of_group;
     for (std::size_t i = 0; i < count; ++i) {
         all.points[i] = all.points[number[i]];
         if (!joined.number_of_point.empty()) number[i] = joined.number_of_point[number[i]];
     }
     all.points.resize(count);
     joined.number_of_point = std::move(number);
-    renumber(all.faces, equal->new_of_old);
+    renumber(all.faces, equal->group_of_point);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct solid::formula {
     char operation = 0;
     std::shared_ptr<const formula> left{};
     std::shared_ptr<const formula> right{};
-    mutable once evaluated{};
+    mutable detail::once evaluated{};
     mutable boolean_result result{};
 
     formula() = default;

@@ -53,7 +53,7 @@ void join_points(usable_mesh& part, const part_options& options) {
         part.mesh = join_equal_points(part.mesh);
         part.distinct = part.mesh.points.size();
     } else if (options.details) {
-        part.distinct = find_equal_points(part.mesh.points).first_of_new.size();
+        part.distinct = find_equal_points(part.mesh.points).first_of_group.size();
     }
     if (!(options.tolerance > 0.0)) return;
     const std::size_t before = part.mesh.points.size();
@@ -118,19 +118,16 @@ usable_mesh usable_part(mesh given, std::vector<std::uint32_t> stored_face,
     return part;
 }
 
-joined_meshes join_meshes(std::span<const mesh_view> meshes) {
+mesh join_meshes(std::span<const mesh_view> meshes) {
     mesh all;
-    joined_meshes result;
-    for (std::uint32_t i = 0; i < meshes.size(); ++i) {
+    for (const mesh_view& one : meshes) {
         const auto offset = static_cast<std::uint32_t>(all.points.size());
-        for (const point3& p : meshes[i].points)
+        for (const point3& p : one.points)
             all.points.push_back(detail::base::is_finite(p) ? p : point3{});
-        for (const auto& [a, b, c] : meshes[i].faces)
+        for (const auto& [a, b, c] : one.faces)
             all.faces.push_back({a + offset, b + offset, c + offset});
-        result.mesh_of_face.resize(all.faces.size(), i);
     }
-    result.mesh = join_equal_points(all);
-    return result;
+    return join_equal_points(all);
 }
 
 }  // namespace treeform

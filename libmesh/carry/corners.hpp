@@ -12,6 +12,15 @@
 
 namespace treeform::detail::carry {
 
+/// The source of each face and vertex of the result, as in `boolean_result`.
+struct carried_elements {
+    std::span<const operand_element> face_source;           ///< [F]
+    std::span<const operand_element> vertex_source;         ///< [V]
+    std::span<const operand_element> face_of_cut_vertex{};  ///< [V] or empty
+    /// [3 F] or empty: of a single input, as in `simplify_result`
+    std::span<const std::uint32_t> corner_source{};
+};
+
 /// Gives `file` the values that corners of the inputs have.
 ///
 /// A corner of a face that lies in an input's face has what that face has there: that of one of its

@@ -82,9 +82,8 @@ void append_lists(column& to, const column& from) {
 
 class joiner {
   public:
-    joiner(std::vector<mesh_file> files, std::span<const std::string> names,
-           const join_options& options)
-        : files_(std::move(files)), names_(names), options_(options) {}
+    joiner(std::vector<mesh_file> files, std::span<const std::string> names, bool mixed)
+        : files_(std::move(files)), names_(names), mixed_(mixed) {}
 
     mesh_file join() {
         check_sizes();
@@ -150,7 +149,7 @@ class joiner {
     void join_descriptions() {
         all_.format = files_.front().format;
         all_.attributes.header = files_.front().attributes.header;
-        all_.las = detail::carry::join_las(files_, names_, options_.mixed);
+        all_.las = detail::carry::join_las(files_, names_, mixed_);
         for (std::size_t i = 0; i < files_.size(); ++i)
             if (!all_.las && files_[i].las && !files_[i].las->records.empty())
                 warn("left-out", names_[i] + ": records of LAS left out");
@@ -287,7 +286,7 @@ class joiner {
 
     std::vector<mesh_file> files_;
     std::span<const std::string> names_;
-    join_options options_;
+    bool mixed_;
     mesh_file all_{};
     bool polygons_ = false;
     bool parts_ = false;
@@ -295,13 +294,12 @@ class joiner {
 
 }  // namespace
 
-mesh_file join(std::vector<mesh_file> files, std::span<const std::string> names,
-               const join_options& options) {
+mesh_file join(std::vector<mesh_file> files, std::span<const std::string> names, bool mixed) {
     if (files.empty()) return {};
     if (files.size() != names.size())
         throw std::invalid_argument("treeform::join: " + std::to_string(names.size()) +
                                     " names for " + std::to_string(files.size()) + " files");
-    return joiner(std::move(files), names, options).join();
+    return joiner(std::move(files), names, mixed).join();
 }
 
 }  // namespace treeform

@@ -1,6 +1,7 @@
 #include <libmesh/attributes/class_colors.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/weld.hpp>
 
 namespace treeform {
 namespace {

@@ -2,6 +2,7 @@
 /// \file
 /// Materials of the inputs' faces, for the faces of what is made of them, and names of files.
 
+#include <libmesh/carry/corners.hpp>
 #include <treeform/mesh/carry.hpp>
 
 #include <span>

@@ -264,10 +264,12 @@ namespace treeform {
 
 using namespace detail::carry;  // NOLINT: their public half
 
-void carry_sources::carry(mesh_file& file, const carried_elements& made) const {
-    const std::span<const carry_source> inputs = all_;
+namespace {
+
+void carry_all(mesh_file& file, const carry_sources& sources, const carried_elements& made) {
+    const std::span<const carry_source> inputs = sources.all();
     const mesh& surface = file.mesh;
-    if (const auto of_points = properties_of(inputs, "vertex"); has_vertex_values()) {
+    if (const auto of_points = properties_of(inputs, "vertex"); sources.has_vertex_values()) {
         const std::vector<mixture> mixtures = mixtures_of(inputs, surface, made);
         element& rows = file.attributes.obtain("vertex", surface.points.size());
         for (const property& p : of_points)
@@ -290,6 +292,14 @@ void carry_sources::carry(mesh_file& file, const carried_elements& made) const {
     carry_materials(file, inputs, made);
 }
 
+}  // namespace
+
+void carry_sources::carry(mesh_file& file, std::span<const operand_element> face_source,
+                          std::span<const operand_element> vertex_source,
+                          std::span<const operand_element> face_of_cut_vertex) const {
+    carry_all(file, *this, {face_source, vertex_source, face_of_cut_vertex});
+}
+
 void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_source,
                           std::span<const std::uint32_t> vertex_source,
                           std::span<const std::uint32_t> face_of_new_vertex,
@@ -303,7 +313,7 @@ void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_s
     const std::vector<operand_element> faces = of_input(face_source);
     const std::vector<operand_element> vertices = of_input(vertex_source);
     const std::vector<operand_element> cut = of_input(face_of_new_vertex);
-    carry(file, {faces, vertices, cut, corner_source});
+    carry_all(file, *this, {faces, vertices, cut, corner_source});
 }
 
 std::vector<std::uint32_t> carry_sources::face_groups(bool by_values, bool by_input) const {

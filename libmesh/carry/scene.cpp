@@ -16,14 +16,13 @@ namespace {
 
 /// The parts of a file in a scene, to be known there by the names they have, or by the
 /// file's where it has one part.
-std::vector<part> parts_in_scene(const scene_member& member, std::vector<part> parts) {
+std::vector<part> parts_in_scene(const std::string& name, std::vector<part> parts) {
     const bool one = std::all_of(parts.begin(), parts.end(), [&](const part& p) {
         return p.object == parts[0].object && p.group == parts[0].group;
     });
     for (part& p : parts)
-        if (one) p = {.object = member.name, .material = p.material, .first_face = p.first_face};
-    if (parts.empty() || parts[0].first_face > 0)
-        parts.insert(parts.begin(), {.object = member.name});
+        if (one) p = {.object = name, .material = p.material, .first_face = p.first_face};
+    if (parts.empty() || parts[0].first_face > 0) parts.insert(parts.begin(), {.object = name});
     if (one)
         parts.erase(
             std::unique(parts.begin(), parts.end(),
@@ -56,13 +55,12 @@ void append_texture_numbers(mesh_file& scene, const mesh_file& one, std::size_t 
     values.insert(values.end(), more->values.begin(), more->values.end());
 }
 
-void append(mesh_file& scene, const scene_member& member, mesh_file one) {
-    const mesh& added = member.file->mesh;
+void append(mesh_file& scene, const mesh& added, const std::string& name, mesh_file one) {
     one.split_polygons();
     append_texture_numbers(scene, one, added.faces.size());
     const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
     const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
-    for (part& p : parts_in_scene(member, std::move(one.attributes.parts))) {
+    for (part& p : parts_in_scene(name, std::move(one.attributes.parts))) {
         p.first_face += first_face;
         scene.attributes.parts.push_back(std::move(p));
     }
@@ -77,21 +75,19 @@ void append(mesh_file& scene, const scene_member& member, mesh_file one) {
 
 }  // namespace
 
-mesh_file scene_of(std::span<const scene_member> members) {
+mesh_file scene_of(std::span<const mesh_file* const> given, std::span<const std::string> names,
+                   std::span<const std::string> labels) {
     std::vector<mesh_file> files;
-    std::vector<std::string> labels;
-    for (const scene_member& member : members) {
-        files.push_back(described(*member.file));
-        labels.push_back(member.label);
-    }
+    for (const mesh_file* one : given) files.push_back(described(*one));
     std::vector<mesh_file*> all(files.size());
     std::transform(files.begin(), files.end(), all.begin(), [](mesh_file& one) { return &one; });
     mesh_file scene;
     scene.warnings = unite_textures(all, labels);
-    scene.format = members[0].file->format;
-    scene.stored_as = members[0].file->stored_as;
+    scene.format = given[0]->format;
+    scene.stored_as = given[0]->stored_as;
     scene.attributes.texture_files = files[0].attributes.texture_files;
-    for (std::size_t i = 0; i < members.size(); ++i) append(scene, members[i], std::move(files[i]));
+    for (std::size_t i = 0; i < given.size(); ++i)
+        append(scene, given[i]->mesh, names[i], std::move(files[i]));
     scene.stored_faces = scene.mesh.faces.size();
     return scene;
 }

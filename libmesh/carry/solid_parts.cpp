@@ -2,6 +2,7 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/carry/solid_parts.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,7 +26,7 @@ std::vector<part_edge> open_edges(mesh_view mesh, const std::vector<scene_part>&
     std::vector<point3> points(mesh.points.size());  // those that no face uses may be anything
     for (const std::uint32_t p : base::used_points(mesh.points.size(), mesh.faces))
         points[p] = mesh.points[p];
-    const std::vector<std::uint32_t> number = find_equal_points(points).new_of_old;
+    const std::vector<std::uint32_t> number = find_equal_points(points).group_of_point;
     std::vector<part_edge> edges;
     for (std::uint32_t part = 0; part < parts.size(); ++part)
         for (const std::uint32_t f : parts[part].faces)

@@ -2,6 +2,7 @@
 /// \file
 /// The parts of a file that are mended one by one.
 
+#include <libmesh/attributes/scene_parts.hpp>
 #include <treeform/mesh/carry.hpp>
 
 #include <cstdint>

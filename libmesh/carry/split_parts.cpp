@@ -1,3 +1,4 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/carry/solid_parts.hpp>
 #include <libmesh/topology/select_faces.hpp>

@@ -203,9 +203,9 @@ class along_lines {
 }  // namespace
 
 isolines_result isolines(const mesh_ref& mesh, std::span<const double> values,
-                         std::span<const double> levels, const section_options& options) {
+                         std::span<const double> levels, const progress_callback& report) {
     const valued_mesh of("isolines", mesh, values, levels);
-    detail::base::work_progress progress(options.progress);
+    detail::base::work_progress progress(report);
     const std::size_t count = of.levels().size();
     const detail::cut::met_faces met = detail::cut::faces_met(of.joined(), of.of(), count);
     std::vector<isolines_result> of_level(count);
@@ -236,7 +236,7 @@ cut_result cut_along(const mesh_ref& mesh, std::span<const double> values,
     std::vector<mesh_view> views;
     for (const cut_piece& piece : result.pieces) views.push_back(piece.mesh);
     const treeform::mesh whole = concatenate(views);
-    const self_intersection_result met = self_intersections(whole, {.progress = options.progress});
+    const intersection_result met = self_intersections(whole, {.progress = options.progress});
     certificate& known = result.certificate;
     if (met.status == status::cancelled) {
         result.pieces.clear();

@@ -2,10 +2,10 @@
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/topology/select_faces.hpp>
 #include <libmesh/weld/joined_faces.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -81,8 +81,8 @@ std::vector<std::uint32_t> hosts_of(const std::vector<mesh_part>& parts) {
 }
 
 /// Keeps the parts that are asked for.
-void choose(std::vector<mesh_part>& parts, const components_options& options) {
-    if (options.min_volume <= 0.0 && options.largest >= parts.size()) return;
+void choose(std::vector<mesh_part>& parts, double min_volume, std::size_t largest) {
+    if (min_volume <= 0.0 && (largest == 0 || largest >= parts.size())) return;
     std::vector<double> volume;
     for (const mesh_part& part : parts)
         volume.push_back(is_closed(part) ? std::abs(part.volume) : 0.0);
@@ -91,8 +91,8 @@ void choose(std::vector<mesh_part>& parts, const components_options& options) {
     std::ranges::stable_sort(order, [&](std::uint32_t i, std::uint32_t j) {
         return volume[i] != volume[j] ? volume[i] > volume[j] : parts[i].area > parts[j].area;
     });
-    std::erase_if(order, [&](std::uint32_t i) { return volume[i] < options.min_volume; });
-    if (order.size() > options.largest) order.resize(options.largest);
+    std::erase_if(order, [&](std::uint32_t i) { return volume[i] < min_volume; });
+    if (largest != 0 && order.size() > largest) order.resize(largest);
     std::ranges::sort(order);
     for (std::size_t i = 0; i < order.size(); ++i)
         if (order[i] != i) parts[i] = std::move(parts[order[i]]);
@@ -101,10 +101,10 @@ void choose(std::vector<mesh_part>& parts, const components_options& options) {
 
 }  // namespace
 
-std::vector<mesh_part> components(const mesh_ref& given, const components_options& options) {
+std::vector<mesh_part> components(const mesh_ref& given, double min_volume, std::size_t largest) {
     const mesh_view mesh = given.view();
     detail::base::check_faces("components", mesh.points.size(), mesh.faces);
-    if (!(options.min_volume >= 0.0))
+    if (!(min_volume >= 0.0))
         throw std::invalid_argument("treeform::components: min_volume is negative or NaN");
     const detail::weld::joined_faces joined = detail::weld::join_faces(mesh);
     std::vector<std::uint32_t> label = face_components(mesh.points.size(), joined.of(mesh).faces);
@@ -121,7 +121,7 @@ std::vector<mesh_part> components(const mesh_ref& given, const components_option
         parts = labeled_parts(mesh, label, kept);
         measure(parts);
     }
-    choose(parts, options);
+    choose(parts, min_volume, largest);
     return parts;
 }
 

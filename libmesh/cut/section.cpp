@@ -140,10 +140,10 @@ void add_layer(section_result& result, const drawn_layer& layer, double height, 
 
 section_result sections_of(mesh_view mesh, const detail::weld::joined_faces& joined,
                            const oriented_plane& plane, std::span<const double> heights,
-                           const section_options& options) {
+                           const progress_callback& report) {
     section_result result;
     result.frame = plane.frame();
-    detail::base::work_progress progress(options.progress);
+    detail::base::work_progress progress(report);
     const auto cancelled = [&] {
         result = {};
         result.status = status::cancelled;
@@ -180,12 +180,12 @@ void check_mesh(mesh_view mesh) {
 }  // namespace
 
 section_result section(const mesh_ref& mesh, const oriented_plane& plane,
-                       std::span<const double> heights, const section_options& options) {
+                       std::span<const double> heights, const progress_callback& progress) {
     check_mesh(mesh.view());
     return sections_of(mesh.view(),
                        mesh.prepared() != nullptr ? detail::weld::join_faces(*mesh.prepared())
                                                   : detail::weld::join_faces(mesh.view()),
-                       plane, heights, options);
+                       plane, heights, progress);
 }
 
 point3 section_result::in_space(const section_layer& layer, const point2& p) const {

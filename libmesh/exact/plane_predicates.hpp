@@ -40,6 +40,14 @@ struct plane_points {
 [[nodiscard]] int line_side(int axis, const point3& o, const point3& d, const point3& p,
                             predicate_counters* counters = nullptr);
 
+/// A plane through a point along two vectors, each the difference of two points. Its normal is
+/// (u_to - u_from) x (v_to - v_from).
+struct cutting_plane {
+    point3 at;
+    point3 u_from, u_to;
+    point3 v_from, v_to;
+};
+
 /// Sign of t - s for the parameters t, s at which the line o + t d meets planes p and q.
 /// \pre d points to the positive side of both: their normals . d > 0
 [[nodiscard]] int compare_cuts(const point3& o, const point3& d, const cutting_plane& p,

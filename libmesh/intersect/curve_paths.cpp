@@ -90,11 +90,11 @@ class point_table {
 
     [[nodiscard]] curve_point named(std::uint32_t id, const detail::intersect::mesh_meetings& met,
                                     const point3& position) const {
-        if (id < given_) return {curve_point::origin::corner, {id, id}, {id, id}, position};
+        if (id < given_) return {{id, id}, {id, id}, position};
         const detail::intersect::point_name& name = met.names[id - given_];
         const bool by_edges = name.kind == detail::intersect::point_name::origin::edges;
-        return {by_edges ? curve_point::origin::edges : curve_point::origin::edge_face, name.edge,
-                name.by, position};
+        if (by_edges) return {name.edge, name.by, position};
+        return {name.edge, {name.by[0], curve_point::none}, position};
     }
 
     std::size_t given_;

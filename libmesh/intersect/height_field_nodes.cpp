@@ -15,7 +15,7 @@ namespace {
 class field_marker {
   public:
     field_marker(points_view points, std::span<const numbered_face> faces, const tree<3>& tree,
-                 node_marks<3>& found)
+                 detail::node_marks<3>& found)
         : test_(points), faces_(faces), tree_(tree), found_(found) {}
 
     void settle(unsigned level, std::size_t node) {
@@ -31,14 +31,14 @@ class field_marker {
     height_field_test test_;
     std::span<const numbered_face> faces_;
     const tree<3>& tree_;
-    node_marks<3>& found_;
+    detail::node_marks<3>& found_;
 };
 
 }  // namespace
 
-node_marks<3> find_height_fields(points_view points, std::span<const numbered_face> faces,
-                                 const tree<3>& tree) {
-    node_marks<3> found(tree);
+detail::node_marks<3> find_height_fields(points_view points, std::span<const numbered_face> faces,
+                                         const tree<3>& tree) {
+    detail::node_marks<3> found(tree);
     if (tree.empty()) return found;
     unsigned top = 0;
     while (!tree.is_leaf_level(top) && tree.capacity(top) > height_field_test::max_faces) ++top;

@@ -15,8 +15,8 @@ namespace treeform::detail::intersect {
 /// the corners and edges they share by number. On a clean scan that is most of them, and costs a
 /// tenth of testing their pairs.
 /// \pre `faces` are in leaf order; no coordinate is beyond `largest_filtered_coordinate`
-[[nodiscard]] node_marks<3> find_height_fields(points_view points,
-                                               std::span<const numbered_face> faces,
-                                               const tree<3>& tree);
+[[nodiscard]] detail::node_marks<3> find_height_fields(points_view points,
+                                                       std::span<const numbered_face> faces,
+                                                       const tree<3>& tree);
 
 }  // namespace treeform::detail::intersect

@@ -77,15 +77,13 @@ class pairs_looked_at {
 
 /// What the chunks of a search give, in a narrow phase each.
 template <class Source>
-mesh_intersection_result classified(const pair_search<3>& search,
-                                    const typename Source::input& meshes,
-                                    const mesh_intersection_options& options,
-                                    detail::base::effort* effort = nullptr) {
+intersection_result classified(const pair_search<3>& search, const typename Source::input& meshes,
+                               const intersection_options& options,
+                               detail::base::effort* effort = nullptr) {
     const std::size_t chunks = search.chunks();
     pairs_looked_at looked(chunks, effort ? effort->allowance() : pairs_looked_at::unlimited);
     std::vector<detail::intersect::narrow_phase_output> found(chunks);
     std::vector<detail::intersect::bad_faces> bad(chunks);
-    std::vector<search_statistics> searched(chunks);
     detail::intersect::search_progress progress(options.progress, chunks);
     std::atomic<std::size_t> last{chunks};  // the first chunk that found enough
     for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t, std::size_t) {
@@ -94,7 +92,7 @@ mesh_intersection_result classified(const pair_search<3>& search,
         bool too_many = false;
         const auto satisfied = [&] { return options.first_only && !mine.pairs.empty(); };
         detail::intersect::narrow_phase<Source> phase(options.kinds, mine, meshes, bad[chunk]);
-        searched[chunk] = search.visit(chunk, [&](const candidate_block& block) {
+        search.visit(chunk, [&](const candidate_block& block) {
             if (not_needed()) return false;
             phase.add(block);
             too_many = !looked.add(chunk, block.first.size());
@@ -105,16 +103,14 @@ mesh_intersection_result classified(const pair_search<3>& search,
         progress.chunk_done();
     });
     if (effort && !effort->spend(looked.up_to(last.load()))) {
-        mesh_intersection_result nothing;
+        intersection_result nothing;
         nothing.status = treeform::status::cancelled;
         return nothing;
     }
     detail::intersect::bad_faces met;
-    mesh_intersection_result result;
-    for (std::size_t chunk = 0; chunk < std::min(last.load() + 1, chunks); ++chunk) {
+    intersection_result result;
+    for (std::size_t chunk = 0; chunk < std::min(last.load() + 1, chunks); ++chunk)
         add(bad[chunk], met);
-        result.searched += searched[chunk];
-    }
     check_faces_met("treeform::mesh_intersections", met);
     if (options.first_only) detail::intersect::keep_first(found);
     detail::intersect::join_outputs(found, options.limit, result);
@@ -123,11 +119,10 @@ mesh_intersection_result classified(const pair_search<3>& search,
 }
 
 /// \param moves what is still to be done to the trees
-mesh_intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                             const tree<3>& tree_b,
-                                             const mesh_intersection_options& options,
-                                             const mesh_positions& moves,
-                                             detail::base::effort* effort = nullptr) {
+intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                        const tree<3>& tree_b, const intersection_options& options,
+                                        const mesh_positions& moves,
+                                        detail::base::effort* effort = nullptr) {
     const pair_search<3> search(transformed(tree_a, moves.move_a),
                                 transformed(tree_b, moves.move_b), turned_boxes::both_ways);
     return classified<detail::intersect::face_candidates>(
@@ -137,7 +132,7 @@ mesh_intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a,
 /// \param moves what is still to be done to the trees
 bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
               const mesh_positions& positions, const mesh_positions& moves) {
-    mesh_intersection_options all;
+    intersection_options all;
     const detail::intersect::face_candidates::input meshes{{a, tree_a, positions.move_a},
                                                            {b, tree_b, positions.move_b}};
     std::mutex mutex;  // taken for a bad face only
@@ -163,9 +158,10 @@ bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tr
 
 }  // namespace
 
-mesh_intersection_result detail::intersect::mesh_intersections(
-    mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-    const mesh_intersection_options& options, base::effort* effort) {
+intersection_result detail::intersect::mesh_intersections(mesh_view a, const tree<3>& tree_a,
+                                                          mesh_view b, const tree<3>& tree_b,
+                                                          const intersection_options& options,
+                                                          base::effort* effort) {
     check_tree("treeform::mesh_intersections", "first", a, tree_a);
     check_tree("treeform::mesh_intersections", "second", b, tree_b);
     return classified_by_faces(a, tree_a, b, tree_b, options, {options.move_a, options.move_b},
@@ -174,8 +170,8 @@ mesh_intersection_result detail::intersect::mesh_intersections(
 
 namespace {
 
-mesh_intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh& b,
-                                          const mesh_intersection_options& options) {
+intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh& b,
+                                     const intersection_options& options) {
     const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
     const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
     const pair_search<3> search(transformed(tree_a, options.move_a),
@@ -189,14 +185,14 @@ mesh_intersection_result between_prepared(const prepared_mesh& a, const prepared
 
 }  // namespace
 
-mesh_intersection_result mesh_intersections(const mesh_ref& a, const mesh_ref& b,
-                                            const mesh_intersection_options& options) {
+intersection_result mesh_intersections(const mesh_ref& a, const mesh_ref& b,
+                                       const intersection_options& options) {
     if (a.prepared() != nullptr || b.prepared() != nullptr)
         return between_prepared(detail::base::prepared_ref(a), detail::base::prepared_ref(b),
                                 options);
     const auto [tree_a, tree_b] = detail::intersect::overlap_trees(
         "mesh_intersections", a.view(), b.view(), {options.move_a, options.move_b});
-    return classified_by_faces(a.view(), tree_a.boxes, b.view(), tree_b.boxes, options, {});
+    return classified_by_faces(a.view(), tree_a, b.view(), tree_b, options, {});
 }
 
 bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
@@ -213,7 +209,7 @@ bool intersects(const mesh_ref& a, const mesh_ref& b, const mesh_positions& posi
     }
     const auto [tree_a, tree_b] =
         detail::intersect::overlap_trees("intersects", a.view(), b.view(), positions);
-    return any_meet(a.view(), tree_a.boxes, b.view(), tree_b.boxes, positions, {});
+    return any_meet(a.view(), tree_a, b.view(), tree_b, positions, {});
 }
 
 }  // namespace treeform

@@ -16,9 +16,9 @@ namespace treeform::detail::intersect {
 ///
 /// \pre    `tree_a` and `tree_b` are `build_face_tree(a)` and `build_face_tree(b)`
 /// \throws std::invalid_argument when a tree has not one primitive a face
-[[nodiscard]] TREEFORM_API mesh_intersection_result
+[[nodiscard]] TREEFORM_API intersection_result
 mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-                   const mesh_intersection_options& options = {}, base::effort* effort = nullptr);
+                   const intersection_options& options = {}, base::effort* effort = nullptr);
 
 /// As `treeform::intersects`. Which bad face is met, if any, may depend on the threads.
 ///

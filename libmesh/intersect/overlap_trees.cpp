@@ -20,7 +20,7 @@ void check_finite_faces_moved(const char* function, mesh_view mesh, const transf
 }
 
 using box3 = aabb<double, 3>;
-using trees = std::pair<partial_tree<3>, partial_tree<3>>;
+using trees = std::pair<tree<3>, tree<3>>;
 
 constexpr std::size_t most_sampled = 1024;
 
@@ -50,17 +50,17 @@ trees build_trees(std::span<const face> a, const BoxOfA& box_of_a, std::span<con
                   const BoxOfB& box_of_b) {
     const std::vector<box3> some_of_a = sample(a, box_of_a), some_of_b = sample(b, box_of_b);
     if (most_reach(some_of_a, some_of_b) && most_reach(some_of_b, some_of_a))
-        return {{build(a, box_of_a), a.size()}, {build(b, box_of_b), b.size()}};
+        return {build(a, box_of_a), build(b, box_of_b)};
     return build_overlap(a, box_of_a, b, box_of_b);
 }
 
 }  // namespace
 
-std::pair<partial_tree<3>, partial_tree<3>> overlap_trees(const std::string& function, mesh_view a,
-                                                          mesh_view b,
-                                                          const mesh_positions& positions) {
+std::pair<tree<3>, tree<3>> overlap_trees(const std::string& function, mesh_view a, mesh_view b,
+                                          const mesh_positions& positions) {
     const std::string name_a = function + ": a", name_b = function + ": b";
-    const auto& [move_a, move_b] = positions;
+    const transform<3>& move_a = positions.move_a;
+    const transform<3>& move_b = positions.move_b;
     if (!move_a.finite() || !move_b.finite())
         throw std::invalid_argument("treeform::" + function + ": a transform is not finite");
     base::check_faces(name_a.c_str(), a.points.size(), a.faces);

@@ -20,7 +20,8 @@ namespace treeform::detail::intersect {
 /// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its lowest
 ///         face with a corner out of range or, as moved, not finite
 /// \same   on any number of threads
-[[nodiscard]] std::pair<partial_tree<3>, partial_tree<3>> overlap_trees(
-    const std::string& function, mesh_view a, mesh_view b, const mesh_positions& positions);
+[[nodiscard]] std::pair<tree<3>, tree<3>> overlap_trees(const std::string& function, mesh_view a,
+                                                        mesh_view b,
+                                                        const mesh_positions& positions);
 
 }  // namespace treeform::detail::intersect

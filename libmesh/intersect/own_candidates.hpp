@@ -20,7 +20,7 @@ namespace treeform::detail::intersect {
 struct own_faces {
     points_view points;
     std::span<const numbered_face> faces;  ///< [F] in leaf order
-    const self_intersection_options* options;
+    const intersection_options* options;
     bool filtered;  ///< coordinates lie in the range of the filter
 };
 

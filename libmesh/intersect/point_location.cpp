@@ -151,10 +151,10 @@ std::vector<point_location> locate_all(const Locator& locator, std::span<const P
     return found;
 }
 
-void check_edges(const char* function, curve_view curves) {
-    if (curves.edges.size() > tree<2>::max_size) refuse(std::string(function) + ": too many edges");
-    for (std::size_t i = 0; i < curves.edges.size(); ++i)
-        if (std::max(curves.edges[i][0], curves.edges[i][1]) >= curves.points.size())
+void check_edges(const char* function, std::size_t points, std::span<const curve_edge> edges) {
+    if (edges.size() > tree<2>::max_size) refuse(std::string(function) + ": too many edges");
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (std::max(edges[i][0], edges[i][1]) >= points)
             refuse(std::string(function) + ": edge " + std::to_string(i) +
                    " has an end out of range");
 }
@@ -259,17 +259,18 @@ int winding_number(const mesh_ref& mesh, const point3& point) {
     return locate(mesh, point).winding;
 }
 
-curve_locator::curve_locator(curve_view curves) : curves_(curves) {
-    check_edges("curve_locator", curves);
-    tree_ = build(curves.edges, [points = curves.points](const curve_edge& e) {
+curve_locator::curve_locator(std::span<const point2> points, std::span<const curve_edge> edges)
+    : points_(points), edges_(edges) {
+    check_edges("curve_locator", points.size(), edges);
+    tree_ = build(edges, [points](const curve_edge& e) {
         aabb<double, 2> box;
         box.include(points[e[0]]);
         box.include(points[e[1]]);
         if (!is_finite(points[e[0]]) || !is_finite(points[e[1]])) box.min[0] = NAN;
         return box;
     });
-    std::vector<std::int64_t> net(curves.points.size());
-    for (const auto& [from, to] : curves.edges) ++net[to], --net[from];
+    std::vector<std::int64_t> net(points.size());
+    for (const auto& [from, to] : edges) ++net[to], --net[from];
     for (std::size_t i = 0; i < net.size(); ++i)
         if (net[i] != 0) refuse("curve_locator: the curve is open at point " + std::to_string(i));
 }
@@ -279,8 +280,8 @@ point_location curve_locator::locate(const point2& point) const {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     tally found;
     visit_along(tree_, ray<double, 2>{{point.x, point.y}, {1, 0}}, [&](std::uint32_t id) {
-        const auto& [from, to] = curves_.edges[id];
-        count_edge(curves_.points[from], curves_.points[to], point, id, found);
+        const auto& [from, to] = edges_[id];
+        count_edge(points_[from], points_[to], point, id, found);
         return infinite;
     });
     return found.result();

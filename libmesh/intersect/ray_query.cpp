@@ -137,9 +137,9 @@ std::vector<std::optional<mesh_hit>> ray_query::first(std::span<const ray3> rays
     return found;
 }
 
-mesh_hits ray_query::all(std::span<const ray3> rays) const {
+answer_lists<mesh_hit> ray_query::all(std::span<const ray3> rays) const {
     check(rays);
-    mesh_hits result;
+    answer_lists<mesh_hit> result;
     result.begin.resize(rays.size() + 1);
     std::vector<std::vector<mesh_hit>> parts(chunk_count(rays.size(), ray_grain));
     for_chunks(rays.size(), ray_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
@@ -150,8 +150,9 @@ mesh_hits ray_query::all(std::span<const ray3> rays) const {
         }
     });
     for (std::size_t i = 0; i < rays.size(); ++i) result.begin[i + 1] += result.begin[i];
-    result.hits.reserve(result.begin.back());
-    for (const auto& part : parts) result.hits.insert(result.hits.end(), part.begin(), part.end());
+    result.answers.reserve(result.begin.back());
+    for (const auto& part : parts)
+        result.answers.insert(result.answers.end(), part.begin(), part.end());
     return result;
 }
 
@@ -181,7 +182,7 @@ std::vector<std::optional<mesh_hit>> raycast(const mesh_ref& given_mesh,
     return ray_query(mesh.view(), build_face_tree(mesh, "raycast")).first(rays);
 }
 
-mesh_hits raycast_all(const mesh_ref& given_mesh, std::span<const ray3> rays) {
+answer_lists<mesh_hit> raycast_all(const mesh_ref& given_mesh, std::span<const ray3> rays) {
     const detail::base::prepared_ref mesh(given_mesh);
     return ray_query(mesh.view(), build_face_tree(mesh, "raycast_all")).all(rays);
 }

@@ -43,7 +43,7 @@ class TREEFORM_API ray_query {
     /// [R] the same for many rays, in their order.
     /// \same on any number of threads
     [[nodiscard]] std::vector<std::optional<mesh_hit>> first(std::span<const ray3> rays) const;
-    [[nodiscard]] mesh_hits all(std::span<const ray3> rays) const;
+    [[nodiscard]] answer_lists<mesh_hit> all(std::span<const ray3> rays) const;
     /// [R] 1 where any face is met, else 0.
     [[nodiscard]] std::vector<std::uint8_t> any(std::span<const ray3> rays) const;
 

@@ -28,7 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void check(mesh_view mesh, const self_intersection_options& options) {
+void check(mesh_view mesh, const intersection_options& options) {
     detail::base::check_faces("self_intersections", mesh.points.size(), mesh.faces);
     const std::size_t bad_point = detail::base::first_bad(mesh.points.size(), [&](std::size_t i) {
         return !detail::base::is_finite(mesh.points[i]);
@@ -71,17 +71,16 @@ detail::buffer<detail::intersect::numbered_face> leaf_order(mesh_view mesh, cons
 constexpr std::size_t all_pairs = std::numeric_limits<std::size_t>::max();
 
 /// Goes on until more pairs than `most` have been found; keeps those that are wanted.
-self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
-                                    const self_intersection_options& options,
-                                    std::size_t most = all_pairs,
-                                    const detail::intersect::wanted_pairs* wanted = nullptr) {
-    self_intersection_result result;
+intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
+                               const intersection_options& options, std::size_t most = all_pairs,
+                               const detail::intersect::wanted_pairs* wanted = nullptr) {
+    intersection_result result;
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
     const detail::intersect::own_faces own{mesh.points, faces.span(), &options, fits_filter(tree)};
-    const node_marks<3> fields =
+    const detail::node_marks<3> fields =
         own.filtered ? detail::intersect::find_height_fields(mesh.points, faces.span(), tree)
-                     : node_marks<3>(tree);
+                     : detail::node_marks<3>(tree);
     const self_search<3> search(tree, fields);
     std::vector<detail::intersect::narrow_phase_output> found(search.chunks());
     detail::intersect::search_progress progress(options.progress, search.chunks());
@@ -114,8 +113,7 @@ self_intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
 
 }  // namespace
 
-self_intersection_result self_intersections(const mesh_ref& given,
-                                            const self_intersection_options& options) {
+intersection_result self_intersections(const mesh_ref& given, const intersection_options& options) {
     const mesh_view mesh = given.view();
     check(mesh, options);
     if (given.prepared() != nullptr)
@@ -129,22 +127,21 @@ self_intersection_result self_intersections(const mesh_ref& given,
     const auto start = std::chrono::steady_clock::now();
     tree<3> tree = detail::base::checked_face_tree(mesh);
     const double seconds = seconds_since(start);
-    self_intersection_result result =
+    intersection_result result =
         detail::intersect::pairs_by_tree(joined.of(mesh), std::move(tree), options);
     result.tree_seconds = seconds;
     return result;
 }
 
-self_intersection_result detail::intersect::pairs_by_tree(
-    mesh_view mesh, tree<3>&& tree, const self_intersection_options& options) {
+intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, tree<3>&& tree,
+                                                     const intersection_options& options) {
     const auto ours = std::move(tree);
     return find_pairs(mesh, ours, options);
 }
 
-self_intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, const tree<3>& tree,
-                                                          const self_intersection_options& options,
-                                                          std::size_t most,
-                                                          const wanted_pairs* wanted) {
+intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, const tree<3>& tree,
+                                                     const intersection_options& options,
+                                                     std::size_t most, const wanted_pairs* wanted) {
     return find_pairs(mesh, tree, options, most, wanted);
 }
 

@@ -305,7 +305,8 @@ bool has_rows_to_look_at(const source& ply) {
     try {
         static_cast<void>(sort_elements(ply, header.elements, row_use::looked_at));
         return true;
-    } catch (const whole_file_error&) {
+    } catch (const io_error& error) {
+        if (!error.needs_all()) throw;
         return false;
     }
 }

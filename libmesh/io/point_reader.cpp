@@ -25,7 +25,7 @@ std::optional<std::uint64_t> point_reader::count() const { return state_->blocks
 bool point_reader::read(point_block& block, std::size_t most) {
     return state_->blocks.read(block, most);
 }
-bool point_reader::read(row_block& block, std::size_t most) {
+bool point_reader::read(detail::io::row_block& block, std::size_t most) {
     return state_->blocks.read(block, most);
 }
 

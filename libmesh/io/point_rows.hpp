@@ -66,7 +66,7 @@ struct point_rows {
 /// ahead of the last mark of what is `known` of them, which must outlive what comes back. XYZ is
 /// read once if nothing is.
 ///
-/// \throws io_error; whole_file_error also for a PLY that has rows which `use` has not, as
+/// \throws io_error; `needs_all()` also for a PLY that has rows which `use` has not, as
 ///         `point_reader`
 [[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0,
                                          row_use use = row_use::none,
@@ -113,7 +113,7 @@ struct listed_points {
                                     std::span<const named_column> columns = {});
 
 [[noreturn]] inline void fail_in_blocks(const source& in, std::string_view reason) {
-    throw whole_file_error(std::string(in.name()) + ": " + std::string(reason));
+    throw io_error::of_blocks(std::string(in.name()) + ": " + std::string(reason));
 }
 
 }  // namespace treeform::detail::io

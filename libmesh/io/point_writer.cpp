@@ -120,7 +120,7 @@ struct point_writer::state {
             refuse_block("a coordinate is no float32 value, as the header says");
     }
 
-    void check(const row_block& block) {
+    void check(const detail::io::row_block& block) {
         const element& given = block.rows;
         const auto is_over = [&](const element& e) {  // other parts may have the rest of it
             return e.rows == 0 || (points_end && e.name != given.name);
@@ -183,7 +183,7 @@ void point_writer::write(const point_block& block) {
     s.written += block.points.size();
 }
 
-void point_writer::write(const row_block& block) {
+void point_writer::write(const detail::io::row_block& block) {
     state_->check(block);
     state_->rows.behind(block);
 }
@@ -209,7 +209,7 @@ bool point_writer::has_shared_values() const {
     return static_cast<bool>(state_->rows.share_values);
 }
 
-void point_writer::share_values(const shared_values& place) {
+void point_writer::share_values(const detail::io::shared_values& place) {
     state& s = *state_;
     if (!has_shared_values() || s.written > 0)
         throw std::logic_error(s.file->name() + ": its values are not put in a shared place");
@@ -232,14 +232,15 @@ std::string point_writer::tell_part() {
     return state_->rows.tell_part ? state_->rows.tell_part() : std::string();
 }
 
-point_writer::part point_writer::commit_part(write_result& result,
-                                             const std::vector<std::string>& told) {
+detail::io::written_part point_writer::commit_part(write_result& result,
+                                                   const std::vector<std::string>& told) {
     state& s = *state_;
     if (!has_parts()) throw std::logic_error(s.file->name() + ": is not written in parts");
     const std::uint64_t behind = s.rows.finish_part ? s.rows.finish_part(told) : 0;
     s.out->flush();
     const std::uint64_t end = s.points_end.value_or(s.out->size() - behind);
-    const part made{s.head_size, end - s.head_size, s.out->size() - behind - end};
+    const detail::io::written_part made{s.head_size, end - s.head_size,
+                                        s.out->size() - behind - end};
     s.file->commit();
     result = std::move(s.result);
     return made;

@@ -308,28 +308,26 @@ urdf_robot read_urdf(const std::filesystem::path& path, const urdf_options& opti
     return urdf_reader(path, options).read();
 }
 
-std::vector<transform<3>> urdf_robot::link_transforms(std::span<const joint_value> values) const {
+std::vector<transform<3>> urdf_robot::link_transforms(
+    const std::map<std::string, double>& values) const {
     const urdf_robot& robot = *this;
     const std::string name = "treeform::link_transforms: ";
-    std::map<std::string_view, std::optional<double>> value_of;
     std::map<std::string_view, const urdf_joint*> joint_of;
     for (const urdf_joint& joint : robot.joints) joint_of[joint.name] = &joint;
-    for (const joint_value& one : values) {
-        const auto found = joint_of.find(one.joint);
+    for (const auto& [joint, value] : values) {
+        const auto found = joint_of.find(joint);
         if (found == joint_of.end())
-            throw std::invalid_argument(name + "there is no joint " + one.joint);
+            throw std::invalid_argument(name + "there is no joint " + joint);
         if (found->second->kind == urdf_joint_kind::fixed)
-            throw std::invalid_argument(name + "joint " + one.joint + " is fixed");
-        if (!std::isfinite(one.value))
-            throw std::invalid_argument(name + "the value of joint " + one.joint +
-                                        " is not finite");
-        value_of[one.joint] = one.value;
+            throw std::invalid_argument(name + "joint " + joint + " is fixed");
+        if (!std::isfinite(value))
+            throw std::invalid_argument(name + "the value of joint " + joint + " is not finite");
     }
     const auto value = [&](const urdf_joint& joint) {
-        if (const auto own = value_of.find(joint.name); own != value_of.end()) return *own->second;
+        if (const auto own = values.find(joint.name); own != values.end()) return own->second;
         if (joint.mimics.empty()) return 0.0;
-        const auto other = value_of.find(joint.mimics);
-        const double followed = other == value_of.end() ? 0.0 : *other->second;
+        const auto other = values.find(joint.mimics);
+        const double followed = other == values.end() ? 0.0 : other->second;
         return joint.mimic_line[0] * followed + joint.mimic_line[1];
     };
     std::vector<transform<3>> at(robot.links.size());

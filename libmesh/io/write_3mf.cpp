@@ -1,3 +1,4 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/io/face_looks.hpp>
 #include <libmesh/io/model_3mf.hpp>
 #include <libmesh/io/writers.hpp>

@@ -56,13 +56,13 @@ drawn_curves draw(mesh_view mesh, std::span<const face_pair> pairs) {
     return drawn;
 }
 
-void put_ply_head(sink& out, const drawn_curves& drawn, std::span<const pair_numbers> numbers) {
+void put_ply_head(sink& out, const drawn_curves& drawn, std::span<const pair_column> numbers) {
     out.put("ply\nformat ascii 1.0\nelement vertex ");
     out.number(drawn.points.size());
     out.put("\nproperty double x\nproperty double y\nproperty double z\nelement edge ");
     out.number(drawn.segments);
     out.put("\nproperty int vertex1\nproperty int vertex2\n");
-    for (const pair_numbers& n : numbers) out.put("property int " + n.name + "\n");
+    for (const pair_column& n : numbers) out.put("property int " + n.first + "\n");
     out.put("end_header\n");
 }
 
@@ -77,15 +77,14 @@ void put_points(sink& out, const drawn_curves& drawn, const char* start) {
     }
 }
 
-void put_segments(sink& out, const drawn_curves::line& line,
-                  std::span<const pair_numbers> numbers) {
+void put_segments(sink& out, const drawn_curves::line& line, std::span<const pair_column> numbers) {
     for (std::size_t k = 0; k < line.pairs.size(); ++k) {
         out.number(line.points[k]);
         out.put(' ');
         out.number(line.points[k + 1]);
-        for (const pair_numbers& n : numbers) {
+        for (const pair_column& n : numbers) {
             out.put(' ');
-            out.number(n.of_pair[line.pairs[k]]);
+            out.number(n.second[line.pairs[k]]);
         }
         out.put('\n');
     }
@@ -103,14 +102,14 @@ void put_path(sink& out, const drawn_curves::line& line) {
 }  // namespace
 
 void write_curves(const std::filesystem::path& path, mesh_view mesh,
-                  std::span<const face_pair> pairs, std::span<const pair_numbers> numbers,
+                  std::span<const face_pair> pairs, std::span<const pair_column> numbers,
                   const std::string& format) {
     const std::string form = format.empty() ? detail::io::extension_of(path) : format;
     if (form != "ply" && form != "obj")
         throw io_error(path.string() + ": curves can be written as obj or ply");
-    for (const pair_numbers& n : numbers)
-        if (n.of_pair.size() != pairs.size())
-            throw std::invalid_argument("treeform::write_curves: " + n.name +
+    for (const pair_column& n : numbers)
+        if (n.second.size() != pairs.size())
+            throw std::invalid_argument("treeform::write_curves: " + n.first +
                                         " has not one number for each pair");
     const drawn_curves drawn = draw(mesh, pairs);
     detail::io::output_file file(path);

@@ -107,7 +107,7 @@ class pcd_writer {
         job_.out.put({packed.data(), size});
     }
 
-    void share_values(const point_writer::shared_values& place) {
+    void share_values(const detail::io::shared_values& place) {
         shared_ = place;
         kept_ = place.first_point;
         job_.out.put(lengths(0, 0));
@@ -323,8 +323,8 @@ class pcd_writer {
     std::vector<const column*> columns_{};  ///< of `declared_`: those that are written
     std::vector<field> fields_{};
     std::size_t row_size_ = 0;
-    std::optional<scratch> blocks_{};                      ///< of a compressed file
-    std::optional<point_writer::shared_values> shared_{};  ///< instead, of one in parts
+    std::optional<scratch> blocks_{};                    ///< of a compressed file
+    std::optional<detail::io::shared_values> shared_{};  ///< instead, of one in parts
     std::uint64_t kept_ = 0;       ///< points in it, with those of parts ahead
     std::uint64_t head_size_ = 0;  ///< with the lengths
 };
@@ -362,7 +362,7 @@ point_sink start_pcd_points(const write_job& job, std::uint64_t count) {
     }};
     if (!writer->is_packed()) return sink;
     sink.finish = [writer] { writer->finish(); };
-    sink.share_values = [writer](const point_writer::shared_values& place) {
+    sink.share_values = [writer](const detail::io::shared_values& place) {
         writer->share_values(place);
     };
     sink.finish_part = [writer](const std::vector<std::string>&) {

@@ -60,7 +60,7 @@ struct point_sink {
     std::function<std::uint64_t(const std::vector<std::string>& told)> finish_part{};
     std::function<std::string()> tell_part{};  ///< none: nothing
     /// Of values that do not stand point by point: they are put there from now on. None: others do.
-    std::function<void(const point_writer::shared_values& place)> share_values{};
+    std::function<void(const detail::io::shared_values& place)> share_values{};
     std::uint64_t together = 1;  ///< parts but the last have a multiple of so many points
 };
 

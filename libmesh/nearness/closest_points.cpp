@@ -235,7 +235,7 @@ const detail::nearness::face_blocks& detail::nearness::face_blocks_of(const prep
 namespace {
 
 std::optional<closest_points_result> find(const std::string& function, mesh_view a, mesh_view b,
-                                          const distance_options& options) {
+                                          const mesh_positions& options) {
     const tree<3> tree_a = build_face_tree(a, (function + ": a").c_str());
     const tree<3> tree_b = build_face_tree(b, (function + ": b").c_str());
     return detail::nearness::closest_points(a, {tree_a, options.move_a}, b,
@@ -243,7 +243,7 @@ std::optional<closest_points_result> find(const std::string& function, mesh_view
 }
 
 std::optional<closest_points_result> find(const std::string& function, const prepared_mesh& a,
-                                          const prepared_mesh& b, const distance_options& options) {
+                                          const prepared_mesh& b, const mesh_positions& options) {
     detail::check_radius(("treeform::" + function).c_str(), options.radius);
     const transformed<3> tree_a(build_face_tree(a, (function + ": a").c_str()), options.move_a);
     const transformed<3> tree_b(build_face_tree(b, (function + ": b").c_str()), options.move_b);
@@ -266,7 +266,7 @@ std::optional<closest_points_result> find(const std::string& function, const pre
 
 std::optional<closest_points_result> find_between(const char* function, const mesh_ref& a,
                                                   const mesh_ref& b,
-                                                  const distance_options& options) {
+                                                  const mesh_positions& options) {
     if (a.prepared() == nullptr && b.prepared() == nullptr)
         return find(function, a.view(), b.view(), options);
     return find(function, *detail::base::prepared_ref(a), *detail::base::prepared_ref(b), options);
@@ -275,11 +275,11 @@ std::optional<closest_points_result> find_between(const char* function, const me
 }  // namespace
 
 std::optional<closest_points_result> closest_points(const mesh_ref& a, const mesh_ref& b,
-                                                    const distance_options& options) {
+                                                    const mesh_positions& options) {
     return find_between("closest_points", a, b, options);
 }
 
-double distance(const mesh_ref& a, const mesh_ref& b, const distance_options& options) {
+double distance(const mesh_ref& a, const mesh_ref& b, const mesh_positions& options) {
     const auto found = find_between("distance", a, b, options);
     return found ? found->distance : std::numeric_limits<double>::infinity();
 }

@@ -24,7 +24,7 @@ constexpr double clear = 1e-6;  ///< of the wall: hits before are where the ray 
 /// How far one may go on beyond `t`: `most`, or half of the way to the next face.
 double room_beyond(const prepared_mesh& mesh, const ray3& ray, double t, double most) {
     const std::array rays{ray};
-    for (const mesh_hit& hit : raycast_all(mesh, rays).hits)
+    for (const mesh_hit& hit : raycast_all(mesh, rays).answers)
         if (hit.t > t) return std::min(most, 0.5 * (hit.t - t));
     return most;
 }

@@ -1,6 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/offset/moved_surface.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <array>

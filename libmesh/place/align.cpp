@@ -85,7 +85,7 @@ class alignment {
                 .max_distance = options.max_distance * frame_.by,
                 .overlap = options.overlap,
                 .planes = options.method != align_method::point_to_point,
-                .welsch = options.weights == align_weights::welsch,
+                .welsch = options.robust,
                 .scale = options.scale,
                 .accelerate = options.accelerate,
                 .max_iterations = options.max_iterations,

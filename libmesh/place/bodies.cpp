@@ -1,10 +1,11 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/topology/select_faces.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <cmath>

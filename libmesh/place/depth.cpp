@@ -127,7 +127,7 @@ class escape_search {
             apart = apart || box_a_.min[k] + offset[k] > box_b_.max[k] ||
                     box_a_.max[k] + offset[k] < box_b_.min[k];
         if (apart) return true;
-        mesh_intersection_options options;
+        intersection_options options;
         options.move_a = transform<3>::translation(offset);
         options.first_only = true;
         options.kinds = pair_kind::crossing;
@@ -152,7 +152,7 @@ class escape_search {
                                                      scaled(direction, -1.0), options, &effort_);
         if (back.status == status::cancelled) return false;
         const double time =
-            std::max(back.end == motion_end::contact ? out - back.time : out, least_);
+            std::max(back.end == placement_end::contact ? out - back.time : out, least_);
         if (!(time < length_)) return false;
         best_ = scaled(direction, time);
         length_ = time;

@@ -15,21 +15,22 @@ namespace treeform::detail::place {
 /// \pre `contact` was returned by `time_of_impact` for `motion`
 [[nodiscard]] double time_not_beyond(const sweep_contact& contact, const point3& motion);
 
-/// As `time_of_impact`; `cancelled`, too, where the effort does not suffice.
+/// As `time_of_impact`; `cancelled`, too, where the effort does not suffice. `exact` is the exact
+/// time, that of the first contact.
 ///
 /// \pre the trees are those of the meshes
 [[nodiscard]] TREEFORM_API impact impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                             const tree<3>& tree_b, const point3& motion,
                                             const impact_options& options = {},
-                                            base::effort* effort = nullptr);
+                                            base::effort* effort = nullptr,
+                                            sweep_contact* exact = nullptr);
 
 /// As `time_to_distance`, with an effort likewise, which looking where it starts does not spend.
 ///
 /// \pre the trees are those of the meshes
-[[nodiscard]] TREEFORM_API approach approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                                const tree<3>& tree_b, const point3& motion,
-                                                double distance,
-                                                const approach_options& options = {},
-                                                base::effort* effort = nullptr);
+[[nodiscard]] TREEFORM_API impact approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                              const tree<3>& tree_b, const point3& motion,
+                                              double distance, const impact_options& options = {},
+                                              base::effort* effort = nullptr);
 
 }  // namespace treeform::detail::place

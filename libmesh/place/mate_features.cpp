@@ -65,7 +65,7 @@ class feature_mover {
   public:
     feature_mover(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
                   const mesh_feature& from, const mesh_feature& to,
-                  const feature_mate_options& options)
+                  const placement_options& options)
         : moving_(moving),
           fixed_(fixed),
           from_(from),
@@ -73,15 +73,14 @@ class feature_mover {
           options_(options),
           work_(options_.progress) {}
 
-    [[nodiscard]] feature_mating run() {
+    [[nodiscard]] placement run() {
         const placement start = measured(moving_, 0.0, 0.1);
-        if (work_.cancelled()) return {.at = start};
+        if (work_.cancelled()) return start;
         const bool plane = from_.kind == feature_kind::plane;
         const bool alike = dot(from_.direction, to_.direction) >= 0.0;
         const double sign =
             plane ? (options_.flip ? 1.0 : -1.0) : (alike != options_.flip ? 1.0 : -1.0);
         const auto [turn, angle] = turn_between(from_.direction, scaled(to_.direction, sign));
-        result_.turn_angle = angle * 180.0 / std::numbers::pi;
         const transform<3> seat = carried(turn, from_.origin, to_.origin);
 
         // From where it comes: a plane from before the other, an axis from its own side.
@@ -89,14 +88,15 @@ class feature_mover {
         const point3 out = scaled(to_.direction, before ? 1.0 : -1.0);
         const transform<3> away =
             carried(seat, from_.origin, plus(to_.origin, scaled(out, pulled_out(seat, out))));
-        result_.at = slid(away, out);
-        if (result_.at.end == placement_end::nothing_met && !plane) result_.at = seated(seat);
-        result_.at.at_start = start.at_start;
-        result_.at.travel = 0.0;
-        result_.at.direction = {};
-        if (result_.at)
-            result_.offset = dot(minus(result_.at.matrix(from_.origin), to_.origin), to_.direction);
-        return std::move(result_);
+        placement result = slid(away, out);
+        if (result.end == placement_end::nothing_met && !plane) result = seated(seat);
+        result.at_start = start.at_start;
+        result.travel = 0.0;
+        result.direction = {};
+        result.angle = angle * 180.0 / std::numbers::pi;
+        if (result)
+            result.offset = dot(minus(result.matrix(from_.origin), to_.origin), to_.direction);
+        return result;
     }
 
   private:
@@ -191,16 +191,15 @@ class feature_mover {
     std::span<const prepared_mesh> fixed_;
     const mesh_feature& from_;
     const mesh_feature& to_;
-    feature_mate_options options_;
+    placement_options options_;
     detail::base::work_progress work_;
-    feature_mating result_{};
 };
 
 }  // namespace
 
-feature_mating mate_features(const mesh_ref& given_moving, const mesh_refs& given_fixed,
-                             const mesh_feature& of_moving, const mesh_feature& of_fixed,
-                             const feature_mate_options& options) {
+placement mate_features(const mesh_ref& given_moving, const mesh_refs& given_fixed,
+                        const mesh_feature& of_moving, const mesh_feature& of_fixed,
+                        const placement_options& options) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;

@@ -25,7 +25,7 @@ mate_motion motion_to_mate(const mesh_measure& nearest, const shape& a,
     sweep_options rest = options;
     rest.latest = 1.0 + 0x1p-20;
     result.met = sweep_among(a, parts, result.motion, rest);
-    result.time = result.met.end == motion_end::free
+    result.time = result.met.end == placement_end::nothing_met
                       ? std::max(0.0, 1.0 - options.clearance / nearest.distance)
                       : result.met.time;
     return result;

@@ -212,7 +212,7 @@ void placing::slide(const point3& direction) {
     over();
     result_.statistics.pairs_tested = met.pairs_tested;
     result_.statistics.predicates = met.predicates;
-    if (met.end == motion_end::contact) {
+    if (met.end == placement_end::contact) {
         result_.contacts = contacts_of(moving_, parts, met, motion);
         result_.contact_count = met.contact_count;
         settle(parts, motion, met.time, placement_end::contact, options_.close_in);

@@ -2,6 +2,7 @@
 /// \file
 /// One placement of one mesh among others: what `slide`, `drop`, `mate` and `separate` share.
 
+#include <libmesh/base/effort.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/surroundings.hpp>

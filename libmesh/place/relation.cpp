@@ -33,8 +33,8 @@ struct pair_searches {
     detail::base::effort* effort = nullptr;
     bool stopped = false;
 
-    [[nodiscard]] mesh_intersection_result pairs(const shape& a, const shape& b,
-                                                 const mesh_intersection_options& options) {
+    [[nodiscard]] intersection_result pairs(const shape& a, const shape& b,
+                                            const intersection_options& options) {
         auto found = detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(),
                                                            options, effort);
         stopped = stopped || found.status == treeform::status::cancelled;
@@ -47,7 +47,7 @@ std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
                                         const progress_callback& progress, pair_searches& how) {
     if (a.prepared().is_cloud() || b.prepared().is_cloud())
         return std::nullopt;  // points only touch
-    mesh_intersection_options options;
+    intersection_options options;
     options.first_only = true;
     options.kinds = pair_kind::crossing;
     options.progress = progress;
@@ -59,7 +59,7 @@ std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
 /// Faces of closed meshes that lie on each other with what is inside on the same side.
 std::optional<face_pair> faces_on_one_side(const shape& a, const shape& b,
                                            const progress_callback& progress, pair_searches& how) {
-    mesh_intersection_options options;
+    intersection_options options;
     options.kinds = pair_kind::overlap;
     options.progress = progress;
     const auto found = how.pairs(a, b, options);
@@ -144,7 +144,7 @@ mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
     if (search.stopped) return cancelled;
     if (crossing) return penetrating(crossing->a, crossing->b);
 
-    mesh_intersection_options first;
+    intersection_options first;
     first.first_only = true;
     first.progress = work.part(0.3, 0.6);
     const auto touch = search.pairs(a, b, first);
@@ -173,7 +173,7 @@ mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
 }
 
 mesh_relation_result relation(const mesh_ref& given_a, const mesh_ref& given_b,
-                              const relation_options& options) {
+                              const measure_options& options) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     check_operand("relation", "a", a);

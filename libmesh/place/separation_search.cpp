@@ -173,8 +173,8 @@ class clearing {
         // What penetrates with its faces is found without a tree for the place.
         const std::vector<point3> points = points_at(offset);
         const mesh_view there{points, a_.faces};
-        mesh_intersection_options crossing{.move_a = transform<3>::translation(offset),
-                                           .first_only = true};
+        intersection_options crossing{.move_a = transform<3>::translation(offset),
+                                      .first_only = true};
         crossing.progress = asking_;
         crossing.kinds = pair_kind::crossing;
         for (const std::size_t i : close) {
@@ -243,7 +243,7 @@ class clearing {
                          .limit = 1,
                          .effort = options_.effort,
                          .progress = asking_});
-        return back.end == motion_end::contact ? time - back.time : time;
+        return back.end == placement_end::contact ? time - back.time : time;
     }
 
     [[nodiscard]] std::vector<point3> directions() {

@@ -11,19 +11,8 @@ using detail::place::placing;
 
 using many = std::span<const prepared_mesh>;
 
-/// What `drop` is except for its direction; `bed` is the one that there is without fixed meshes.
-slide_options slide_of(const drop_options& o, const std::optional<double>& bed) {
-    return {.clearance = o.clearance,
-            .max_travel = o.max_travel,
-            .precision = o.precision,
-            .bed = o.bed ? o.bed : bed,
-            .limit = o.limit,
-            .vertices = o.vertices,
-            .progress = o.progress};
-}
-
 placement slide_as(const char* function, const prepared_mesh& moving, many fixed,
-                   const point3& direction, const slide_options& o) {
+                   const point3& direction, const placement_options& o) {
     placing work(moving, fixed,
                  {.function = function,
                   .clearance = o.clearance,
@@ -41,26 +30,29 @@ placement slide_as(const char* function, const prepared_mesh& moving, many fixed
 }  // namespace
 
 placement slide(const mesh_ref& given_moving, const mesh_refs& given_fixed, const point3& direction,
-                const slide_options& options) {
+                const placement_options& options) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;
     return slide_as("slide", moving, fixed, direction, options);
 }
 
-placement drop(const mesh_ref& given_moving, const mesh_refs& given_fixed, const drop_options& o) {
+placement drop(const mesh_ref& given_moving, const mesh_refs& given_fixed,
+               const placement_options& options, const point3& direction) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;
-    const auto bed = fixed.empty() ? std::optional(0.0) : std::nullopt;
-    return slide_as("drop", moving, fixed, o.direction, slide_of(o, bed));
+    placement_options o = options;
+    if (fixed.empty() && !o.bed) o.bed = 0.0;
+    return slide_as("drop", moving, fixed, direction, o);
 }
 
-placement drop(const mesh_ref& moving, const drop_options& options) {
-    return drop(moving, mesh_refs(), options);
+placement drop(const mesh_ref& moving, const placement_options& options, const point3& direction) {
+    return drop(moving, mesh_refs(), options, direction);
 }
 
-placement mate(const mesh_ref& given_moving, const mesh_refs& given_fixed, const mate_options& o) {
+placement mate(const mesh_ref& given_moving, const mesh_refs& given_fixed,
+               const placement_options& o) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;
@@ -76,7 +68,7 @@ placement mate(const mesh_ref& given_moving, const mesh_refs& given_fixed, const
 }
 
 placement separate(const mesh_ref& given_moving, const mesh_refs& given_fixed,
-                   const separate_options& o) {
+                   const placement_options& o) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;
@@ -95,7 +87,7 @@ placement separate(const mesh_ref& given_moving, const mesh_refs& given_fixed,
 }
 
 placement measure_among(const mesh_ref& given_moving, const mesh_refs& given_fixed,
-                        const measure_among_options& o) {
+                        const placement_options& o) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;

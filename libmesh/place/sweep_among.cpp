@@ -13,7 +13,7 @@ namespace {
 
 /// What one part allows.
 struct part_end {
-    motion_end end = motion_end::free;
+    placement_end end = placement_end::nothing_met;
     double time = 0.0;
     sweep_contact exact{};
     std::vector<face_contact> contacts{};
@@ -32,10 +32,11 @@ part_end end_at(const shape& a, const shape& part, const point3& motion, double 
         return {one.end,           one.time,         {}, std::move(one.contacts),
                 one.contact_count, one.pairs_tested, {}, one.status};
     }
-    auto one =
-        impact_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion,
-                  {.latest = latest, .limit = options.limit, .progress = progress}, options.effort);
-    return {one.end,           one.time,         one.exact,      std::move(one.contacts),
+    sweep_contact exact;
+    auto one = impact_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion,
+                         {.latest = latest, .limit = options.limit, .progress = progress},
+                         options.effort, &exact);
+    return {one.end,           one.time,         exact,          std::move(one.contacts),
             one.contact_count, one.pairs_tested, one.predicates, one.status};
 }
 
@@ -58,8 +59,8 @@ sweep_result sweep_among(const shape& a, std::span<const shape> parts, const poi
             return {.status = status::cancelled};
         result.pairs_tested += one.pairs_tested;
         result.predicates += one.predicates;
-        if (one.end == motion_end::free) continue;
-        if (one.end == motion_end::at_start) {
+        if (one.end == placement_end::nothing_met) continue;
+        if (one.end == placement_end::starts_touching) {
             work.reach(1.0);
             return {.end = one.end,
                     .part = i,
@@ -67,7 +68,7 @@ sweep_result sweep_among(const shape& a, std::span<const shape> parts, const poi
                     .predicates = result.predicates};
         }
         int order = -1;
-        if (result.end == motion_end::contact) {
+        if (result.end == placement_end::contact) {
             order = options.clearance > 0.0 ? (one.time > result.time) - (one.time < result.time)
                                             : compare(motion, one.exact, earliest);
         }

@@ -31,7 +31,7 @@ struct sweep_meeting {
 };
 
 struct sweep_result {
-    motion_end end = motion_end::free;
+    placement_end end = placement_end::nothing_met;
     double time = 0.0;     ///< not beyond the exact one, as `time_of_impact` says
     std::size_t part = 0;  ///< the lowest one met, also at the start
     /// By ascending parts, then faces; without a clearance of all parts met at the same exact time.

@@ -111,7 +111,8 @@ double detail::place::time_not_beyond(const sweep_contact& contact, const point3
 
 impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                 const tree<3>& tree_b, const point3& motion,
-                                const impact_options& options, base::effort* effort) {
+                                const impact_options& options, base::effort* effort,
+                                sweep_contact* exact) {
     impact result;
     if (!(options.latest >= 0.0))
         throw std::invalid_argument("treeform::time_of_impact: the latest time is negative or NaN");
@@ -119,7 +120,7 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     const auto meets = meets_at_start(a, tree_a, b, tree_b, options, effort);
     if (!meets) return {.status = status::cancelled};
     if (*meets) {
-        result.end = motion_end::at_start;
+        result.end = placement_end::starts_touching;
         work.reach(1.0);
         return result;
     }
@@ -156,8 +157,8 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
         compare_cut(found.first->from, motion, found.first->until, options.latest) > 0)
         return result;
 
-    result.end = motion_end::contact;
-    result.exact = *found.first;
+    result.end = placement_end::contact;
+    if (exact != nullptr) *exact = *found.first;
     result.time = time_not_beyond(*found.first, motion);
     enter_contacts(found.pairs, motion, options.limit, face_a, face_b, result);
     return result;

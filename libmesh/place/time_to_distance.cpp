@@ -77,22 +77,31 @@ tree<3> widened_tree(mesh_view mesh, double by) {
 
 using pair_of_faces = std::pair<std::uint32_t, std::uint32_t>;
 
+prepared_mesh moved_by(const transform<3>& by, const prepared_mesh& mesh) {
+    const mesh_view from = mesh.view();
+    treeform::mesh there{{from.points.begin(), from.points.end()},
+                         {from.faces.begin(), from.faces.end()}};
+    for (point3& p : there.points) p = by(p);
+    return mesh.is_cloud() ? prepared_mesh::cloud(std::move(there.points))
+                           : prepared_mesh(std::move(there));
+}
+
 }  // namespace
 
-approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                    const tree<3>& tree_b, const point3& motion, double distance,
-                                    const approach_options& options, base::effort* effort) {
+impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                  const tree<3>& tree_b, const point3& motion, double distance,
+                                  const impact_options& options, base::effort* effort) {
     if (!(distance > 0.0) || !std::isfinite(distance))
         throw std::invalid_argument(
             "treeform::time_to_distance: the distance is not positive or infinite");
     if (!(options.latest >= 0.0))
         throw std::invalid_argument(
             "treeform::time_to_distance: the latest time is negative or NaN");
-    approach result;
+    impact result;
     const auto near = detail::nearness::closest_points(a, tree_a, b, tree_b, distance);
     detail::base::work_progress work(options.progress);
     if (near && near->distance < distance) {
-        result.end = motion_end::at_start;
+        result.end = placement_end::starts_touching;
         work.reach(1.0);
         return result;
     }
@@ -126,7 +135,7 @@ approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_vie
     if (work.cancelled() || !work.reach(1.0)) return {.status = status::cancelled};
     if (pairs.empty()) return result;
 
-    result.end = motion_end::contact;
+    result.end = placement_end::contact;
     result.contact_count = pairs.size();
     std::sort(pairs.begin(), pairs.end());
     pairs.resize(std::min(pairs.size(), options.limit));
@@ -140,10 +149,16 @@ approach detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_vie
     return result;
 }
 
-approach time_to_distance(const mesh_ref& given_a, const mesh_ref& given_b, const point3& motion,
-                          double distance, const approach_options& options) {
+impact time_to_distance(const mesh_ref& given_a, const mesh_ref& given_b, const point3& motion,
+                        double distance, const impact_options& options) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
+    if (options.move_a != transform<3>{} || options.move_b != transform<3>{}) {
+        impact_options there = options;
+        there.move_a = there.move_b = {};
+        return time_to_distance(moved_by(options.move_a, a), moved_by(options.move_b, b), motion,
+                                distance, there);
+    }
     detail::place::check_operand("time_to_distance", "a", a);
     detail::place::check_operand("time_to_distance", "b", b);
     detail::place::check_motion("time_to_distance", motion);

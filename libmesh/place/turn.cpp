@@ -27,7 +27,7 @@ using detail::place::unit_axis;
 constexpr double degrees_of_radian = 180.0 / std::numbers::pi;
 constexpr unsigned most_steps_back = 60;
 
-void check(const turn_axis& axis, const turn_options& o) {
+void check(const turn_axis& axis, const placement_options& o) {
     const auto refuse = [](const char* what) {
         throw std::invalid_argument(std::string("treeform::turn: ") + what);
     };
@@ -45,17 +45,17 @@ void check(const turn_axis& axis, const turn_options& o) {
 class turning {
   public:
     turning(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
-            const turn_axis& axis, const turn_options& options)
+            const turn_axis& axis, const placement_options& options)
         : moving_(moving),
           fixed_(fixed),
           axis_(axis),
           options_(options),
           work_(options_.progress) {}
 
-    [[nodiscard]] turn_result run() {
-        result_.at = measured(moving_, 0.0, 0.2);
+    [[nodiscard]] placement run() {
+        result_ = measured(moving_, 0.0, 0.2);
         if (cancelled() || moving_.view().faces.empty()) return ended(placement_end::nothing_met);
-        const mesh_relation start = result_.at.at_place;
+        const mesh_relation start = result_.at_place;
         if (start == mesh_relation::penetrating) return ended(placement_end::starts_penetrating);
         if (start == mesh_relation::closer_than_clearance)
             return ended(placement_end::starts_too_near);
@@ -76,12 +76,12 @@ class turning {
                               .progress = work_.part(begin, end)});
     }
 
-    [[nodiscard]] turn_result search() {
+    [[nodiscard]] placement search() {
         const auto ring = detail::place::ring_of(moving_.view(), axis_);
         result_.tolerance = options_.tolerance.value_or(ring.radius * 0x1p-32);
         const detail::place::surroundings among(fixed_, options_.vertices);
         const auto near = among.around(ring.box, options_.clearance);
-        result_.at.statistics.fixed_culled = among.size() - near.parts.size();
+        result_.statistics.fixed_culled = among.size() - near.parts.size();
         if (near.parts.empty() || !(ring.radius > 0.0)) return ended(placement_end::nothing_met);
         turn_search found = search_turn(shape(moving_, options_.vertices), near.parts, axis_,
                                         {.clearance = options_.clearance,
@@ -91,8 +91,8 @@ class turning {
                                          .max_steps = options_.max_steps,
                                          .limit = options_.limit,
                                          .progress = work_.part(0.2, 0.8)});
-        result_.steps = found.steps;
-        result_.at.statistics.pairs_tested = found.pairs;
+        result_.statistics.steps = found.steps;
+        result_.statistics.pairs_tested = found.pairs;
         if (found.end == turn_search::end_of::gave_up) return ended(placement_end::too_many_steps);
         if (found.end != turn_search::end_of::met) return ended(placement_end::nothing_met);
         for (placement_contact& c : found.contacts) c.fixed = near.number[c.fixed];
@@ -117,7 +117,7 @@ class turning {
     }
 
     /// At the angle, or the first before it that is good in coordinates to be written.
-    [[nodiscard]] turn_result settle(double angle, placement_end end) {
+    [[nodiscard]] placement settle(double angle, placement_end end) {
         double unit = 0.0;
         for (unsigned tries = 0; tries < most_steps_back && !cancelled(); ++tries) {
             const double at = std::max(0.0, angle - unit);
@@ -130,7 +130,7 @@ class turning {
             placement now = measured(written, 0.8, 1.0);
             if (good(now)) {
                 accept(std::move(now), std::move(points), there, at, end);
-                result_.at.statistics.backed_off = tries;
+                result_.statistics.backed_off = tries;
                 return std::move(result_);
             }
             if (at == 0.0) break;  // where it came from
@@ -152,8 +152,8 @@ class turning {
 
     void accept(placement&& now, std::vector<point3>&& points, const transform<3>& there, double at,
                 placement_end end) {
-        now.at_start = result_.at.at_start;
-        now.statistics = result_.at.statistics;
+        now.at_start = result_.at_start;
+        now.statistics = result_.statistics;
         now.end = end;
         now.matrix = there;
         now.certificate.precision = options_.precision;
@@ -164,35 +164,35 @@ class turning {
             now.contacts = std::move(contacts_);
             now.contact_count = now.contacts.size();
         }
-        result_.at = std::move(now);
-        result_.angle = at * degrees_of_radian;
+        now.angle = at * degrees_of_radian;
+        now.tolerance = result_.tolerance;
+        result_ = std::move(now);
     }
 
     /// No place, or cancelled.
-    [[nodiscard]] turn_result ended(placement_end end) {
-        placement& at = result_.at;
-        at.end = cancelled() ? placement_end::cancelled : end;
-        at.certificate.precision = options_.precision;
-        at.certificate.status = cancelled()                            ? status::cancelled
-                                : end == placement_end::no_coordinates ? status::not_certified
-                                : end == placement_end::out_of_range   ? status::out_of_range
-                                                                       : status::no_place;
+    [[nodiscard]] placement ended(placement_end end) {
+        result_.end = cancelled() ? placement_end::cancelled : end;
+        result_.certificate.precision = options_.precision;
+        result_.certificate.status = cancelled()                            ? status::cancelled
+                                     : end == placement_end::no_coordinates ? status::not_certified
+                                     : end == placement_end::out_of_range   ? status::out_of_range
+                                                                            : status::no_place;
         return std::move(result_);
     }
 
     const prepared_mesh& moving_;
     std::span<const prepared_mesh> fixed_;
     unit_axis axis_;
-    turn_options options_;
+    placement_options options_;
     detail::base::work_progress work_;
     std::vector<placement_contact> contacts_;
-    turn_result result_{};
+    placement result_{};
 };
 
 }  // namespace
 
-turn_result turn(const mesh_ref& given_moving, const mesh_refs& given_fixed, const turn_axis& axis,
-                 const turn_options& options) {
+placement turn(const mesh_ref& given_moving, const mesh_refs& given_fixed, const turn_axis& axis,
+               const placement_options& options) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;

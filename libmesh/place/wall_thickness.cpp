@@ -63,14 +63,15 @@ double ball_at(const prepared_mesh& mesh, const point3& p, const point3& n, doub
 
 }  // namespace
 
-thickness_result wall_thickness(const mesh_ref& given, const thickness_options& options) {
+thickness_result wall_thickness(const mesh_ref& given, thickness_by by,
+                                const progress_callback& report) {
     constexpr std::size_t rays_at_once = 1024;
     const mesh_view mesh = given.view();
     detail::base::check_faces("wall_thickness", mesh.points.size(), mesh.faces);
     detail::base::check_finite_faces("wall_thickness", mesh);
     const detail::base::prepared_ref held(given);
     const prepared_mesh& prepared = held;
-    detail::base::work_progress progress(options.progress);
+    detail::base::work_progress progress(report);
     thickness_result result;
     result.of_face.assign(mesh.faces.size(), endless_wall);
     std::atomic<std::size_t> done{0};
@@ -87,14 +88,14 @@ thickness_result wall_thickness(const mesh_ref& given, const thickness_options& 
             rays.push_back({{from.back().x, from.back().y, from.back().z}, {-n.x, -n.y, -n.z}});
             of_ray.push_back(f);
         }
-        const mesh_hits met = raycast_all(prepared, rays);
+        const answer_lists<mesh_hit> met = raycast_all(prepared, rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const std::span hits =
-                std::span(met.hits).subspan(met.begin[i], met.begin[i + 1] - met.begin[i]);
+                std::span(met.answers).subspan(met.begin[i], met.begin[i + 1] - met.begin[i]);
             double& thickness = result.of_face[of_ray[i]];
             thickness = along_ray(mesh, of_ray[i], inward[i], hits);
             const point3 n{-inward[i].x, -inward[i].y, -inward[i].z};
-            if (options.by == thickness_by::sphere && thickness < endless_wall)
+            if (by == thickness_by::sphere && thickness < endless_wall)
                 thickness = ball_at(prepared, from[i], n, thickness);
         }
         progress.reach(static_cast<double>(done += end - begin) /

@@ -34,8 +34,8 @@ point3 unit(const point3& v) {
 std::vector<std::vector<std::uint32_t>> groups_of_equal(points_view points) {
     const auto equal = weld::few_equal_points(points);
     if (!equal) return {};
-    std::vector<std::vector<std::uint32_t>> all(equal->first_of_new.size());
-    for (std::uint32_t v = 0; v < points.size(); ++v) all[equal->new_of_old[v]].push_back(v);
+    std::vector<std::vector<std::uint32_t>> all(equal->first_of_group.size());
+    for (std::uint32_t v = 0; v < points.size(); ++v) all[equal->group_of_point[v]].push_back(v);
     std::erase_if(all, [](const auto& group) { return group.size() < 2; });
     return all;
 }

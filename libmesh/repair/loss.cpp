@@ -3,11 +3,11 @@
 #include <libmesh/repair/edge_parts.hpp>
 #include <libmesh/repair/loss.hpp>
 #include <libmesh/topology/area.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <cmath>

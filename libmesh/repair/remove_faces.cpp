@@ -55,7 +55,7 @@ class remover {
         if (options.precision == precision::float32) to_floats();
     }
 
-    resolve_result run() {
+    repair_result run() {
         keep_all();
         // Beyond the range of float, or with nothing to be done.
         if (!std::isfinite(result_.certificate.max_displacement) || !look()) return finished();
@@ -153,7 +153,7 @@ class remover {
             for (const auto& rim : rims)
                 for (const face& f : fill(given_.points, rim, kept)) {
                     now_.push_back(f);
-                    result_.face_source.push_back(resolve_result::none);
+                    result_.face_source.push_back(repair_result::none);
                     patch_of_fill_.push_back(p);
                 }
         }
@@ -330,18 +330,18 @@ class remover {
     }
 
     /// Without the points that no face uses.
-    resolve_result finished() {
+    repair_result finished() {
         certificate& known = result_.certificate;
         if (!std::isfinite(known.max_displacement))
             known.status = status::out_of_range;
         else if (known.status == status::ok && (known.meeting_count > 0 || has_hole_))
             known.status = status::not_certified;
         count_left_open();
-        std::vector<std::uint32_t> number(given_.points.size(), resolve_result::none);
+        std::vector<std::uint32_t> number(given_.points.size(), repair_result::none);
         for (const face& f : now_)
             for (const std::uint32_t c : f) number[c] = 0;
         for (std::uint32_t p = 0; p < number.size(); ++p) {
-            if (number[p] == resolve_result::none) continue;
+            if (number[p] == repair_result::none) continue;
             number[p] = static_cast<std::uint32_t>(result_.vertex_source.size());
             result_.vertex_source.push_back(p);
             result_.mesh.points.push_back(given_.points[p]);
@@ -371,12 +371,12 @@ class remover {
     std::vector<std::array<std::uint32_t, 2>> pairs_;   ///< of faces given, that stay and meet
     bool has_hole_ = false;
     double done_ = 0.0;
-    resolve_result result_{};
+    repair_result result_{};
 };
 
 }  // namespace
 
-resolve_result remove_faces(mesh_view mesh, const resolve_options& options) {
+repair_result remove_faces(mesh_view mesh, const resolve_options& options) {
     return remover(mesh, options).run();
 }
 

@@ -7,6 +7,6 @@
 namespace treeform::detail::repair {
 
 /// `resolve_self_intersections` in the mode `remove`.
-[[nodiscard]] resolve_result remove_faces(mesh_view mesh, const resolve_options& options);
+[[nodiscard]] repair_result remove_faces(mesh_view mesh, const resolve_options& options);
 
 }  // namespace treeform::detail::repair

@@ -117,7 +117,7 @@ class repairer {
         if (const auto equal = detail::weld::few_equal_points(mesh_.points))
             for (face& f : mesh_.faces)
                 for (std::uint32_t& corner : f)
-                    corner = equal->first_of_new[equal->new_of_old[corner]];
+                    corner = equal->first_of_group[equal->group_of_point[corner]];
         const auto box = bounding_box(mesh_.points);
         diagonal_ = box ? box->diagonal() : 0.0;
     }

@@ -19,13 +19,13 @@ namespace {
 
 /// A mesh without self-intersections, and what is left of each face of the input.
 struct resolved_mesh {
-    resolve_result result{};
+    repair_result result{};
     std::vector<std::uint8_t> is_left{};  ///< [F]
 };
 
 resolved_mesh from(detail::boolean::resolved_operand&& resolved) {
     boolean_result& made = resolved.made;
-    resolve_result result;
+    repair_result result;
     result.mesh = std::move(made.mesh);
     for (const operand_element& e : made.face_source) result.face_source.push_back(e.index);
     for (const operand_element& e : made.vertex_source) result.vertex_source.push_back(e.index);
@@ -36,14 +36,14 @@ resolved_mesh from(detail::boolean::resolved_operand&& resolved) {
     return {std::move(result), std::move(resolved.is_left)};
 }
 
-resolved_mesh from(mesh_view mesh, resolve_result&& result) {
+resolved_mesh from(mesh_view mesh, repair_result&& result) {
     std::vector<std::uint8_t> is_left(mesh.faces.size(), 0);
     for (const std::uint32_t f : result.face_source)
-        if (f != resolve_result::none) is_left[f] = 1;
+        if (f != repair_result::none) is_left[f] = 1;
     return {std::move(result), std::move(is_left)};
 }
 
-void count_losses(mesh_view mesh, std::span<const std::uint8_t> is_left, resolve_result& result) {
+void count_losses(mesh_view mesh, std::span<const std::uint8_t> is_left, repair_result& result) {
     const std::vector<std::uint32_t> component = face_components(mesh.points.size(), mesh.faces);
     std::uint32_t components = 0;
     for (const std::uint32_t c : component) components = std::max(components, c + 1);
@@ -51,17 +51,18 @@ void count_losses(mesh_view mesh, std::span<const std::uint8_t> is_left, resolve
     for (std::size_t f = 0; f < is_left.size(); ++f)
         if (is_left[f] != 0) has_face[component[f]] = 1;
     result.statistics.filled =
-        static_cast<std::uint64_t>(std::ranges::count(result.face_source, resolve_result::none));
+        static_cast<std::uint64_t>(std::ranges::count(result.face_source, repair_result::none));
     const auto gone = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
     result.statistics.removed = gone - std::min(gone, result.statistics.covered);
-    result.vanished_components = static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
+    result.statistics.vanished_components =
+        static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
     if (result.certificate && result.mesh.faces.empty() && !mesh.faces.empty())
         result.certificate.status = status::vanished;
 }
 
 /// `split` loses nothing; neither does `outer` where no component is inward.
 void check_loss(mesh_view mesh, resolve_mode mode, const resolve_options& options,
-                std::span<const std::uint8_t> is_left, resolve_result& result) {
+                std::span<const std::uint8_t> is_left, repair_result& result) {
     if (!result.certificate || mode == resolve_mode::split || options.max_loss >= 1.0) return;
     if (mode == resolve_mode::outer && !detail::repair::has_inward_component(mesh)) return;
     bool is_cancelled = false;
@@ -99,8 +100,8 @@ resolved_mesh by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& 
 
 }  // namespace
 
-resolve_result resolve_self_intersections(const mesh_ref& given, resolve_mode mode,
-                                          const resolve_options& options) {
+repair_result resolve_self_intersections(const mesh_ref& given, resolve_mode mode,
+                                         const resolve_options& options) {
     const mesh_view mesh = given.view();
     using detail::base::require_limit;
     require_limit("resolve_self_intersections", options.max_loss, "the largest loss");

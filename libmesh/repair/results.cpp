@@ -14,14 +14,4 @@ treeform::mesh repair_result::value() && {
     return std::move(mesh);
 }
 
-const mesh& resolve_result::value() const& {
-    if (!certificate) throw not_certified_error(certificate);
-    return mesh;
-}
-
-treeform::mesh resolve_result::value() && {
-    if (!certificate) throw not_certified_error(std::move(certificate));
-    return std::move(mesh);
-}
-
 }  // namespace treeform

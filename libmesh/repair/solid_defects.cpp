@@ -14,12 +14,12 @@ namespace {
 
 /// Points that are left without a face may be anything.
 mesh joined_usable(mesh_view given, std::uint64_t unusable) {
-    if (unusable == 0) return join_meshes({&given, 1}).mesh;
+    if (unusable == 0) return join_meshes({&given, 1});
     mesh usable{{given.points.begin(), given.points.end()},
                 {given.faces.begin(), given.faces.end()}};
     (void)drop_unusable_faces(usable);
     const mesh_view left = usable;
-    return join_meshes({&left, 1}).mesh;
+    return join_meshes({&left, 1});
 }
 
 void count_inverted(mesh joined, solid_defects& found) {

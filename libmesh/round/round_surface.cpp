@@ -334,12 +334,12 @@ class rounding {
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        for (std::size_t i = begin; i < end; ++i) {
                            const auto number = static_cast<std::uint32_t>(i);
-                           new_of_old[points[i]] = equal ? equal->new_of_old[i] : number;
+                           new_of_old[points[i]] = equal ? equal->group_of_point[i] : number;
                            point_of[i] = point_of_[points[i]];
                        }
                    });
         if (equal) {
-            const std::vector<std::uint32_t>& first = equal->first_of_new;
+            const std::vector<std::uint32_t>& first = equal->first_of_group;
             for (std::size_t p = 0; p < first.size(); ++p) {  // in place: it is no earlier
                 at[p] = at[first[p]];
                 point_of[p] = point_of[first[p]];

@@ -17,11 +17,11 @@ using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// Ascending; none where stopped, which `end` then says.
 pairs meeting_pairs(mesh_view mesh, const progress_callback& progress, status& end) {
-    const self_intersection_options options{
+    const intersection_options options{
         .vertices = vertex_identity::by_index,
         .kinds = pair_kinds::all - pair_kind::touching - pair_kind::degenerate,
         .progress = progress};
-    const self_intersection_result found = self_intersections(mesh, options);
+    const intersection_result found = self_intersections(mesh, options);
     if (found.status != status::ok) end = found.status;
     pairs result;
     result.reserve(found.pairs.size());
@@ -62,13 +62,14 @@ std::vector<point3> rounded(points_view points, precision to) {
     return result;
 }
 
-rounding_defects find_rounding_defects(mesh_view mesh, points_view placed,
+rounding_effects find_rounding_defects(mesh_view mesh, points_view placed,
                                        const progress_callback& progress) {
     if (placed.size() != mesh.points.size())
         throw std::invalid_argument(
             "treeform::find_rounding_defects: not as many points as the mesh has");
     const mesh_view there{placed, mesh.faces};
-    rounding_defects harm;
+    rounding_effects harm;
+    harm.compared = true;
     const pairs now = meeting_pairs(there, progress, harm.status);
     if (!now.empty() && harm.status != treeform::status::cancelled)
         harm.meeting = count_new(now, meeting_pairs(mesh, progress, harm.status));

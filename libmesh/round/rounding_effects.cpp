@@ -20,24 +20,24 @@ rounding_effects& rounding_effects::operator+=(const rounding_effects& other) {
 }
 
 rounding_effects effects_of_rounding(const mesh_ref& given, const transform<3>& by,
-                                     points_view placed, const rounding_options& options) {
+                                     points_view placed, precision before, precision after,
+                                     const progress_callback& progress) {
     const detail::base::prepared_ref held(given);
     const prepared_mesh& mesh = held;
     const mesh_view moving = mesh.view();
     if (placed.size() != moving.points.size())
         throw std::invalid_argument(
             "treeform::effects_of_rounding: as many points placed as there are is needed");
-    const bool to_float32 =
-        options.after == precision::float32 && options.before == precision::float64;
+    const bool to_float32 = after == precision::float32 && before == precision::float64;
     rounding_effects found;
     found.max_displacement = detail::max_displacement(moving.points, by, placed);
-    found.step = coordinate_step(placed, options.after);
+    found.step = coordinate_step(placed, after);
     const auto box = bounding_box(moving.points);
     found.noticeable = found.max_displacement > 0.0 &&
                        (to_float32 || found.max_displacement > 1e-6 * (box ? box->diagonal() : 0));
-    const bool coarser = found.step > coordinate_step(moving.points, options.before);
+    const bool coarser = found.step > coordinate_step(moving.points, before);
     if (!coarser || !(found.max_displacement > 0.0) || mesh.is_cloud()) return found;
-    const rounding_defects defects = find_rounding_defects(moving, placed, options.progress);
+    const rounding_effects defects = find_rounding_defects(moving, placed, progress);
     found.compared = true;
     found.collapsed = defects.collapsed;
     found.meeting = defects.meeting;

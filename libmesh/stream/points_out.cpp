@@ -9,17 +9,16 @@ namespace treeform::detail::stream {
 
 namespace fs = std::filesystem;
 
-points_out::points_out(const weld_stream_outputs::file& to, const mesh_file& header,
-                       std::uint64_t count, const communicator* all, const fs::path& part,
-                       std::size_t most_corners)
-    : target_(to.path),
-      path_(all == nullptr ? to.path : part_path(to.path, all, part)),
+points_out::points_out(const output_path& to, const mesh_file& header, std::uint64_t count,
+                       const communicator* all, const fs::path& part, std::size_t most_corners)
+    : target_(to.first),
+      path_(all == nullptr ? to.first : part_path(to.first, all, part)),
       all_(all),
       writer_(path_, header, count, options_of(to), most_corners) {}
 
-write_options points_out::options_of(const weld_stream_outputs::file& to) {
-    write_options options = to.options;
-    const std::string extension = to.path.extension().string();
+write_options points_out::options_of(const output_path& to) {
+    write_options options = to.second;
+    const std::string extension = to.first.extension().string();
     if (options.format.empty() && !extension.empty()) options.format = extension.substr(1);
     return options;
 }
@@ -80,7 +79,7 @@ write_result points_out::commit() {
     std::vector<std::string> parts;
     for (state_reader& one : all_->exchange(chunks)) parts.push_back(one.text());
     write_result result;
-    const point_writer::part part = writer_.commit_part(result, parts);
+    const detail::io::written_part part = writer_.commit_part(result, parts);
     const std::string head = head_of_part(part);
     const bool is_last = all_->rank() + 1 == all_->size();
     const std::uint64_t rows = is_last ? fs::file_size(path_) - part.head - part.points : part.rows;
@@ -125,7 +124,7 @@ write_result points_out::commit() {
     return result;
 }
 
-std::string points_out::head_of_part(const point_writer::part& part) const {
+std::string points_out::head_of_part(const detail::io::written_part& part) const {
     std::string head(static_cast<std::size_t>(part.head), '\0');
     if (read_from(path_, 0, std::as_writable_bytes(std::span(head))) != head.size())
         fail_damaged(path_);

@@ -19,15 +19,17 @@
 
 namespace treeform::detail::stream {
 
+using output_path = std::pair<std::filesystem::path, write_options>;
+
 /// Rows of a block on their way to a file of points.
 class points_out {
   public:
     /// `all` are the ranks that write a part each; none: the file is written here.
-    points_out(const weld_stream_outputs::file& to, const mesh_file& header, std::uint64_t count,
+    points_out(const output_path& to, const mesh_file& header, std::uint64_t count,
                const communicator* all, const std::filesystem::path& part,
                std::size_t most_corners = 0);
 
-    [[nodiscard]] static write_options options_of(const weld_stream_outputs::file& to);
+    [[nodiscard]] static write_options options_of(const output_path& to);
 
     void write(const point_block& block, const std::vector<std::uint32_t>& rows);
     void write(const point_block& block);
@@ -39,7 +41,7 @@ class points_out {
 
   private:
     void share_values(const std::filesystem::path& file, std::uint64_t mine);
-    [[nodiscard]] std::string head_of_part(const point_writer::part& part) const;
+    [[nodiscard]] std::string head_of_part(const detail::io::written_part& part) const;
 
     std::filesystem::path target_;
     std::filesystem::path path_;

@@ -21,7 +21,7 @@ class turns {
     turns(const communicator& all, const file_of_rows& of) : all_(all), of_(of) {}
 
     [[nodiscard]] std::vector<io::row_place> take(
-        const std::function<void(const row_block&)>& take_block,
+        const std::function<void(const io::row_block&)>& take_block,
         const std::function<void(const io::point_blocks&)>& done) {
         row_range last;
         all_.sequential([&](state_writer& mine) { send(mine, last.last, take_block, done); },
@@ -35,7 +35,7 @@ class turns {
 
   private:
     void send(state_writer& mine, const io::row_place& first,
-              const std::function<void(const row_block&)>& take_block,
+              const std::function<void(const io::row_block&)>& take_block,
               const std::function<void(const io::point_blocks&)>& done) const {
         row_range read;
         std::string failure;
@@ -62,7 +62,7 @@ class turns {
     }
 
     [[nodiscard]] row_range read_share(
-        const io::row_place& first, const std::function<void(const row_block&)>& take_block,
+        const io::row_place& first, const std::function<void(const io::row_block&)>& take_block,
         const std::function<void(const io::point_blocks&)>& done) const {
         io::point_blocks reader(of_.path, {.format = std::string(of_.format)}, 0, of_.use,
                                 of_.known);
@@ -71,7 +71,7 @@ class turns {
         read.last = read.first;
         const std::uint64_t end = end_of_share(read.first.byte);
         const std::size_t most = rows_at_once(reader.header());
-        for (row_block block; read.last.byte < end && reader.read(block, most);) {
+        for (io::row_block block; read.last.byte < end && reader.read(block, most);) {
             take_block(block);
             read.last = reader.next_row();
         }
@@ -106,7 +106,7 @@ class turns {
 }  // namespace
 
 std::vector<io::row_place> rows_in_turn(const communicator& all, const file_of_rows& of,
-                                        const std::function<void(const row_block&)>& take,
+                                        const std::function<void(const io::row_block&)>& take,
                                         const std::function<void(const io::point_blocks&)>& done) {
     return turns(all, of).take(take, done);
 }

@@ -29,7 +29,7 @@ struct file_of_rows {
 /// \throws io_error, and what `take` throws
 [[nodiscard]] std::vector<io::row_place> rows_in_turn(
     const communicator& all, const file_of_rows& of,
-    const std::function<void(const row_block&)>& take,
+    const std::function<void(const io::row_block&)>& take,
     const std::function<void(const io::point_blocks&)>& done = {});
 
 }  // namespace treeform::detail::stream

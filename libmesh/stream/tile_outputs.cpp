@@ -140,9 +140,9 @@ class giving_back {
             vertices != nullptr && std::ranges::any_of(vertices->columns, [](const column& c) {
                 return c.list_length.has_value();
             });
-        const auto has_parts = [&](const std::optional<weld_stream_outputs::file>& to) {
+        const auto has_parts = [&](const std::optional<output_path>& to) {
             if (!to) return true;
-            if (to->path == "-" || is_special(to->path)) return false;
+            if (to->first == "-" || is_special(to->first)) return false;
             mesh_file head = removed_head();  // parts of points, whatever is behind them
             if (!head.las) head.las.emplace();
             const point_writer writer(part("none"), head, 0, points_out::options_of(*to));
@@ -252,13 +252,13 @@ class giving_back {
 
     /// Coordinates with declared types that points may have outgrown: by their digits in text, as
     /// means, rounded to the steps of LAS, or in another file.
-    [[nodiscard]] std::array<bool, 3> axes_asked(const std::optional<weld_stream_outputs::file>& to,
+    [[nodiscard]] std::array<bool, 3> axes_asked(const std::optional<output_path>& to,
                                                  const mesh_file& head, bool means) const {
         std::array<bool, 3> asked{};
         const element* const vertices = head.attributes.find("vertex");
         if (!to || vertices == nullptr) return asked;
         const write_options options = points_out::options_of(*to);
-        const io::known_format& format = io::find_format(to->path, options);
+        const io::known_format& format = io::find_format(to->first, options);
         const bool has_types = format.extension == "ply" || format.extension == "pcd";
         if (!has_types || options.precision) return asked;
         means = means || task_.options.as_las;
@@ -286,7 +286,7 @@ class giving_back {
         return survey_.single || (!all_las && may_extend(head_));
     }
 
-    [[nodiscard]] static bool is_las(const weld_stream_outputs::file& to) {
+    [[nodiscard]] static bool is_las(const output_path& to) {
         const std::string format = points_out::options_of(to).format;
         return format == "las" || format == "laz";
     }
@@ -304,7 +304,7 @@ class giving_back {
             });
         };
         removed_head_.las = las_grid_of(
-            each, all, {asked_.removed->options.las_scale, asked_.removed->options.las_offset});
+            each, all, {asked_.removed->second.las_scale, asked_.removed->second.las_offset});
         seen.share(all);
         seen.describe(removed_head_);
     }

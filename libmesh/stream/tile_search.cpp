@@ -7,6 +7,7 @@
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
 #include <algorithm>
@@ -114,7 +115,7 @@ std::vector<Record> all_of(const std::filesystem::path& path, const record_count
     return records;
 }
 
-void add_counts(self_intersection_result& sum, const self_intersection_result& one) {
+void add_counts(intersection_result& sum, const intersection_result& one) {
     for (std::size_t k = 0; k < pair_kind_count; ++k) sum.counts[k] += one.counts[k];
     sum.box_pairs += one.box_pairs;
     sum.exact_pairs += one.exact_pairs;
@@ -252,7 +253,7 @@ bool tile_search::share_rows(const io::face_rows& rows, bool in_turn,
                               .format = options_.format,
                               .use = io::row_use::looked_at,
                               .known = known},
-                             [&](const row_block&) { pace_.check(); });
+                             [&](const io::row_block&) { pace_.check(); });
     const std::size_t next = all_.rank() + 1;
     rows.go_to(parts[next - 1],
                next == all_.size() ? std::nullopt : std::optional(parts[next].row));
@@ -425,7 +426,7 @@ void tile_search::search_as(std::size_t tile) {
         }
         return true;
     };
-    self_intersection_result all = self_intersections(
+    intersection_result all = self_intersections(
         m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
     if (all.status == treeform::status::cancelled) throw cancelled{};
     survey_.found.tree_seconds += all.tree_seconds;  // of the tiles that this process searches

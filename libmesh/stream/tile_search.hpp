@@ -44,7 +44,7 @@ struct tile_pair {
 struct tile_found {
     record_count pairs{};
     record_count faces{};
-    self_intersection_result counted{};  ///< without pairs
+    intersection_result counted{};  ///< without pairs
 };
 
 /// For what is stored, and what ranks exchange.

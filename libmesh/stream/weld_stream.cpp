@@ -167,7 +167,7 @@ struct stream_weld::state {
         const weld_stream_options& o = task.options;
         detail::stream::state_writer mine;
         mine.real(written.welded ? written.welded->max_displacement : 0.0);
-        mine.text(outputs.welded->path.string());
+        mine.text(outputs.welded->first.string());
         detail::stream::state_reader first = all.exchange(mine).front();
         const bool rounded = first.real() > 0.0;
         const fs::path path = first.text();
@@ -183,13 +183,13 @@ struct stream_weld::state {
         again.shared = false;
         again.same = keys.conditions();
         again.keep_seams = false;
-        cloud_inputs input{.paths = {path}, .format = outputs.welded->options.format};
+        cloud_inputs input{.paths = {path}, .format = outputs.welded->second.format};
         const fs::path whole = folder.file("whole.ply");
         if (!again.same.empty() &&
             !have_same_values(source.header(), input.outline(o.communicator).header, again.same)) {
             weld_stream_outputs as_read{.unfinished = outputs.unfinished};
             as_read.welded = {whole,
-                              {.precision = outputs.welded->options.precision, .keep_names = true}};
+                              {.precision = outputs.welded->second.precision, .keep_names = true}};
             static_cast<void>(detail::stream::give_back(pace, task, as_read, steps, *welded,
                                                         rows ? &*rows : nullptr, nullptr, folder));
             input = {.paths = {whole}};

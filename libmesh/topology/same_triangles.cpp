@@ -32,9 +32,9 @@ std::vector<corners> sorted_corners(mesh_view mesh) {
 
 }  // namespace
 
-bool same_triangles(mesh_view a, mesh_view b, face_order order) {
+bool same_triangles(mesh_view a, mesh_view b, bool any_order) {
     if (a.faces.size() != b.faces.size()) return false;
-    if (order == face_order::any) return sorted_corners(a) == sorted_corners(b);
+    if (any_order) return sorted_corners(a) == sorted_corners(b);
     for (std::size_t f = 0; f < a.faces.size(); ++f)
         if (corners_of(a, f) != corners_of(b, f)) return false;
     return true;

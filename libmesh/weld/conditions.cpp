@@ -1,5 +1,5 @@
 #include <libmesh/weld/conditions.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> refine(std::size_t count, std::span<const std::uint32
             keys[i] = {alone ? nan : static_cast<double>(number), no_u ? 0.0 : u, no_v ? 0.0 : v};
         }
     });
-    return find_equal_points(keys.span()).new_of_old;
+    return find_equal_points(keys.span()).group_of_point;
 }
 
 [[noreturn]] void refuse_conditions(const std::string& why) {

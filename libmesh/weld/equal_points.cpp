@@ -3,7 +3,7 @@
 #include <libmesh/weld/equal_firsts.hpp>
 #include <libmesh/weld/number_groups.hpp>
 #include <libmesh/weld/point_hash.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -174,31 +174,31 @@ std::vector<std::uint32_t> detail::weld::equal_firsts(points_view points,
     return hash_then_first;
 }
 
-equal_points find_equal_points(points_view points) {
+point_groups find_equal_points(points_view points) {
     if (points.size() > nobody)
         throw std::invalid_argument("treeform::find_equal_points: more than 2^32 - 1 points");
-    equal_points result;
-    result.new_of_old = detail::weld::equal_firsts(points, {});
-    result.first_of_new = detail::weld::number_groups(result.new_of_old);
+    point_groups result;
+    result.group_of_point = detail::weld::equal_firsts(points, {});
+    result.first_of_group = detail::weld::number_groups(result.group_of_point);
     return result;
 }
 
 mesh join_equal_points(mesh_view mesh) {
     detail::base::check_faces("join_equal_points", mesh.points.size(), mesh.faces);
-    const equal_points joined = find_equal_points(mesh.points);
+    const point_groups joined = find_equal_points(mesh.points);
     treeform::mesh result;
-    detail::base::resize_all(joined.first_of_new.size(), result.points);
+    detail::base::resize_all(joined.first_of_group.size(), result.points);
     for_chunks(result.points.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i)
-                       result.points[i] = mesh.points[joined.first_of_new[i]];
+                       result.points[i] = mesh.points[joined.first_of_group[i]];
                });
     detail::base::resize_all(mesh.faces.size(), result.faces);
     for_chunks(result.faces.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i)
                        for (std::size_t k = 0; k < 3; ++k)
-                           result.faces[i][k] = joined.new_of_old[mesh.faces[i][k]];
+                           result.faces[i][k] = joined.group_of_point[mesh.faces[i][k]];
                });
     return result;
 }

@@ -73,7 +73,7 @@ std::vector<std::uint32_t> points_in_doubt(points_view points) {
 
 }  // namespace
 
-std::optional<equal_points> few_equal_points(points_view points) {
+std::optional<point_groups> few_equal_points(points_view points) {
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
         throw std::invalid_argument("treeform::find_equal_points: more than 2^32 - 1 points");
     const std::vector<std::uint32_t> doubted = points_in_doubt(points);
@@ -84,11 +84,11 @@ std::optional<equal_points> few_equal_points(points_view points) {
     const std::vector<std::uint32_t> first = equal_firsts(at, {});
     const auto is_equal = [&](std::size_t i) { return first[i] != i; };
     if (base::first_bad(first.size(), is_equal) == first.size()) return std::nullopt;
-    equal_points result;
-    result.new_of_old = base::numbers_below(points.size());
+    point_groups result;
+    result.group_of_point = base::numbers_below(points.size());
     for (std::size_t i = 0; i < first.size(); ++i)
-        result.new_of_old[doubted[i]] = doubted[first[i]];
-    result.first_of_new = number_groups(result.new_of_old);
+        result.group_of_point[doubted[i]] = doubted[first[i]];
+    result.first_of_group = number_groups(result.group_of_point);
     return result;
 }
 

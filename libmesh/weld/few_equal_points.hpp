@@ -2,8 +2,8 @@
 /// \file
 /// Equal points among points that nearly all differ.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <optional>
 
@@ -17,6 +17,6 @@ namespace treeform::detail::weld {
 /// \throws std::invalid_argument for more than 2^32 - 1 points
 /// \cost   as `find_equal_points` of a tenth of the points, and 4 bytes a point
 /// \same   on any number of threads
-[[nodiscard]] std::optional<equal_points> few_equal_points(points_view points);
+[[nodiscard]] std::optional<point_groups> few_equal_points(points_view points);
 
 }  // namespace treeform::detail::weld

@@ -104,7 +104,7 @@ void check(const char* called, points_view points, const weld_options& options) 
 }  // namespace
 
 point_groups detail::weld::find_groups(const char* called, points_view points,
-                                       const weld_options& given) {
+                                       const weld_options& given, neighbor_search search) {
     check(called, points, given);
     bool stopped = false;
     double furthest = 0.0;
@@ -124,11 +124,12 @@ point_groups detail::weld::find_groups(const char* called, points_view points,
     if (options.tolerance == 0.0) {
         first_of = by_equality(points, options);
     } else {
-        const bool in_tiles = detail::weld::can_be_tiled(points, options);
+        const bool in_tiles =
+            search == neighbor_search::automatic && detail::weld::can_be_tiled(points, options);
         const auto missing = [&] { return first_of.size() != points.size() && !stopped; };
         if (!in_tiles || !detail::weld::is_window_wide(points, options.tolerance))
-            first_of = by_first ? detail::weld::sparse_leaders(points, options)
-                                : detail::weld::sparse_chains(points, options);
+            first_of = by_first ? detail::weld::sparse_leaders(points, options, search)
+                                : detail::weld::sparse_chains(points, options, search);
         if (in_tiles && missing()) first_of = detail::weld::tiled_leaders(points, options);
         if (missing())
             first_of = by_first ? detail::weld::dense_leaders(points, options)

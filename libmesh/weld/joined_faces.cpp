@@ -18,7 +18,7 @@ joined_faces join_faces(mesh_view mesh) {
     for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t f = begin; f < end; ++f)
             for (std::size_t i = 0; i < 3; ++i)
-                result.faces[f][i] = equal->first_of_new[equal->new_of_old[mesh.faces[f][i]]];
+                result.faces[f][i] = equal->first_of_group[equal->group_of_point[mesh.faces[f][i]]];
     });
     return result;
 }

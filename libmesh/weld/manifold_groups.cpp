@@ -3,6 +3,7 @@
 #include <libmesh/weld/edge_uses.hpp>
 #include <libmesh/weld/manifold_groups.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -249,15 +250,14 @@ bool all_equal(points_view points, const point_groups& given) {
 
 /// The groups with only points of equal coordinates left together.
 point_groups with_equal_coordinates(points_view points, const point_groups& given) {
-    const numbers place = find_equal_points(points).new_of_old;
+    const numbers place = find_equal_points(points).group_of_point;
     buffer<point3> keys(points.size());
     for_chunks(keys.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t v = begin; v < end; ++v)
             keys[v] = {static_cast<double>(given.group_of_point[v]), static_cast<double>(place[v]),
                        0.0};
     });
-    equal_points both = find_equal_points(keys.span());
-    return {std::move(both.new_of_old), std::move(both.first_of_new)};
+    return find_equal_points(keys.span());
 }
 
 /// The same groups, of parts of them instead of points.

@@ -11,9 +11,6 @@
 namespace treeform {
 namespace {
 
-using option = weld_property_error::option;
-using fault = weld_property_error::fault;
-
 using detail::attribute::column_use;
 
 const column* data_column(const attributes& properties, std::string_view name) {
@@ -38,19 +35,20 @@ std::vector<std::string> columns_of(const attributes& properties, std::string_vi
     return vertices == nullptr ? std::vector<std::string>{} : vertices->columns_called(name);
 }
 
-std::vector<std::string> required(const attributes& properties, option where,
+std::vector<std::string> required(const attributes& properties, const char* option,
                                   const std::string& name) {
     auto columns = columns_of(properties, name);
-    if (columns.empty()) throw weld_property_error(where, fault::missing, name);
+    if (columns.empty()) throw weld_property_error(option, name, "");
     for (const std::string& column : columns)
         if (const auto* const c = data_column(properties, column); c != nullptr && c->list_length)
-            throw weld_property_error(where, fault::is_list, name);
+            throw weld_property_error(option, name, "has lists of values");
     return columns;
 }
 
-std::string required_column(const attributes& properties, option where, const std::string& name) {
-    auto columns = required(properties, where, name);
-    if (columns.size() > 1) throw weld_property_error(where, fault::is_several, name);
+std::string required_column(const attributes& properties, const char* option,
+                            const std::string& name) {
+    auto columns = required(properties, option, name);
+    if (columns.size() > 1) throw weld_property_error(option, name, "is more than one property");
     return std::move(columns.front());
 }
 
@@ -72,7 +70,7 @@ std::vector<weld_condition> kept_seams(const attributes& properties,
     for (const std::string& name : across) {
         const auto let_go = detail::attribute::use_called(name)
                                 ? columns_of(properties, name)
-                                : required(properties, option::across, name);
+                                : required(properties, "across", name);
         std::erase_if(seams, [&](const weld_condition& c) {
             return std::find(let_go.begin(), let_go.end(), c.property) != let_go.end();
         });
@@ -80,31 +78,21 @@ std::vector<weld_condition> kept_seams(const attributes& properties,
     return seams;
 }
 
-std::string in_words(fault what, const std::string& name) {
-    switch (what) {
-        case fault::missing:
-            return "no vertex property '" + name + "'";
-        case fault::is_list:
-            return "the vertex property '" + name + "' is a list";
-        case fault::is_several:
-            break;
-    }
-    return "'" + name + "' is more than one vertex property";
-}
-
 }  // namespace
 
-weld_property_error::weld_property_error(option where, fault what, std::string name)
-    : std::invalid_argument("treeform::weld: " + in_words(what, name)),
-      where_(where),
-      fault_(what),
-      name_(std::move(name)) {}
+weld_property_error::weld_property_error(std::string option, std::string name, std::string reason)
+    : std::invalid_argument("treeform::weld: " +
+                            (reason.empty() ? "no vertex property '" + name + "'"
+                                            : "the vertex property '" + name + "' " + reason)),
+      option_(std::move(option)),
+      name_(std::move(name)),
+      reason_(std::move(reason)) {}
 
 std::vector<weld_condition> weld_options::conditions(const attributes& properties,
                                                      bool has_faces) const {
     std::vector<weld_condition> conditions;
     for (const weld_condition& asked : same)
-        for (std::string& column : required(properties, option::same, asked.property))
+        for (std::string& column : required(properties, "same", asked.property))
             conditions.push_back({std::move(column), asked.tolerance});
     if (!keep_seams) return conditions;
     const auto asked = static_cast<std::ptrdiff_t>(conditions.size());
@@ -119,12 +107,12 @@ std::vector<weld_condition> weld_options::conditions(const attributes& propertie
 
 std::string detail::weld::column_to_keep_by(const attributes& properties,
                                             const weld_options& options) {
-    return required_column(properties, option::keep_by, options.keep_by);
+    return required_column(properties, "keep_by", options.keep_by);
 }
 
 std::string detail::weld::column_to_order_by(const attributes& properties,
                                              const weld_options& options) {
-    return required_column(properties, option::order_by, options.order_by);
+    return required_column(properties, "order_by", options.order_by);
 }
 
 }  // namespace treeform

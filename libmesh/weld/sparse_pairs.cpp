@@ -143,7 +143,8 @@ class agreeing {
 
 }  // namespace
 
-std::vector<std::uint32_t> sparse_leaders(points_view points, const weld_options& options) {
+std::vector<std::uint32_t> sparse_leaders(points_view points, const weld_options& options,
+                                          neighbor_search search) {
     std::vector<std::uint32_t> leader_of(points.size());
     std::iota(leader_of.begin(), leader_of.end(), 0U);
     pair_list pairs(points.size() + points.size() / 4 + 1024);
@@ -158,7 +159,7 @@ std::vector<std::uint32_t> sparse_leaders(points_view points, const weld_options
     };
     const near_pairs_task task{points,   options.tolerance, options.label, !options.may_merge,
                                add_copy, add_pairs};
-    if (!find_pairs(task, options.search)) return {};
+    if (!find_pairs(task, search)) return {};
     if (options.progress && !options.progress(0.7)) return {};
 
     const sorted_records<earlier_neighbor> sorted = pairs.sorted(points.size());
@@ -168,7 +169,8 @@ std::vector<std::uint32_t> sparse_leaders(points_view points, const weld_options
     return leader_of;
 }
 
-std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options& options) {
+std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options& options,
+                                         neighbor_search search) {
     const std::size_t most = 16 * points.size() + 1024;
     base::union_find sets(points.size());
     std::atomic<std::size_t> count = 0;
@@ -182,7 +184,7 @@ std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options&
     };
     const near_pairs_task task{points,   options.tolerance, options.label, !options.may_merge,
                                add_copy, add_pairs};
-    if (!find_pairs(task, options.search)) return {};
+    if (!find_pairs(task, search)) return {};
     std::vector<std::uint32_t> root_of(points.size());
     for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)

@@ -128,8 +128,7 @@ bool can_be_tiled(points_view points, const weld_options& options) {
     constexpr std::size_t least = std::size_t{1} << 18;
     constexpr double largest = 0x1p990;  // beyond, tiles have one cube (near_cells.hpp)
     return options.tolerance < largest && options.rule == weld_rule::first &&
-           options.search == neighbor_search::automatic && options.label.empty() &&
-           !options.may_merge && points.size() >= least;
+           options.label.empty() && !options.may_merge && points.size() >= least;
 }
 
 bool is_window_wide(points_view points, double tolerance) {

@@ -117,7 +117,7 @@ certificate checked(mesh_view made, precision of, detail::base::work_progress& p
 
 }  // namespace
 
-wrap_result wrap(const mesh_ref& given, double size, const wrap_options& options) {
+offset_result wrap(const mesh_ref& given, double size, const offset_options& options) {
     const mesh_view mesh = given.view();
     require_length(size, "the size");
     const double offset = options.offset.value_or(usual_share * size);
@@ -129,18 +129,17 @@ wrap_result wrap(const mesh_ref& given, double size, const wrap_options& options
     const box3 around = box_around(box, size, offset, options.precision);
     check_sizes(box, around, offset, options.precision);
 
-    wrap_result result;
-    result.statistics.size = size;
-    result.statistics.offset = offset;
-    result.statistics.area = detail::topology::area(mesh);
-    const auto cancelled = [&result]() -> wrap_result& {
+    offset_result result;
+    result.statistics.resolution = size;
+    result.statistics.distance = offset;
+    const auto cancelled = [&result]() -> offset_result& {
         result.mesh = {};
         result.certificate.status = status::cancelled;
         return result;
     };
     detail::base::work_progress progress(options.progress);
     constexpr double most_faces = 0x1p30;
-    if (result.statistics.area > most_faces * size * size)
+    if (detail::topology::area(mesh) > most_faces * size * size)
         refuse("the size " + detail::base::brief(size) +
                " is too small: the wrap would have more "
                "than 10^9 faces");
@@ -161,16 +160,6 @@ wrap_result wrap(const mesh_ref& given, double size, const wrap_options& options
     result.certificate = checked(result.mesh, options.precision, progress);
     if (result.certificate.status == status::cancelled) return std::move(cancelled());
     return result;
-}
-
-const mesh& wrap_result::value() const& {
-    if (!certificate) throw not_certified_error(certificate);
-    return mesh;
-}
-
-treeform::mesh wrap_result::value() && {
-    if (!certificate) throw not_certified_error(std::move(certificate));
-    return std::move(mesh);
 }
 
 }  // namespace treeform

@@ -63,12 +63,12 @@ void for_chunks(std::size_t count, std::size_t grain,
 }
 
 /// Threads of a nested loop are its own here, and none waits for what is not its own: a lock does.
-struct once::state {
+struct detail::once::state {
     std::mutex mutex;
     std::atomic<bool> done{false};
 };
 
-void once::call(detail::function_ref<void()> work) {
+void detail::once::call(detail::function_ref<void()> work) {
     if (state_->done.load(std::memory_order_acquire)) return;
     const std::lock_guard lock(state_->mutex);
     if (state_->done.load(std::memory_order_relaxed)) return;
@@ -76,8 +76,8 @@ void once::call(detail::function_ref<void()> work) {
     state_->done.store(true, std::memory_order_release);
 }
 
-once::once() : state_(std::make_unique<state>()) {}
-once::~once() = default;
+detail::once::once() : state_(std::make_unique<state>()) {}
+detail::once::~once() = default;
 
 }  // namespace treeform
 
@@ -130,16 +130,16 @@ void for_chunks(std::size_t count, std::size_t grain,
         tbb::simple_partitioner{}, own);
 }
 
-struct once::state {
+struct detail::once::state {
     tbb::collaborative_once_flag flag;
 };
 
-void once::call(detail::function_ref<void()> work) {
+void detail::once::call(detail::function_ref<void()> work) {
     tbb::collaborative_call_once(state_->flag, [&] { work(); });
 }
 
-once::once() : state_(std::make_unique<state>()) {}
-once::~once() = default;
+detail::once::once() : state_(std::make_unique<state>()) {}
+detail::once::~once() = default;
 
 }  // namespace treeform
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Selection algorithms of the paper that choose their pivot as a median: slower in this build than
-/// those of treeform/tree/strategy.hpp.
+/// that of `build`.
 
 #include <treeform/tree/detail/partition_around.hpp>
 

@@ -5,6 +5,7 @@
 /// Kept as a configuration beside the wide tree: for arities and leaf sizes that have no vector
 /// register, and to reproduce and compare the paper's figures.
 
+#include <libtree/paper/selections.hpp>
 #include <libtree/paper/tree_config.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>

@@ -8,8 +8,8 @@
 #define TREEFORM_NEAR_WALK_INL
 #endif
 
+#include <libtree/query/node_orders.hpp>
 #include <treeform/tree/detail/near_query.hpp>
-#include <treeform/tree/strategy.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <hwy/highway.h>

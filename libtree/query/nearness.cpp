@@ -14,10 +14,10 @@ HWY_BEFORE_NAMESPACE();
 namespace treeform::detail::HWY_NAMESPACE {
 namespace {
 
-template <std::size_t D, class Strategy>
+template <class Order, std::size_t D>
 void approach_by(const tree<D>& t, const near_query<D>& query, double squared,
-                 const Strategy& strategy, function_ref<double(std::uint32_t)> visit) {
-    typename Strategy::template frontier<near_entry, near_depth> frontier(strategy);
+                 function_ref<double(std::uint32_t)> visit) {
+    typename Order::template frontier<near_entry, near_depth> frontier;
     const std::uint32_t* const ids = t.ids().data();
     const wide_node<D>* const blocks = t.level(t.levels() - 1).data();
     const auto leaf = [&](std::uint32_t block, float& bound) {
@@ -36,19 +36,21 @@ void approach_by(const tree<D>& t, const near_query<D>& query, double squared,
 }
 
 template <std::size_t D>
-void approach_any(const tree<D>& t, const near_query<D>& query, double squared,
-                  const nearness_strategy& strategy, function_ref<double(std::uint32_t)> visit) {
-    std::visit([&](const auto& chosen) { approach_by(t, query, squared, chosen, visit); },
-               strategy);
+void approach_any(const tree<D>& t, const near_query<D>& query, double squared, node_order order,
+                  function_ref<double(std::uint32_t)> visit) {
+    if (order == node_order::best_first)
+        approach_by<strategy::priority_queue>(t, query, squared, visit);
+    else
+        approach_by<strategy::depth_first>(t, query, squared, visit);
 }
 
-void approach_2(const tree<2>& t, const near_query<2>& query, double squared,
-                const nearness_strategy& strategy, function_ref<double(std::uint32_t)> visit) {
-    approach_any(t, query, squared, strategy, visit);
+void approach_2(const tree<2>& t, const near_query<2>& query, double squared, node_order order,
+                function_ref<double(std::uint32_t)> visit) {
+    approach_any(t, query, squared, order, visit);
 }
-void approach_3(const tree<3>& t, const near_query<3>& query, double squared,
-                const nearness_strategy& strategy, function_ref<double(std::uint32_t)> visit) {
-    approach_any(t, query, squared, strategy, visit);
+void approach_3(const tree<3>& t, const near_query<3>& query, double squared, node_order order,
+                function_ref<double(std::uint32_t)> visit) {
+    approach_any(t, query, squared, order, visit);
 }
 
 }  // namespace
@@ -62,30 +64,30 @@ namespace {
 HWY_EXPORT(approach_2);
 HWY_EXPORT(approach_3);
 
-void dispatch(const tree<2>& t, const near_query<2>& query, double squared,
-              const nearness_strategy& strategy, function_ref<double(std::uint32_t)> visit) {
-    HWY_DYNAMIC_DISPATCH(approach_2)(t, query, squared, strategy, visit);
+void dispatch(const tree<2>& t, const near_query<2>& query, double squared, node_order order,
+              function_ref<double(std::uint32_t)> visit) {
+    HWY_DYNAMIC_DISPATCH(approach_2)(t, query, squared, order, visit);
 }
-void dispatch(const tree<3>& t, const near_query<3>& query, double squared,
-              const nearness_strategy& strategy, function_ref<double(std::uint32_t)> visit) {
-    HWY_DYNAMIC_DISPATCH(approach_3)(t, query, squared, strategy, visit);
+void dispatch(const tree<3>& t, const near_query<3>& query, double squared, node_order order,
+              function_ref<double(std::uint32_t)> visit) {
+    HWY_DYNAMIC_DISPATCH(approach_3)(t, query, squared, order, visit);
 }
 
 }  // namespace
 
 template <std::size_t D>
-void walk_near(const tree<D>& tree, const aabb<double, D>& query, double squared,
-               const nearness_strategy& strategy, function_ref<double(std::uint32_t)> visit) {
+void walk_near(const tree<D>& tree, const aabb<double, D>& query, double squared, node_order order,
+               function_ref<double(std::uint32_t)> visit) {
     if (!is_finite(query))
         throw std::invalid_argument("treeform::nearness: the query is not finite, or an empty box");
     if (tree.empty() || squared < 0.0) return;
-    dispatch(tree, near_query<D>(tree.frame(), query), squared, strategy, visit);
+    dispatch(tree, near_query<D>(tree.frame(), query), squared, order, visit);
 }
 
-template TREEFORM_API void walk_near(const tree<2>&, const aabb<double, 2>&, double,
-                                     const nearness_strategy&, function_ref<double(std::uint32_t)>);
-template TREEFORM_API void walk_near(const tree<3>&, const aabb<double, 3>&, double,
-                                     const nearness_strategy&, function_ref<double(std::uint32_t)>);
+template TREEFORM_API void walk_near(const tree<2>&, const aabb<double, 2>&, double, node_order,
+                                     function_ref<double(std::uint32_t)>);
+template TREEFORM_API void walk_near(const tree<3>&, const aabb<double, 3>&, double, node_order,
+                                     function_ref<double(std::uint32_t)>);
 
 }  // namespace treeform::detail
 #endif

@@ -224,9 +224,9 @@ constexpr std::size_t queries_per_chunk = 256;
 /// The answers to many queries: a chunk's searches write into one list, in their own order; then
 /// the lists are taken apart into the order of the queries.
 template <std::size_t D, class MakeKept>
-neighbor_lists<near_point> lists_of(const point_blocks<D>& points, double largest,
-                                    std::span<const std::array<double, D>> queries, double radius,
-                                    std::size_t k, const MakeKept& make_kept) {
+answer_lists<near_point> lists_of(const point_blocks<D>& points, double largest,
+                                  std::span<const std::array<double, D>> queries, double radius,
+                                  std::size_t k, const MakeKept& make_kept) {
     check_radius(name, radius);
     for (std::size_t i = 0; i < queries.size(); ++i)
         check_query(queries[i], "query " + std::to_string(i));
@@ -251,17 +251,17 @@ neighbor_lists<near_point> lists_of(const point_blocks<D>& points, double larges
                            limit = std::numeric_limits<double>::infinity();
                    }
                });
-    neighbor_lists<near_point> lists;
+    answer_lists<near_point> lists;
     lists.begin.resize(order.size() + 1);
     for (std::size_t i = 0; i < order.size(); ++i) lists.begin[i + 1] = lists.begin[i] + count[i];
-    lists.neighbors.resize(lists.begin.back());
+    lists.answers.resize(lists.begin.back());
     for_chunks(order.size(), queries_per_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                    auto from = found[chunk].begin();
                    for (std::size_t i = begin; i < end; ++i) {
                        const auto next = from + static_cast<std::ptrdiff_t>(count[order[i]]);
                        std::copy(from, next,
-                                 lists.neighbors.begin() +
+                                 lists.answers.begin() +
                                      static_cast<std::ptrdiff_t>(lists.begin[order[i]]));
                        from = next;
                    }
@@ -303,16 +303,16 @@ std::vector<near_point> point_search<D>::all_within(const point& query, double r
 }
 
 template <std::size_t D>
-neighbor_lists<near_point> point_search<D>::k_nearest(std::span<const point> queries, std::size_t k,
-                                                      double radius) const {
+answer_lists<near_point> point_search<D>::k_nearest(std::span<const point> queries, std::size_t k,
+                                                    double radius) const {
     k = std::min(k, size());
     return detail::lists_of<D>({&tree_, coordinates_.data()}, largest_, queries, radius, k,
                                [&] { return detail::k_offered(k, 0.0); });
 }
 
 template <std::size_t D>
-neighbor_lists<near_point> point_search<D>::all_within(std::span<const point> queries,
-                                                       double radius) const {
+answer_lists<near_point> point_search<D>::all_within(std::span<const point> queries,
+                                                     double radius) const {
     return detail::lists_of<D>({&tree_, coordinates_.data()}, largest_, queries, radius, 0,
                                [] { return detail::all_offered(0.0); });
 }

@@ -121,7 +121,7 @@ void descend_2(const tree<2>& t, const node_marks<2>* settled, unsigned level,
                std::span<const node_pair> pairs, std::vector<node_pair>& below) {
     descend(t, settled, level, pairs, below);
 }
-void descend_3(const tree<3>& t, const node_marks<3>* settled, unsigned level,
+void descend_3(const tree<3>& t, const detail::node_marks<3>* settled, unsigned level,
                std::span<const node_pair> pairs, std::vector<node_pair>& below) {
     descend(t, settled, level, pairs, below);
 }
@@ -129,8 +129,9 @@ search_statistics search_items_2(const tree<2>& t, const node_marks<2>* settled,
                                  std::span<const node_pair> items, block_visitor visit) {
     return search_items(t, settled, level, items, visit);
 }
-search_statistics search_items_3(const tree<3>& t, const node_marks<3>* settled, unsigned level,
-                                 std::span<const node_pair> items, block_visitor visit) {
+search_statistics search_items_3(const tree<3>& t, const detail::node_marks<3>* settled,
+                                 unsigned level, std::span<const node_pair> items,
+                                 block_visitor visit) {
     return search_items(t, settled, level, items, visit);
 }
 
@@ -152,7 +153,7 @@ void descend(const tree<2>& t, const node_marks<2>* settled, unsigned level,
              std::span<const node_pair> pairs, std::vector<node_pair>& below) {
     HWY_DYNAMIC_DISPATCH(descend_2)(t, settled, level, pairs, below);
 }
-void descend(const tree<3>& t, const node_marks<3>* settled, unsigned level,
+void descend(const tree<3>& t, const detail::node_marks<3>* settled, unsigned level,
              std::span<const node_pair> pairs, std::vector<node_pair>& below) {
     HWY_DYNAMIC_DISPATCH(descend_3)(t, settled, level, pairs, below);
 }
@@ -160,8 +161,9 @@ search_statistics search_items(const tree<2>& t, const node_marks<2>* settled, u
                                std::span<const node_pair> items, block_visitor visit) {
     return HWY_DYNAMIC_DISPATCH(search_items_2)(t, settled, level, items, visit);
 }
-search_statistics search_items(const tree<3>& t, const node_marks<3>* settled, unsigned level,
-                               std::span<const node_pair> items, block_visitor visit) {
+search_statistics search_items(const tree<3>& t, const detail::node_marks<3>* settled,
+                               unsigned level, std::span<const node_pair> items,
+                               block_visitor visit) {
     return HWY_DYNAMIC_DISPATCH(search_items_3)(t, settled, level, items, visit);
 }
 
@@ -174,7 +176,7 @@ constexpr std::size_t items_per_chunk = 16;
 }  // namespace detail
 
 template <std::size_t D>
-self_search<D>::self_search(const tree<D>& tree, const node_marks<D>* settled)
+self_search<D>::self_search(const tree<D>& tree, const detail::node_marks<D>* settled)
     : tree_(&tree), settled_(settled) {
     if (tree.empty()) return;
     items_ = {{0, 0}};

@@ -17,7 +17,6 @@
 #include <treeform/tf.hpp>
 #include <treeform/tree/nearness.hpp>
 #include <treeform/tree/point_search.hpp>
-#include <treeform/tree/strategy.hpp>
 
 #include <fmt/core.h>
 
@@ -138,18 +137,17 @@ job own_single(const shared_input& input) {
 }
 
 /// The tree with a function of one's own, in the given order of opening.
-template <class Strategy>
-job own_by_function(const shared_input& input) {
+job own_by_function(const shared_input& input, node_order order) {
     const auto tree =
         std::make_shared<const tf::tree<3>>(build(input->mesh->faces, face_box(*input->mesh)));
-    return closest_job(input, [input, tree] {
+    return closest_job(input, [input, tree, order] {
         distances found;
         found.reserve(input->queries.size());
         for (const point3& q : input->queries) {
             const auto squared = [&](std::uint32_t f) {
                 return closest_point(triangle_of(*input->mesh, f), q).squared_distance;
             };
-            const auto best = nearest(*tree, q, squared, {.strategy = Strategy{}});
+            const auto best = nearest(*tree, q, squared, {.order = order});
             found.push_back(std::sqrt(best->answer));
         }
         return found;
@@ -191,11 +189,9 @@ contest closest_contest(const setting& setting, const model& model, std::size_t 
                             {"treeform", 2, [=] { return own_batch(given()); }},
                             {"treeform single", 1, [=] { return own_single(given()); }},
                             {"treeform lambda", 1,
-                             [=] { return own_by_function<strategy::depth_first>(given()); }},
-                            {"treeform lambda top_k", 1,
-                             [=] { return own_by_function<strategy::top_k_sorted>(given()); }},
+                             [=] { return own_by_function(given(), node_order::depth_first); }},
                             {"treeform lambda heap", 1,
-                             [=] { return own_by_function<strategy::priority_queue>(given()); }},
+                             [=] { return own_by_function(given(), node_order::best_first); }},
                             {"paper top_k", 1,
                              [=] { return paper_single<strategy::top_k_sorted>(given()); }},
                             {"paper heap", 1,
@@ -258,7 +254,7 @@ job own_k_batch(const shared_clouds& input) {
     return k_nearest_job(input, [search, queries = arrays_of(input->queries)] {
         std::vector<std::uint32_t> ids;
         ids.reserve(queries.size() * k);
-        for (const near_point& one : search->k_nearest(std::span(queries), k).neighbors)
+        for (const near_point& one : search->k_nearest(std::span(queries), k).answers)
             ids.push_back(one.id);
         return ids;
     });

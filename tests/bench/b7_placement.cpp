@@ -147,7 +147,7 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
                                                met += time_of_impact(p->b, p->a,
                                                                      toward_first(*p->given, pose),
                                                                      {.move_a = pose})
-                                                          .end == motion_end::contact;
+                                                          .end == placement_end::contact;
                                            return met;
                                        });
                                    }});

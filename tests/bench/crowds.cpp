@@ -1,6 +1,6 @@
 #include "bench/crowds.hpp"
 
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <support/random.hpp>
 #include <support/solids.hpp>

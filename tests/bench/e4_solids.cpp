@@ -236,7 +236,7 @@ contest repair_contest(const setting& setting, const std::string& path) {
     };
     const auto own = [&](std::string who, resolve_mode mode, bool in_float) {
         add(std::move(who), true, [=](const mesh& given) -> answer {
-            resolve_result r = resolve_self_intersections(
+            repair_result r = resolve_self_intersections(
                 given, mode, {.precision = in_float ? precision::float32 : precision::float64});
             return r.certificate ? answer(std::move(r.mesh)) : std::nullopt;
         });

@@ -174,7 +174,7 @@ std::function<answers()> own(const shared_clouds& given) {
     return [search, queries = arrays_of(given->queries)] {
         answers ids;
         ids.reserve(queries.size() * k);
-        for (const near_point& one : search->k_nearest(std::span(queries), k).neighbors)
+        for (const near_point& one : search->k_nearest(std::span(queries), k).answers)
             ids.push_back(one.id);
         return ids;
     };

@@ -94,28 +94,30 @@ contestant of_ring(std::string name, std::size_t n, Run run) {
 }
 
 contest contest_of_library(std::size_t size) {
-    return {.name = fmt::format("{}{}", library_prefix, size),
-            .size = [=] { return size; },
-            .contestants =
-                {of_ring("tree of faces", size, [](const mesh& m) { return build_face_tree(m); }),
-                 of_ring("10 nearest of each point", size,
-                         [](const mesh& m) {
-                             const point_search<3> search(m.points);
-                             std::vector<std::array<double, 3>> queries;
-                             for (const point3& p : m.points) queries.push_back({p.x, p.y, p.z});
-                             return search.k_nearest(std::span(queries), 10).neighbors.size();
-                         }),
-                 of_ring("nearest face of each point", size,
-                         [](const mesh& m) {
-                             return detail::nearness::closest_point_query(m)
-                                 .nearest(std::span(m.points))
-                                 .size();
-                         }),
-                 of_ring("distance of two rings", size / 2,
-                         [](const mesh& m) {
-                             return closest_points(m, test::moved(m, {0, 0, 3}));
-                         })},
-            .long_runs = size < 1'000'000 ? 3 : 1};
+    return {
+        .name = fmt::format("{}{}", library_prefix, size),
+        .size = [=] { return size; },
+        .contestants = {of_ring("tree of faces", size,
+                                [](const mesh& m) { return build_face_tree(m); }),
+                        of_ring("10 nearest of each point", size,
+                                [](const mesh& m) {
+                                    const point_search<3> search(m.points);
+                                    std::vector<std::array<double, 3>> queries;
+                                    for (const point3& p : m.points)
+                                        queries.push_back({p.x, p.y, p.z});
+                                    return search.k_nearest(std::span(queries), 10).answers.size();
+                                }),
+                        of_ring("nearest face of each point", size,
+                                [](const mesh& m) {
+                                    return detail::nearness::closest_point_query(m)
+                                        .nearest(std::span(m.points))
+                                        .size();
+                                }),
+                        of_ring("distance of two rings", size / 2,
+                                [](const mesh& m) {
+                                    return closest_points(m, test::moved(m, {0, 0, 3}));
+                                })},
+        .long_runs = size < 1'000'000 ? 3 : 1};
 }
 
 /// The slope of the best line through the logarithms of the last three points.

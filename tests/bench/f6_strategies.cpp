@@ -8,7 +8,6 @@
 #include <libtree/paper/nary_tree.hpp>
 #include <libtree/paper/selections.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/strategy.hpp>
 
 #include <fmt/core.h>
 
@@ -95,7 +94,8 @@ void strategies(const setting& setting, const contest_visitor& visit) {
     for (const model& model : models(setting)) {
         const std::function<shared_mesh()> given = [=] { return load(setting, model); };
         std::vector<contestant> own{
-            {"treeform", 1, [=] { return own_build<strategy::bracketed_select>(given()); }}};
+            {"treeform", 1,
+             [=] { return own_build<treeform::detail::bracketed_select>(given()); }}};
         std::vector<contestant> paper;
         add<strategy::nth_element>(own, paper, "nth_element", given);
         add<strategy::pdq_select>(own, paper, "pdq_select", given);

@@ -1,9 +1,9 @@
 #include "bench/models.hpp"
 
 #include "bench/subdivide.hpp"
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <unistd.h>
 

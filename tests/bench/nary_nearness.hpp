@@ -7,6 +7,8 @@
 ///         min-max distance of boxes: two boxes may lie on each other and their contents far apart
 
 #include <libtree/paper/nary_tree.hpp>
+#include <libtree/paper/top_k_sorted.hpp>
+#include <libtree/query/node_orders.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +28,7 @@ template <class T, std::size_t D>
     return sum;
 }
 
-/// The least `distance_of(id)`, by opening nodes in the order of `Strategy` (nearness_order.hpp)
+/// The least `distance_of(id)`, by opening nodes in the order of `Strategy` (query/node_orders.hpp)
 /// and by `distance_of_box(box)`; squared distances both. Infinite for an empty tree.
 template <class Strategy, class T, std::size_t D, class BoxDistance, class Distance>
 [[nodiscard]] double nary_nearest(const nary_tree<T, D>& tree, const BoxDistance& distance_of_box,

@@ -147,7 +147,7 @@ std::vector<verb> verbs_of(const std::string& of, const std::function<two_meshes
     const auto with_pairs = [=](const auto& ask) {
         const two_meshes given = load();
         const auto both =
-            std::make_shared<mesh>(join_meshes(std::array<mesh_view, 2>{*given.a, *given.b}).mesh);
+            std::make_shared<mesh>(join_meshes(std::array<mesh_view, 2>{*given.a, *given.b}));
         return make_job([=, found = self_intersections(*both)] { return ask(*both, found.pairs); });
     };
     add("curves as segments", size, [=] {

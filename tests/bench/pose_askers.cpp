@@ -10,7 +10,6 @@
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
-#include <treeform/tree/strategy.hpp>
 
 #include <algorithm>
 #include <array>

@@ -43,10 +43,10 @@ contest contest_of(const setting& setting, const model& model) {
                      [mesh = given()] {
                          return self_intersections(*mesh, {.vertices = vertex_identity::by_index});
                      },
-                     [](const self_intersection_result& found) {
+                     [](const intersection_result& found) {
                          return static_cast<double>(found.pairs.size());
                      },
-                     [](const self_intersection_result& found) {
+                     [](const intersection_result& found) {
                          return std::vector<figure>{
                              {"pairs of boxes", static_cast<double>(found.box_pairs)}};
                      });

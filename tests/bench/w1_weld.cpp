@@ -5,7 +5,7 @@
 #include "bench/peers/nanoflann_weld.hpp"
 #include "bench/peers/versions.hpp"
 #include "bench/weld_answers.hpp"
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <fmt/core.h>
 
@@ -76,7 +76,7 @@ contest equal_points_of_soup(std::size_t points, unsigned percent) {
     contest.contestants.push_back(
         {cgal_name(), 1, [=] {
              const auto soup = given();
-             return cgal_merge_points(*soup, find_equal_points(soup->points).first_of_new.size());
+             return cgal_merge_points(*soup, find_equal_points(soup->points).first_of_group.size());
          }});
     return contest;
 }

@@ -1,7 +1,7 @@
 #include "bench/written_surface.hpp"
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <array>
@@ -42,7 +42,7 @@ mesh as_written(mesh mesh, bool in_float) {
 surface_defects defects_of(const mesh& written) {
     const mesh joined = join_equal_points(written);
     surface_defects found;
-    const self_intersection_result pairs =
+    const intersection_result pairs =
         self_intersections(joined, {.vertices = vertex_identity::by_index, .limit = 0});
     for (const std::uint64_t count : pairs.counts) found.intersections += count;
     for (const face& f : joined.faces)

@@ -114,8 +114,8 @@ TEST_CASE("c: what is resolved and repaired is that of C++, bit for bit") {
         const tf::mesh mesh = mesh_of(path);
         const auto input = borrow(mesh);
         const auto resolved = tf::resolve_self_intersections(mesh);
-        const auto outer = result_of<treeform_resolve_result>(
-            [&](treeform_resolve_result** out) {
+        const auto outer = result_of<treeform_repair_result>(
+            [&](treeform_repair_result** out) {
                 return treeform_resolve_self_intersections(input.get(), TREEFORM_RESOLVE_OUTER,
                                                            nullptr, out);
             },

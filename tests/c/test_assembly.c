@@ -59,11 +59,11 @@ static void test_poses(void) {
     /* Two poses of two parts: one beside the other, then one half in the other. */
     double poses[48] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 3,   0, 1, 0, 0, 0, 0, 1, 0,
                         1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0};
-    treeform_poses_options options;
+    treeform_clash_options options;
     treeform_poses_result* result = NULL;
     parts[0] = a;
     parts[1] = b;
-    treeform_poses_options_init(&options, sizeof options);
+    treeform_clash_options_init(&options, sizeof options);
     OK(treeform_check_poses(parts, 2, poses, 2, &options, &result));
     CHECK(result->pose_count == 2 && result->clashing == 1);
     CHECK(result->begin[0] == 0 && result->begin[1] == 0 && result->begin[2] == 1);

@@ -120,7 +120,7 @@ class Ctypes(unittest.TestCase):
         asked = []
         progress = PROGRESS(lambda done, data: asked.append(done) or 1)
         options, pairs = SelfIntersectionsOptions(), POINTER(Pairs)()
-        LIBRARY.treeform_self_intersections_options_init(
+        LIBRARY.treeform_intersections_options_init(
             byref(options), c_size_t(ctypes.sizeof(options)))
         self.assertEqual((options.kinds, options.limit), (127, 2 ** 64 - 1))
         options.progress = progress

@@ -6,7 +6,7 @@
 
 static void test_of_one(void) {
     treeform_mesh* mesh = model("data/two_spheres.stl");
-    treeform_self_intersections_options options;
+    treeform_intersections_options options;
     treeform_pairs* pairs = NULL;
     treeform_regions* regions = NULL;
     treeform_segments* segments = NULL;
@@ -37,7 +37,7 @@ static void test_of_one(void) {
     INVALID("kind is 7", treeform_intersection_curves(mesh, &wrong, 1, &segments));
     treeform_free(paths);
     treeform_free(pairs);
-    treeform_self_intersections_options_init(&options, sizeof options);
+    treeform_intersections_options_init(&options, sizeof options);
     options.limit = 3;
     OK(treeform_self_intersections(mesh, &options, &pairs));
     CHECK(pairs->count == 3 && pairs->counts[TREEFORM_CROSSING] == 78);
@@ -52,7 +52,7 @@ static void test_of_one(void) {
     options.within = 1;
     options.between = 1;
     INVALID("", treeform_self_intersections(mesh, &options, &pairs));
-    treeform_self_intersections_options_init(&options, sizeof options);
+    treeform_intersections_options_init(&options, sizeof options);
     options.progress = stop;
     options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "cancelled", treeform_self_intersections(mesh, &options, &pairs));

@@ -143,7 +143,6 @@ static void test_rounding(void) {
     treeform_mesh* mesh = NULL;
     treeform_made_mesh* made = NULL;
     treeform_rounding* effects = NULL;
-    treeform_rounding_options options;
     double step = 0.0;
     int calls = 0, i;
     for (i = 0; i < 24; ++i) points[i] = 0.1 * cube_points[i];
@@ -155,22 +154,20 @@ static void test_rounding(void) {
     OK(treeform_round(mesh, TREEFORM_FLOAT32, &made));
     OK(treeform_coordinate_step(mesh, TREEFORM_FLOAT32, &step));
     CHECK(step == ldexp(1.0, -27));
-    treeform_rounding_options_init(&options, sizeof options);
-    options.after = TREEFORM_FLOAT32;
-    OK(treeform_rounding_effects(mesh, NULL, made->mesh.points, &options, &effects));
+    OK(treeform_rounding_effects(mesh, NULL, made->mesh.points, TREEFORM_FLOAT64, TREEFORM_FLOAT32,
+                                 0, NULL, NULL, &effects));
     CHECK(near(effects->max_displacement, fabs((double)0.1f - 0.1)) && effects->noticeable == 1);
     CHECK(effects->collapsed == 0 && effects->meeting == 0);
     treeform_free(effects);
     /* All points at one place: every face has lost its area. */
     memset(placed, 0, sizeof placed);
-    options.always_compare = 1;
-    OK(treeform_rounding_effects(mesh, matrix, placed, &options, &effects));
+    OK(treeform_rounding_effects(mesh, matrix, placed, TREEFORM_FLOAT64, TREEFORM_FLOAT32, 1, NULL,
+                                 NULL, &effects));
     CHECK(effects->compared == 1 && effects->collapsed == 12);
     treeform_free(effects);
-    options.progress = stop;
-    options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "cancelled",
-         treeform_rounding_effects(mesh, matrix, placed, &options, &effects));
+         treeform_rounding_effects(mesh, matrix, placed, TREEFORM_FLOAT64, TREEFORM_FLOAT32, 1,
+                                   stop, &calls, &effects));
     CHECK(effects == NULL && calls > 0);
     treeform_free(made);
     treeform_free(mesh);

@@ -48,12 +48,9 @@ static void test_simplified(void) {
 
 static void test_measured_shapes(void) {
     treeform_mesh* mesh = cube(0, 0, 0, 2);
-    treeform_thickness_options options;
     treeform_thickness_result* walls = NULL;
     treeform_oriented_box* box = NULL;
-    treeform_thickness_options_init(&options, sizeof options);
-    CHECK(options.by == TREEFORM_THICKNESS_BY_RAY);
-    OK(treeform_wall_thickness(mesh, &options, &walls));
+    OK(treeform_wall_thickness(mesh, TREEFORM_THICKNESS_BY_RAY, NULL, NULL, &walls));
     CHECK(walls && walls->least == 2 && walls->of_face[11] == 2);
     treeform_free(walls);
     OK(treeform_find_oriented_box(mesh, &box));

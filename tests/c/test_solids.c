@@ -130,11 +130,11 @@ static treeform_mesh* two_cubes(void) {
 static void test_resolve(void) {
     treeform_mesh* mesh = model("data/two_spheres.stl");
     treeform_resolve_options options;
-    treeform_resolve_result* result = NULL;
+    treeform_repair_result* result = NULL;
     treeform_resolve_options_init(&options, sizeof options);
     options.precision = TREEFORM_FLOAT32;
     OK(treeform_resolve_self_intersections(mesh, TREEFORM_RESOLVE_OUTER, &options, &result));
-    CHECK(result->mesh.face_count == 648 && result->removed == 112);
+    CHECK(result->mesh.face_count == 648 && result->statistics->removed == 112);
     CHECK(result->certificate->precision == TREEFORM_FLOAT32);
     CHECK(result->certificate->max_displacement > 0.0 && result->face_source[0] < 640);
     treeform_free(result);
@@ -214,13 +214,13 @@ static void test_repair(void) {
 
 static void test_wrap(void) {
     treeform_mesh* mesh = NULL;
-    treeform_wrap_options options;
-    treeform_wrap_result* result = NULL;
+    treeform_offset_options options;
+    treeform_offset_result* result = NULL;
     OK(treeform_mesh_create(cube_points, 8, cube_faces, 10, 0, &mesh));
-    treeform_wrap_options_init(&options, sizeof options);
+    treeform_offset_options_init(&options, sizeof options);
     options.offset = 0.25;
     OK(treeform_wrap(mesh, 2.0, &options, &result));
-    CHECK(result->offset == 0.25 && volume_of(&result->mesh) > 1.0);
+    CHECK(result->distance == 0.25 && volume_of(&result->mesh) > 1.0);
     treeform_free(result);
     INVALID("", treeform_wrap(mesh, -2.0, NULL, &result));
     CHECK(result == NULL);

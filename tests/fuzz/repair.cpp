@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.precision = in.below(2) == 1 ? tf::precision::float32 : tf::precision::float64;
     const tf::mesh mesh = in.below(4) == 0 ? in.solid() : in.shape(40, 20);
     options.touching = in.below(2) == 1;
-    tf::resolve_result result;
+    tf::repair_result result;
     try {
         result = tf::resolve_self_intersections(mesh, mode, options);
     } catch (const std::invalid_argument&) {

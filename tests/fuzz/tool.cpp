@@ -11,12 +11,12 @@
 #include "tool.hpp"
 
 #include "bytes.hpp"
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -2,6 +2,7 @@
 /// Welding of small clouds against the rules as they read, by every search.
 
 #include "bytes.hpp"
+#include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
@@ -14,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tf::fuzz::bytes in(data, size);
     tf::weld_options options;
     options.rule = static_cast<tf::weld_rule>(in.below(2));
-    options.search = static_cast<tf::neighbor_search>(in.below(4));
+    const auto search = static_cast<tf::detail::weld::neighbor_search>(in.below(4));
     options.tolerance = std::abs(in.coordinate());
     std::vector<tf::point3> points;
     while (!in.empty() && points.size() < 100) points.push_back(in.point());
@@ -25,7 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto expected = options.rule == tf::weld_rule::first
                               ? tf::test::brute_leaders(points, linked)
                               : tf::test::brute_chains(points, linked);
-    const tf::point_groups found = tf::group_points(points, options);
+    const tf::point_groups found =
+        tf::detail::weld::find_groups("group_points", points, options, search);
     require(found.group_of_point.size() == points.size(), "a group for each point");
     for (std::size_t i = 0; i < points.size(); ++i)
         require(found.first_of_group[found.group_of_point[i]] == expected[i], "the group's first");

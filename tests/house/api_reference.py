@@ -20,7 +20,7 @@ import xml.etree.ElementTree
 import links
 
 # What the door has at most. These numbers only shrink; what is new takes the place of something.
-MOST = {"headers": 54, "functions": 190, "types": 280}
+MOST = {"headers": 53, "functions": 188, "types": 219}
 
 # The question that a group answers, and the headers that do; of treeform/mesh/ or treeform/tree/.
 GROUPS = {
@@ -38,7 +38,7 @@ GROUPS = {
     "placing": ("Where does a part go, and what is in its way?", "mesh",
                 "slide placement time_of_impact convex_hull pack align clash"),
     "trees": ("How do I build a tree over boxes?", "tree",
-              "aabb build build_within dynamic_tree lazy_tree refit strategy tree"),
+              "aabb build build_within dynamic_tree lazy_tree refit tree"),
     "searching": ("How do I search it?", "tree",
                   "answers nearness nearness_batch nearness_pair point_search ray search "
                   "search_pair"),

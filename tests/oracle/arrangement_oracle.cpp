@@ -5,7 +5,7 @@
 /// TREEFORM_STRESS_COUNT sets the number of meshes of each kind (default 12).
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -6,12 +6,12 @@
 /// TREEFORM_STRESS_COUNT sets the faces of the largest file repaired (default 12000),
 /// TREEFORM_STRESS_ONLY names a file or pair to look at alone.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/aabb.hpp>
 

@@ -2,12 +2,12 @@
 /// Clashes of the parts of a kitchen and of a robot's arm in 100 poses against CGAL: all pairs, by
 /// its trees of triangles, and its test of points inside closed meshes.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/AABB_traits.h>
@@ -24,6 +24,7 @@
 #include <support/random.hpp>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -166,10 +167,10 @@ TEST_CASE("check_poses: of a Franka arm in 100 poses, those links meet that do b
     test::random source(7);
     std::vector<tf::transform<3>> poses;
     for (int p = 0; p < 100; ++p) {
-        std::vector<tf::joint_value> values;
+        std::map<std::string, double> values;
         for (std::size_t i = 0; i < 7; ++i)
-            values.push_back({"joint" + std::to_string(i + 1),
-                              source.in(test::franka_limits[i][0], test::franka_limits[i][1])});
+            values["joint" + std::to_string(i + 1)] =
+                source.in(test::franka_limits[i][0], test::franka_limits[i][1]);
         const auto at = robot.link_transforms(values);
         for (const tf::urdf_mesh& one : robot.meshes) poses.push_back(at[one.link]);
     }

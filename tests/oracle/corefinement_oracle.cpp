@@ -5,11 +5,11 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the faces of the largest file (default 3000).
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -2,11 +2,11 @@
 /// `tf::deviation` against exact rational numbers: distances to 1e-12, sides by a sum over exact
 /// crossings; and on real models against CloudCompare, where it is installed.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 

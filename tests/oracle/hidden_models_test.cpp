@@ -6,10 +6,10 @@
 /// Each closed model of TRUTH.csv with at most TREEFORM_STRESS_FACES faces (default 5000) begins
 /// TREEFORM_STRESS_TIMES chains (default 1) of 3 to 5.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -1,6 +1,7 @@
 // 3MF against lib3mf, by which most programs write and read it: what it writes is read as it is
 // meant, and what is written here it reads without a warning, to the same effect.
 
+#include <libmesh/attributes/scene_parts.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_location.hpp>

@@ -5,13 +5,13 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/nearness/closest_points.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/slide.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -6,11 +6,11 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/aabb.hpp>
 

@@ -4,12 +4,13 @@
 /// TREEFORM_STRESS_COUNT sets the pairs of each family (default 5,000).
 
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/intersect/point_locator.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/read.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -6,7 +6,6 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/intersect/point_locator.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -14,6 +13,7 @@
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -5,6 +5,7 @@
 /// TREEFORM_STRESS_COUNT is the number of hilly surfaces (default 6).
 
 #include <treeform/mesh/simplify.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/aabb.hpp>
 

@@ -3,11 +3,11 @@
 /// points, topology and self-intersections. Without TREEFORM_MODELS_DIR nothing is checked.
 
 #include <libmesh/base/nearest_float.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -3,6 +3,7 @@
 /// TRUTH.csv about welding. Without TREEFORM_MODELS_DIR nothing is checked.
 
 #include <libmesh/base/nearest_float.hpp>
+#include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
@@ -61,16 +62,18 @@ TEST_CASE("truth: chains are as many as an exact kernel found, by every search")
         const std::vector<tf::point3> points =
             finite_points(file.mesh.points, row.text("precision") == "f32");
         for (const tolerance_column& column : columns)
-            for (const tf::neighbor_search search :
-                 {tf::neighbor_search::automatic, tf::neighbor_search::window,
-                  tf::neighbor_search::cells, tf::neighbor_search::tree}) {
+            for (const tf::detail::weld::neighbor_search search :
+                 {tf::detail::weld::neighbor_search::automatic,
+                  tf::detail::weld::neighbor_search::window,
+                  tf::detail::weld::neighbor_search::cells,
+                  tf::detail::weld::neighbor_search::tree}) {
                 CAPTURE(column.groups);
                 CAPTURE(static_cast<int>(search));
                 const double tolerance =
                     column.tolerance == nullptr ? 0.0 : row.real(column.tolerance);
-                const tf::point_groups groups = tf::group_points(
-                    points,
-                    {.tolerance = tolerance, .rule = tf::weld_rule::chain, .search = search});
+                const tf::point_groups groups = tf::detail::weld::find_groups(
+                    "group_points", points, {.tolerance = tolerance, .rule = tf::weld_rule::chain},
+                    search);
                 CHECK(static_cast<std::int64_t>(groups.first_of_group.size()) ==
                       row.number(column.groups));
                 if (std::string(column.groups) == "weld_1e-3")

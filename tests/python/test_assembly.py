@@ -36,8 +36,8 @@ def test_two_bodies():
 def test_the_first_contact_is_exact():
     met = tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [2, 0, 0])
     assert met.end == "contact" and met.time == 1 and len(met.faces) == len(met.points) > 0
-    assert tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [-1, 0, 0]).end == "free"
-    assert tf.time_of_impact(CUBE, moved(CUBE, 1, 0, 0), [1, 0, 0]).end == "at_start"
+    assert tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [-1, 0, 0]).end == "nothing_met"
+    assert tf.time_of_impact(CUBE, moved(CUBE, 1, 0, 0), [1, 0, 0]).end == "starts_touching"
 
 
 def test_many_positions_are_as_one_by_one():

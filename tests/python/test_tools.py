@@ -49,7 +49,7 @@ PLACES = [
     ("fit", "near", "cube", "", tf.align),
     ("fit", "turned", "near", "--scale --overlap 0.9 --starts 4 --metric point --weights welsch",
      lambda a, b: tf.align(a, b, scale=True, overlap=0.9, starts=4, method="point_to_point",
-                           weights="welsch")),
+                           robust=True)),
 ]
 
 

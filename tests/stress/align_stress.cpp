@@ -36,11 +36,9 @@ const std::array<way, 7> ways{
      {"all, starts", test::scanned::all, {.starts = 40}},
      {"part of fixed, overlap", test::scanned::part_of_fixed, {.overlap = 0.6}},
      {"part of fixed", test::scanned::part_of_fixed, {}},
-     {"part of fixed, equal", test::scanned::part_of_fixed, {.weights = tf::align_weights::equal}},
+     {"part of fixed, equal", test::scanned::part_of_fixed, {.robust = false}},
      {"part of moving", test::scanned::part_of_moving, {}},
-     {"part of moving, equal",
-      test::scanned::part_of_moving,
-      {.weights = tf::align_weights::equal}}}};
+     {"part of moving, equal", test::scanned::part_of_moving, {.robust = false}}}};
 
 /// Of scans of one kind.
 struct verdicts {
@@ -82,8 +80,7 @@ TEST_CASE("align: of scans of real solids, right places converge and wrong ones 
         for (std::size_t w = 0; w < ways.size(); ++w)
             for (const double noise : {0.0, 1e-5, 1e-4, 1e-3})
                 for (const double degrees : {3.0, 10.0, 20.0, 45.0}) {
-                    const bool is_slow =
-                        ways[w].options.weights == tf::align_weights::equal && degrees != 10.0;
+                    const bool is_slow = !ways[w].options.robust && degrees != 10.0;
                     // What is in doubt by equal weights takes long to be judged.
                     for (std::uint64_t i = 0; i < test::stress_count(1) && !is_slow; ++i) {
                         CAPTURE(ways[w].name);

@@ -4,12 +4,12 @@
 ///
 /// TREEFORM_STRESS_COUNT sets the cases of each kind (default 1), TREEFORM_STRESS_SEED the seed.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -3,6 +3,7 @@
 ///
 /// Points a cloud: 20000, or 10 times $TREEFORM_STRESS_COUNT.
 
+#include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
@@ -20,9 +21,9 @@
 
 namespace {
 
-using tf::neighbor_search;
 using tf::point3;
 using tf::weld_rule;
+using tf::detail::weld::neighbor_search;
 using cloud = std::vector<point3>;
 
 constexpr std::array searches{neighbor_search::automatic, neighbor_search::window,
@@ -30,8 +31,10 @@ constexpr std::array searches{neighbor_search::automatic, neighbor_search::windo
 
 std::size_t points_a_cloud() { return 10 * test::setting("TREEFORM_STRESS_COUNT", 2000); }
 
-std::vector<std::uint32_t> leaders(const cloud& points, const tf::weld_options& options) {
-    const tf::point_groups groups = tf::group_points(points, options);
+std::vector<std::uint32_t> leaders(const cloud& points, const tf::weld_options& options,
+                                   neighbor_search search) {
+    const tf::point_groups groups =
+        tf::detail::weld::find_groups("group_points", points, options, search);
     std::vector<std::uint32_t> leader;
     for (const std::uint32_t g : groups.group_of_point) leader.push_back(groups.first_of_group[g]);
     return leader;
@@ -49,9 +52,8 @@ void check(const std::function<point3(std::size_t)>& make, std::vector<double> t
         const auto chain = tf::test::brute_chains(points, linked);
         for (const neighbor_search search : searches) {
             CAPTURE(static_cast<int>(search));
-            CHECK(leaders(points, {.tolerance = tolerance, .search = search}) == first);
-            CHECK(leaders(points,
-                          {.tolerance = tolerance, .rule = weld_rule::chain, .search = search}) ==
+            CHECK(leaders(points, {.tolerance = tolerance}, search) == first);
+            CHECK(leaders(points, {.tolerance = tolerance, .rule = weld_rule::chain}, search) ==
                   chain);
         }
     }

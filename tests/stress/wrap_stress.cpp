@@ -40,21 +40,21 @@ tf::mesh something(test::random& source) {
     }
 }
 
-void check_wrap(const tf::mesh& mesh, double size, const tf::wrap_options& options) {
-    const tf::wrap_result made = tf::wrap(mesh, size, options);
+void check_wrap(const tf::mesh& mesh, double size, const tf::offset_options& options) {
+    const tf::offset_result made = tf::wrap(mesh, size, options);
     CHECK(made.certificate);
     CHECK(test::is_clean_solid(made.mesh));
     CHECK(tf::mesh_intersections(made.mesh, mesh, {.first_only = true}).pairs.empty());
     for (const tf::face& f : mesh.faces) CHECK(tf::contains(made.mesh, mesh.points[f[0]]));
     const tf::prepared_mesh inner = tf::prepared_mesh::borrow(mesh);
     double most = 0.0;
-    double least = 2.0 * made.statistics.offset;
+    double least = 2.0 * made.statistics.distance;
     for (const auto& near : tf::closest_point(inner, made.mesh.points)) {
         most = std::max(most, near->distance);
         least = std::min(least, near->distance);
     }
-    CHECK(most < 1.02 * made.statistics.offset);
-    CHECK(least > 0.98 * made.statistics.offset);
+    CHECK(most < 1.02 * made.statistics.distance);
+    CHECK(least > 0.98 * made.statistics.distance);
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ TEST_CASE("soups, fans, grids, boxes and balls") {
         const tf::mesh mesh = something(source);
         const tf::box3 box = tf::bounding_box(mesh.points).value();
         const double size = std::exp2(source.in(-5.0, 1.0)) * std::max(box.diagonal(), 0.1);
-        tf::wrap_options options;
+        tf::offset_options options;
         if (source.below(2) == 0) options.offset = std::exp2(source.in(-6.0, 1.0)) * size;
         if (source.below(2) == 0) options.precision = tf::precision::float32;
         check_wrap(mesh, size, options);

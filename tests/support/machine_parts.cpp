@@ -1,4 +1,4 @@
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <support/machine_parts.hpp>

@@ -5,9 +5,9 @@
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/exact/implicit_point.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <gmpxx.h>

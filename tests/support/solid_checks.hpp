@@ -2,11 +2,11 @@
 /// \file
 /// What must hold of a solid's surface, looked at from outside the code that made it.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <cstddef>

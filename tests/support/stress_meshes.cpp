@@ -2,7 +2,7 @@
 
 #include "support/stress_parts.hpp"
 #include "support/stress_placement.hpp"
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
 #include <array>

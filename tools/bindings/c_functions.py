@@ -44,8 +44,7 @@ HANDLES = {"mesh_file": "file", "urdf_robot": "robot", "stream_search": "search"
            "thread_scope": "thread_limit"}
 
 #: Results that `glue::give` makes others of.
-RESULTS = {"mesh": "treeform_made_mesh", "made_mesh": "treeform_made_mesh",
-           "turn_result": "treeform_placement", "feature_mating": "treeform_placement"}
+RESULTS = {"mesh": "treeform_made_mesh", "made_mesh": "treeform_made_mesh"}
 
 
 class Functions:
@@ -81,9 +80,6 @@ class Functions:
             bound = self.language.bound.get(found[1])
             if bound:
                 return f"const {bound.c}* {{n}}", "glue::read({n})"
-            place = next(one for one in self.language.bound.values() if one.of)
-            if found[1] in place.of.split():
-                return f"const {place.c}* {{n}}", f"glue::read_as<tf::{found[1]}>({{n}})"
         if found := re.fullmatch(r"(const )?(\w+)&", type):
             return (f"{found[1] or ''}treeform_{HANDLES[found[2]]}* {{n}}",
                     'glue::content({n}, "{n}")')

@@ -38,8 +38,6 @@ class Bound:
     counts: dict[str, str] = field(default_factory=dict)  #: of lists, where it is not "thing_count"
     leave: str = ""  #: fields that C does not have
     custom: dict[str, list[Member]] = field(default_factory=dict)  #: by hand; "+": more of them
-    of: str = ""  #: the structs that it is the options of all of
-    doc: str = ""  #: then, what is said
 
     def __post_init__(self) -> None:
         self.c = "treeform_" + (self.c or self.cpp)
@@ -58,26 +56,9 @@ class Language:
 
     def __init__(self, structs: dict[str, Struct], enums: dict[str, Enum], bound: list[Bound],
                  enum_names: dict[str, str]) -> None:
-        self.structs, self.enums = dict(structs), enums
-        for one in bound:
-            if one.of:
-                self.structs[one.cpp] = self._of_all(one)
+        self.structs, self.enums = structs, enums
         self.bound = {one.cpp: one for one in bound}
         self.enum_names = enum_names
-
-    def _of_all(self, bound: Bound) -> Struct:
-        """The fields of several structs, each once."""
-        first = self.structs[bound.of.split()[0]]
-        fields: dict[str, Field] = {}
-        for name in bound.of.split():
-            for one in self.structs[name].fields:
-                fields.setdefault(one.name, one)
-        return Struct(bound.cpp, first.header, bound.doc, list(fields.values()))
-
-    def owner(self, bound: Bound, name: str) -> str:
-        """Which of these structs has a field."""
-        return next(of for of in bound.of.split()
-                    if any(one.name == name for one in self.structs[of].fields))
 
     # ---- a field ----
 

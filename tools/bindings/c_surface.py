@@ -21,13 +21,11 @@ ENUMS = {
     "feature": ("uint8_t", ""),
     "feature_kind": ("treeform_feature_kind", ""),
     "placement_end": ("treeform_placement_end", "END_"),
-    "motion_end": ("int32_t", ""),
     "mass_of": ("int32_t", ""),
     "urdf_joint_kind": ("int32_t", ""),
     "lay_choice": ("treeform_lay_choice", "LAY_"),
     "plate_turns": ("treeform_plate_turns", "TURNS_"),
     "align_method": ("treeform_align_method", {"automatic": "ALIGN_AUTOMATIC"}),
-    "align_weights": ("treeform_align_weights", "WEIGHTS_"),
     "align_end": ("treeform_align_end", {"converged": "ALIGN_CONVERGED",
                                          "out_of_iterations": "ALIGN_OUT_OF_ITERATIONS",
                                          "doubtful": "ALIGN_DOUBTFUL",
@@ -55,8 +53,6 @@ BOUND = [
           counts={"meeting": "meeting_listed", "meeting_at": "", "open": "open_listed"},
           custom={"+": [MESSAGE]}),
     # mesh.h
-    Bound("rounding_options", custom={"+": [Member(
-        "int32_t always_compare", "also compare where the step is too small to be noticed")]}),
     Bound("rounding_effects", "rounding"),
     # properties.h
     Bound("mass_properties", kind="part"),
@@ -67,17 +63,14 @@ BOUND = [
     Bound("hull_side", kind="same"),
     # intersections.h
     Bound("face_pair", kind="same"),
-    Bound("self_intersection_result", "pairs", counts={"pairs": "count"},
+    Bound("intersection_result", "pairs", counts={"pairs": "count"},
           leave="exact_pairs predicates tree_seconds pair_seconds"),
-    Bound("mesh_intersection_result", "pairs", counts={"pairs": "count"},
-          leave="exact_pairs predicates searched"),
-    Bound("self_intersection_options", "self_intersections_options", custom={
+    Bound("intersection_options", "intersections_options", custom={
         "component_of_face": [Member("const uint32_t* component_of_face",
                                      "[F] for `between` and `within`; or null")]}),
     Bound("intersection_region", "region", "part"),
     Bound("intersection_regions", "regions",
           counts={"regions": "count", "region_of_pair": "pair_count"}),
-    Bound("mesh_intersection_options", "intersections_options"),
     Bound("curve_segment", "segment", "same"),
     Bound("curve_path", "path", "part", leave="pairs", counts={"points": "count"}),
     Bound("curve_network", "paths", custom={"points": [
@@ -100,15 +93,12 @@ BOUND = [
     Bound("operand_volumes", "volumes", "part"),
     Bound("boolean_result", counts={"vanished_at": "vanished_listed"}),
     Bound("resolve_options"),
-    Bound("resolve_result"),
     Bound("repair_options"),
     Bound("repair_statistics", kind="part"),
     Bound("repair_result", custom={"+": [FILE]}),
     Bound("repaired_file", "repair_result", leave="file parts"),
     Bound("solid_defects", custom={"+": [
         Member("int32_t any", "there is one", "to.any = from.any();"), MESSAGE]}),
-    Bound("wrap_options"),
-    Bound("wrap_result"),
     # cuts.h
     Bound("section_loop", kind="same"),
     Bound("section_layer", kind="same"),
@@ -123,7 +113,6 @@ BOUND = [
     Bound("offset_result"),
     Bound("simplify_options"),
     Bound("simplify_result"),
-    Bound("thickness_options"),
     Bound("thickness_result"),
     Bound("oriented_box", custom={"axes": [Member(
         "double axes[3][3]", "of length 1, right-handed, rounded: along the longest side, the next, "
@@ -171,7 +160,7 @@ BOUND = [
                  for name, doc in (("below", "the band"), ("within", ""), ("above", ""))]}),
     # weld.h
     Bound("weld_condition", kind="part"),
-    Bound("weld_options", leave="search", custom={"may_merge": [
+    Bound("weld_options", custom={"may_merge": [
         Member("int (*may_merge)(uint32_t a, uint32_t b, void* data)",
                "whether two points may be merged; or null. Symmetric; called from several threads "
                "at once", "",
@@ -217,10 +206,7 @@ BOUND = [
             Member("int32_t still_within_known", "",
                    "to.still_within_known = from.written.still_within.has_value();")]}),
     # placement.h
-    Bound("place_options", leave="direction",
-          of="slide_options mate_options drop_options separate_options turn_options "
-             "feature_mate_options measure_among_options",
-          doc="How to slide, mate, separate, turn. What an operation does not use is ignored."),
+    Bound("placement_options", "place_options"),
     Bound("placement_contact", "contact", "part", custom={"fixed": [
         Member("uint32_t fixed", "number of the fixed mesh",
                "to.fixed = static_cast<std::uint32_t>(from.fixed);")]}),
@@ -235,15 +221,8 @@ BOUND = [
                    "how it lies to the moving one, `a`; or null",
                    "if (from.nearest) "
                    "to.nearest = &filled<treeform_relation>(kept, from.nearest->how);")],
-        "+": [MESSAGE,
-              Member("double angle", "of `treeform_turn` and `treeform_mate_features`, in degrees; "
-                     "else 0"),
-              Member("double tolerance", "of `treeform_turn`"),
-              Member("uint64_t steps", "of `treeform_turn`"),
-              Member("double offset", "of `treeform_mate_features`: distance of the features' "
-                     "centers")]}),
-    Bound("impact", leave="exact predicates", counts={"contacts": "contact_listed"}),
-    Bound("approach", "impact", leave="exact predicates", counts={"contacts": "contact_listed"}),
+        "+": [MESSAGE]}),
+    Bound("impact", leave="predicates", counts={"contacts": "contact_listed"}),
     Bound("face_contact", "impact_contact", "same", custom={"at": [
         Member("uint8_t on_a", "the part of the face, as in `treeform_hit::at`"),
         Member("uint8_t on_b")]}),
@@ -272,7 +251,6 @@ BOUND = [
         Member("double on_b[3]", "",
                "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
     Bound("clash_result", "clashes", counts={"pairs": "count"}),
-    Bound("pose_options", "poses_options"),
     Bound("pose_clash", kind="same"),
     # files.h
     Bound("named_column", kind="part"),

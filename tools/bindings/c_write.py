@@ -191,9 +191,7 @@ class Writer:
         text += "".join(f"#include <treeform/{one}>\n" for one in headers)
         text += "\n#include <tools/c/handles.hpp>\n\nnamespace glue {\n\n"
         for bound in self.language.bound.values():
-            if bound.of:
-                text += self.read_as(bound)
-            elif bound.kind == "options":
+            if bound.kind == "options":
                 text += f"[[nodiscard]] tf::{bound.cpp} read(const {bound.c}* options);\n"
                 text += f"[[nodiscard]] tf::{bound.cpp} read(const {bound.c}& o);\n"
             elif bound.kind != "same":
@@ -202,17 +200,6 @@ class Writer:
             text += (f"void fill(keeper& kept, const std::vector<{one.element}>& from, "
                      f"{one.c}& to);\n")
         return text + "\n}  // namespace glue\n"
-
-    def read_as(self, bound: Bound) -> str:
-        """Options of several functions, read as those of one of them."""
-        text = (f"/// Those of the options that an operation has.\ntemplate <class Options>\n"
-                f"[[nodiscard]] Options read_as(const {bound.c}* options) {{\n"
-                f"const auto o = chosen(options, {bound.c}_init);\nOptions how;\n")
-        for one in self.language.members(bound):
-            if one.read:
-                name = re.search(r"how\.(\w+)", one.read).group(1)
-                text += f"if constexpr (requires {{ how.{name}; }}) {one.read}\n"
-        return text + "return how;\n}\n"
 
     def filling(self, bound: Bound) -> str:
         """The functions of a struct."""
@@ -230,15 +217,10 @@ class Writer:
                     f"return read(chosen(options, {bound.c}_init));\n}}\n"
                     f"tf::{bound.cpp} glue::read(const {bound.c}& o) {{\ntf::{bound.cpp} how;\n")
             text += "".join(one.read + "\n" for one in members) + "return how;\n}\n\n"
-            if bound.of:
-                text = ""
             text += (f"void {bound.c}_init({bound.c}* options, size_t size) {{\n"
                      f"{bound.c} to{{}};\n")
             defaults = "".join(one.default + "\n" for one in members if one.default)
-            if bound.of:
-                defaults = re.sub(r"\bfrom\.(\w+)", lambda found: "tf::" + self.language.owner(
-                    bound, found.group(1)) + "{}." + found.group(1), defaults)
-            elif "from." in defaults:
+            if "from." in defaults:
                 text += f"const tf::{bound.cpp} from;\n"
             text += "using namespace glue;\n" if re.search(r"\b(not_known|copy)\b", defaults) else ""
             return text + defaults + "glue::init(options, size, to);\n}\n"

@@ -8,7 +8,7 @@ from python_language import Attribute, Result
 #: Words of C++ in sentences, and those of Python.
 WORDS = {"columns as `las_header` says": "columns are the fields of its records",
          "what `las_header` says": "what their records hold",
-         "each of `scene_parts`": "each part",
+         "each part, as `split_parts` has them": "each part",
          " (`libmesh/attributes/known_columns.cpp` is the table)": "",
          "Of `file.attributes`, each": "Of `Attributes`, each", "`mesh_file::": "`Attributes.",
          "`attributes::": "`Attributes.",
@@ -125,7 +125,7 @@ RESULTS = [
     Result("mass_properties", "MassProperties", "_cuts"),
     # _shapes
     Result("offset_result", "OffsetResult", "_shapes", "MadeMesh",
-           doc="A solid at a distance from a mesh, around it or hollow.",
+           doc="A solid at a distance from a mesh: around it, hollow, or a wrap.",
            inherited="mesh certificate", docs={"statistics": "What it took, and was measured."}),
     Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh", context="attributes",
            doc="A mesh with fewer faces.", inherited="mesh certificate"),
@@ -137,13 +137,6 @@ RESULTS = [
     Result("isoline", "Isoline", "_shapes"),
     Result("isolines_result", "Isolines", "_shapes"),
     # _repair
-    Result("resolve_result", "ResolveResult", "_repair", "MadeMesh", context="attributes",
-           doc="A mesh without self-intersections.", inherited="mesh certificate",
-           docs={"statistics": "Counts of what was done."},
-           custom={"vanished_components": [], "statistics": [Attribute(
-               "statistics", "dict[str, Any]", "Counts of what was done.",
-               'with(counters(from.statistics), "vanished_components", '
-               "from.vanished_components)")]}),
     Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
            doc="A mended mesh.", inherited="mesh certificate", names={"statistics": "steps"},
            docs={"steps": "What each step has done: faces flipped, holes filled, ..."},
@@ -151,9 +144,6 @@ RESULTS = [
                "is_left", "NDArray[np.bool_]", "(faces of the input,) whether something is left of "
                "each, also where it was merged with others.",
                'as_python(std::move(from.is_left)).attr("view")("bool")')]}),
-    Result("wrap_result", "WrapResult", "_repair", "MadeMesh",
-           doc="A closed surface around a mesh.", inherited="mesh certificate",
-           docs={"statistics": "What it took."}),
     Result("convex_hull_result", "ConvexHull", "_repair",
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) numbers of the points, outward."},
@@ -174,8 +164,8 @@ RESULTS = [
     Result("topology_counts", "Topology", "_properties"),
     Result("mesh_feature", "Feature", "_properties"),
     # _intersections
-    *[Result(f"{cpp}_intersection_result", "FacePairs", "_intersections",
-             leave="box_pairs exact_pairs predicates searched tree_seconds pair_seconds",
+    Result("intersection_result", "FacePairs", "_intersections",
+             leave="box_pairs exact_pairs predicates tree_seconds pair_seconds",
              custom={"pairs": [
                  column("pairs", "Ids", "(n, 2) uint32, ascending; of one mesh, the lower face "
                         "first.", "pairs", "std::array{one.a, one.b}"),
@@ -183,8 +173,7 @@ RESULTS = [
                         "`KINDS`.", "pairs", "one.kind")],
                  "counts": [Attribute("counts", "dict[str, int]",
                                       "How many of each kind there are, listed or not.",
-                                      "counts_of<tf::pair_kind>(from.counts)")]})
-      for cpp in ("self", "mesh")],
+                                      "counts_of<tf::pair_kind>(from.counts)")]}),
     Result("intersection_region", "Region", "_intersections", custom={
         "min": [Attribute("bounds", "Floats", "(2, 3) the box around them.",
                           "as_python(std::array{from.min, from.max})")], "max": []}),
@@ -374,18 +363,11 @@ RESULTS = [
                    "from.nearest ? py::object(py::make_tuple(from.nearest->fixed, "
                    "as_python(std::move(from.nearest->how)))) : py::none()")],
                "+": [Attribute("message", "str", "Half a sentence; empty where there is a place.",
-                               "py::cast(from.message())"),
-                     Attribute("angle", "float", "Of `turn` and `mate_features`: in degrees.",
-                               "py::cast(0.0)", "0.0"),
-                     Attribute("tolerance", "float", "Of `turn`: the gap beyond the clearance that "
-                               "counts as contact.", "py::cast(0.0)", "0.0"),
-                     Attribute("offset", "float", "Of `mate_features`: how far the center of the "
-                               "moving feature ended from the fixed one.", "py::cast(0.0)",
-                               "0.0")]}),
+                               "py::cast(from.message())")]}),
     Result("impact", "Impact", "_placement", "NamedTuple",
-           leave="exact contact_count pairs_tested predicates",
+           leave="contact_count pairs_tested predicates",
            doc="The first contact of two meshes in motion.",
-           docs={"end": "'free', 'contact' or 'at_start'."},
+           docs={"end": "'nothing_met', 'contact' or 'starts_touching'."},
            custom={"contacts": [
                column("faces", "Ids", "(n, 2) the faces of `a` and `b` that meet at that time.",
                       "contacts", "std::array{one.face_a, one.face_b}"),
@@ -461,8 +443,8 @@ RESULTS = [
 ]
 
 #: Counters as dictionaries, and what is not among them.
-COUNTERS = {"boolean_statistics": "", "resolve_statistics": "", "repair_statistics": "",
-            "wrap_statistics": "", "offset_statistics": "", "weld_statistics": "",
+COUNTERS = {"boolean_statistics": "", "repair_statistics": "",
+            "offset_statistics": "", "weld_statistics": "",
             "weld_stream_counts": "kept groups max_displacement faces"}
 
 #: Structs as bytes, for pickle, and the fields that are left out.
@@ -473,17 +455,15 @@ STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_val
 #: Options by name: structs, and the fields that Python gives in another way, or not at all.
 OPTIONS = {
     "cloud_inputs": "format names", "read_options": "", "write_options": "keep_names",
-    "boolean_options": "face_groups", "cut_options": "keep_cuts", "components_options": "",
-    "resolve_options": "removal_rounds", "repair_options": "", "wrap_options": "",
-    "offset_options": "", "simplify_options": "face_groups corner_groups", "thickness_options": "",
-    "feature_options": "", "self_intersection_options": "component_of_face between within",
-    "mesh_intersection_options": "", "stream_search_options": "box communicator",
-    "weld_options": "label may_merge search", "weld_stream_options": "communicator shared "
+    "boolean_options": "face_groups", "cut_options": "keep_cuts",
+    "resolve_options": "removal_rounds", "repair_options": "",
+    "offset_options": "", "simplify_options": "face_groups corner_groups",
+    "feature_options": "", "intersection_options": "component_of_face between within",
+    "stream_search_options": "box communicator",
+    "weld_options": "label may_merge", "weld_stream_options": "communicator shared "
                                                                      "las_scale las_offset",
-    "slide_options": "close_in limit vertices", "drop_options": "limit vertices",
-    "mate_options": "limit vertices", "separate_options": "normals face_pairs limit vertices",
-    "turn_options": "max_steps limit vertices", "feature_mate_options": "limit vertices",
+    "placement_options": "max_steps close_in normals face_pairs limit vertices",
     "measure_options": "", "depth_options": "vertices", "impact_options": "limit",
     "lay_flat_options": "overhang_sides", "align_options": "accelerate", "pack_options": "tighten",
-    "deviation_options": "", "clash_options": "ignored effort", "pose_options": "ignored",
+    "deviation_options": "", "clash_options": "ignored effort",
 }

@@ -46,6 +46,17 @@ def _operation(name: str, operation: str, what: str, leave: str = "gap",
                     body=f'combined("{operation}", meshes, how, progress)')
 
 
+def _of_others(own: str) -> str:
+    """The options of placements that not all of these functions have, without its own."""
+    return " ".join(sorted({"bed", "effort", "flip", "max_angle", "tolerance"} - {*own.split()}))
+
+
+def _placed(signature: str, call: str, own: str = "", **more: dict[str, str]) -> Function:
+    words = {"fixed": "onto"} if "onto" in signature else {}
+    return Function(f"{signature} -> Placement", call, "moving", leave=_of_others(own),
+                    words=words, **more)
+
+
 FUNCTIONS = [
     # _booleans
     _operation("union", "union", "What is in any of the solids: `union(a, b, ...)`, or `union([a, "
@@ -109,7 +120,7 @@ FUNCTIONS = [
     # _cuts
     Function("section(mesh: Mesh, normal: Vector = (0, 0, 1), at: Vector = (0, 0, 0), *, "
              "heights: Heights = None) -> Section",
-             "tf::section($mesh, {$at, $normal}, $heights, {report})", docs=_PLANE | _HEIGHTS),
+             "tf::section($mesh, {$at, $normal}, $heights, report)", docs=_PLANE | _HEIGHTS),
     Function("layer_heights(mesh: Mesh, thickness: float, normal: Vector = (0, 0, 1), "
              "at: Vector = (0, 0, 0)) -> Floats",
              "tf::oriented_plane{$at, $normal}.layer_heights(mesh.view().points, thickness)",
@@ -131,8 +142,10 @@ FUNCTIONS = [
              "tf::cut_along($mesh, $values, $levels, {.progress = report})", "attributes of mesh",
              check="mesh",
              docs={"values": "(V,) of the vertices, linear in each face.", "levels": "(K,)"}),
-    Function("components(mesh: Mesh, options: components_options) -> list[MeshPart]",
-             "tf::components($mesh, options)", "attributes of mesh"),
+    Function("components(mesh: Mesh, *, min_volume: float = 0.0, largest: int = 0)"
+             " -> list[MeshPart]", "tf::components($mesh, min_volume, largest)",
+             "attributes of mesh",
+             docs={"min_volume": "of parts, in cubic units.", "largest": "how many; 0: all."}),
     Function("submesh(mesh: Mesh, faces: Chosen) -> MeshPart", "tf::submesh($mesh, $faces)",
              "attributes of mesh", also="Vertices keep their attributes.",
              docs={"faces": "(n,) numbers; or a mask (F,) of True and False."}),
@@ -146,15 +159,18 @@ FUNCTIONS = [
              docs={"matrix": "(4, 4)"}),
     # _shapes
     Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
-             "tf::offset($mesh, distance, options)", kind="long_work", check="solid"),
+             "tf::offset($mesh, distance, options)", kind="long_work", check="solid",
+             leave="offset"),
     Function("hollow(mesh: Mesh, wall: float, *, drains: Drains = (), options: offset_options) "
              "-> OffsetResult",
              "tf::hollow($mesh, wall, $drains, options)", kind="long_work", check="solid",
+             leave="offset",
              docs={"drains": "(n, 4) holes through the wall: a point, and the diameter of the hole "
                              "at the nearest point of the surface."}),
     Function("thicken(mesh: Mesh, thickness: float, *, side: thick_side = \"both\", "
              "options: offset_options) -> OffsetResult",
              "tf::thicken($mesh, thickness, $side, options)", kind="long_work", check="solid",
+             leave="offset",
              docs={"side": "'both', or where the thickness goes: 'front' (faces are "
                            "counter-clockwise there) or 'back'."}),
     Function("simplify(mesh: Mesh, max_distance: float, *, face_groups: Groups = None, "
@@ -165,18 +181,18 @@ FUNCTIONS = [
                   "materials and of values of faces, are kept.",
              docs={"face_groups": "(F,) numbers; edges between faces of different ones are "
                                   "borders, too."}),
-    Function("wall_thickness(mesh: Mesh, options: thickness_options(by)) -> Thickness",
-             "tf::wall_thickness($mesh, options)",
+    Function("wall_thickness(mesh: Mesh, by: thickness_by = \"ray\") -> Thickness",
+             "tf::wall_thickness($mesh, $by, report)",
              docs={"by": "'ray', along the normal inward from the center of a face; or 'sphere', "
                          "the diameter of the largest ball within that touches the center."}),
     Function("oriented_box(points: Cloud) -> Optional[OrientedBox]",
              "tf::find_oriented_box($points)", docs={"points": "(n, 3), or a mesh."}),
     Function("isolines(mesh: Mesh, values: Numbers, levels: Levels) -> Isolines",
-             "tf::isolines($mesh, $values, $levels, {report})",
+             "tf::isolines($mesh, $values, $levels, report)",
              docs={"values": "(V,) of the vertices, linear in each face.", "levels": "(K,)"}),
     # _repair
     Function("resolve_self_intersections(mesh: Mesh, mode: resolve_mode = \"outer\", "
-             "options: resolve_options) -> ResolveResult",
+             "options: resolve_options) -> RepairResult",
              "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh",
              check="solid",
              docs={"mode": "'outer' cuts faces along each other and keeps what bounds the solid; "
@@ -192,8 +208,9 @@ FUNCTIONS = [
                    "keep_cuts": "as in `boolean`; faces that fill holes are merged with each other "
                                 "alone.",
                    "inside": "'automatic', 'nonzero', 'odd' or 'positive': what is solid."}),
-    Function("wrap(mesh: Mesh, size: float, options: wrap_options) -> WrapResult",
-             "tf::wrap($mesh, size, options)", kind="long_work", check="mesh"),
+    Function("wrap(mesh: Mesh, size: float, options: offset_options) -> OffsetResult",
+             "tf::wrap($mesh, size, options)", kind="long_work", check="mesh",
+             leave="resolution"),
     Function("convex_hull(points: Cloud) -> ConvexHull", "tf::convex_hull($points, report)",
              docs={"points": "(n, 3), or a mesh."}),
     Function("rounded(points: Points, precision: precision = \"float32\") -> Floats",
@@ -223,19 +240,18 @@ FUNCTIONS = [
     Function("find_solid_defects(mesh: Mesh) -> SolidDefects",
              "tf::find_solid_defects($mesh, report)", cpp="find_solid_defects in repair"),
     # _intersections
-    Function("self_intersections(mesh: Mesh, options: self_intersection_options) -> FacePairs",
-             "tf::self_intersections($mesh, options)",
+    Function("self_intersections(mesh: Mesh, options: intersection_options) -> FacePairs",
+             "tf::self_intersections($mesh, options)", leave="move_a move_b",
              docs={"kinds": "those to look for, of `KINDS`; None is all. 'crossing': interiors "
                             "pass through each other, no shared corner; 'pierce': the same with "
                             "one shared corner; 'overlap': coplanar, with a common area; 'fold': "
                             "coplanar, on the same side of a shared edge; 'duplicate': the same "
                             "three corners; 'touching': contact without crossing; 'degenerate': "
                             "one of them has no area."}),
-    Function("mesh_intersections(a: Mesh, b: Mesh, options: mesh_intersection_options) -> "
+    Function("mesh_intersections(a: Mesh, b: Mesh, options: intersection_options) -> "
              "FacePairs",
-             "tf::mesh_intersections($a, $b, options)", docs=_MOVES | {"kinds": "those to look "
-                                                                                "for, of `KINDS`; "
-                                                                                "None is all."}),
+             "tf::mesh_intersections($a, $b, options)", leave="vertices",
+             docs=_MOVES | {"kinds": "those to look for, of `KINDS`; None is all."}),
     Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
              "tf::faces_in_box(mesh.view(), $min, $max)", docs={"min": "(3,)", "max": "(3,)"}),
     Function("group_pairs(mesh: Mesh, pairs: PairIds, kinds: Kinds) -> tuple[list[Region], Ids]",
@@ -383,26 +399,37 @@ FUNCTIONS = [
              "t_max: float = np.inf) -> AllRayHits",
              body="all_hits(mesh, origins, directions, t_min, t_max, progress)", docs=_RAYS),
     # _placement
-    Function("slide(moving: Body, onto: Bodies, direction: Vector, options: "
-             "slide_options(clearance))"
-             " -> Placement", "tf::slide($moving, $onto, $direction, options)", "moving",
-             words={"fixed": "onto"},
-             docs={"onto": _FIXED, "direction": "(3,) of any length."}),
-    Function("drop(moving: Body, onto: Bodies = None, options: drop_options) -> Placement",
-             "onto.empty() ? tf::drop($moving, options) : tf::drop($moving, $onto, options)",
-             "moving", words={"fixed": "onto"}, docs={"onto": _FIXED, "clearance": "As of `slide`.",
-                   "max_travel": "As of `slide`.", "precision": "As of `slide`."}),
-    Function("mate(moving: Body, onto: Bodies, options: mate_options) -> Placement",
-             "tf::mate($moving, $onto, options)", "moving", words={"fixed": "onto"},
-             docs={"onto": _FIXED}),
-    Function("separate(moving: Body, fixed: Bodies, options: separate_options(clearance))"
-             " -> Placement", "tf::separate($moving, $fixed, options)", "moving",
-             docs={"fixed": _FIXED}),
-    Function("turn(moving: Body, fixed: Bodies, axis: Vector, origin: Vector = (0.0, 0.0, 0.0), "
-             "options: turn_options) -> Placement",
-             "tf::turn($moving, $fixed, {$origin, $axis}, options)", "moving",
-             docs={"fixed": _FIXED, "axis": "(3,) of any length.",
-                   "origin": "(3,) a point of the axis."}),
+    _placed("slide(moving: Body, onto: Bodies, direction: Vector, options: "
+            "placement_options(clearance))", "tf::slide($moving, $onto, $direction, options)",
+            "bed", docs={"onto": _FIXED, "direction": "(3,) of any length.", "bed":
+                         "z of a bed, which also stops the mesh: points that rest on it have "
+                         "exactly its z (with float32, the least one not below it), and no point "
+                         "is below."}),
+    _placed("drop(moving: Body, onto: Bodies = None, *, direction: Vector = (0, 0, -1), "
+            "options: placement_options)",
+            "onto.empty() ? tf::drop($moving, options, $direction) : "
+            "tf::drop($moving, $onto, options, $direction)", "bed",
+            docs={"onto": _FIXED, "direction": "(3,) of any length, downward.",
+                  "bed": "z of the bed; without fixed bodies, there is one at 0.",
+                  "clearance": "As of `slide`.", "max_travel": "As of `slide`.",
+                  "precision": "As of `slide`."}),
+    _placed("mate(moving: Body, onto: Bodies, options: placement_options)",
+            "tf::mate($moving, $onto, options)", docs={"onto": _FIXED}),
+    _placed("separate(moving: Body, fixed: Bodies, options: placement_options(clearance))",
+            "tf::separate($moving, $fixed, options)", "effort", docs={
+                "fixed": _FIXED,
+                "effort": "pairs of faces that the search may look at, a pair in motion counting "
+                          "as two; 0: 20 million and 200 for each face. Distances for a clearance "
+                          "do not count."}),
+    _placed("turn(moving: Body, fixed: Bodies, axis: Vector, "
+            "origin: Vector = (0.0, 0.0, 0.0), options: placement_options)",
+            "tf::turn($moving, $fixed, {$origin, $axis}, options)", "max_angle tolerance",
+            docs={"fixed": _FIXED, "axis": "(3,) of any length.",
+                  "origin": "(3,) a point of the axis.",
+                  "max_angle": "in degrees; greater than 0, up to 360.",
+                  "tolerance": "the gap, beyond the clearance, that counts as contact; greater "
+                               "than 0. None: 2^-32 of the largest distance of a point from the "
+                               "axis."}),
     Function("measure(a: Body, b: Body, options: measure_options) -> Optional[Measure]",
              "tf::measure(a.prepared(), b.prepared(), options)",
              doc="How two bodies lie to each other: separate, touching or penetrating, how far "
@@ -428,11 +455,13 @@ FUNCTIONS = [
              docs={"scale": "find a uniform scale, too; a pair is its bounds, in addition to the "
                             "scale of `start`."}),
     Function("mate_features(moving: Body, onto: Bodies, of_moving: Feature, of_fixed: Feature, "
-             "options: feature_mate_options) -> Placement",
+             "options: placement_options) -> Placement",
              "tf::mate_features($moving, $onto, of_moving, of_fixed, options)", "moving",
-             words={"fixed": "onto"},
+             words={"fixed": "onto"}, leave=_of_others("flip"),
              docs={"onto": _FIXED, "of_moving": "a plane or an axis of `find_features`.",
-                   "of_fixed": "one of the same kind."}),
+                   "of_fixed": "one of the same kind.",
+                   "flip": "planes look the same way rather than at each other; axes are turned "
+                           "around."}),
     Function("pack(parts: Parts, size: ArrayLike, options: pack_options) -> Packing",
              "tf::pack($parts, options)", "parts", "long_work",
              given="size=extent_of(size)", leave="size",
@@ -451,19 +480,20 @@ FUNCTIONS = [
              docs=_MOVES | {"radius": "beyond it, the answer is None."}),
     Function("clash_parts(parts: Parts, options: clash_options, ignored: Pairs) -> ClashResult",
              "(options.ignored = $ignored, tf::clash(borrowed(parts), options))"),
-    Function("clash_in_poses(parts: Parts, poses: Poses, options: pose_options, ignored: Pairs)"
+    Function("clash_in_poses(parts: Parts, poses: Poses, options: clash_options, ignored: Pairs)"
              " -> PoseClashes",
              "(options.ignored = $ignored, tf::check_poses(borrowed(parts), $poses, options))"),
     Function("clash(parts: Parts, options: clash_options(clearance), poses: ArrayLike = None, "
              "ignored: PartPairs = ()) -> ClashResult",
-             body="clashes(parts, poses, how, ignored, progress)",
+             body="clashes(parts, poses, how, ignored, progress)", leave="first_only",
              docs={"poses": "(N, 4, 4) an affine map for each of the N parts: where it is. Corners "
                             "are rounded to float64 after it, and then exact; what is returned is "
                             "where the parts are. `check_poses` is for many poses of all.",
                    "ignored": "pairs of numbers of parts that are not looked at."}),
-    Function("check_poses(parts: Parts, poses: Numbers, options: pose_options(clearance), "
+    Function("check_poses(parts: Parts, poses: Numbers, options: clash_options(clearance), "
              "ignored: PartPairs = ()) -> PoseClashes",
              body="clashes_in_poses(parts, poses, how, ignored, progress)",
+             leave="volumes depths limit",
              docs={"poses": "(P, N, 4, 4) an affine map for each of the N parts, or (P, 4, 4) for "
                             "a single one beside parts that stay: then it moves the first.",
                    "ignored": "pairs of numbers of parts that are not looked at."}),

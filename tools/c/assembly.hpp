@@ -70,7 +70,7 @@ inline std::vector<std::uint32_t> pairs_named(std::span<const std::string> names
 inline answer_of<treeform_poses_result> check_poses(const treeform_mesh* const* parts,
                                                     std::size_t count, const double* poses,
                                                     std::size_t pose_count,
-                                                    const tf::pose_options& options) {
+                                                    const tf::clash_options& options) {
     if (count != 0 && pose_count > (std::size_t{1} << 36) / count)
         throw std::length_error("too many poses");
     (void)array(poses, 12 * pose_count * count, "poses");

@@ -48,17 +48,16 @@ inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std:
     const std::span from = files.sources();
     const auto points = [](const tf::carry_source& s) { return s.file->mesh.points.size(); };
     const std::size_t vertices = file.mesh.points.size();
-    tf::carried_elements made;
-    made.face_source = elements(face_source, file.mesh.faces.size(), "face_source", from, faces_of);
-    made.vertex_source = elements(vertex_source, vertices, "vertex_source", from, points);
+    std::span<const tf::operand_element> cut;
     if (face_of_cut_vertex)
-        made.face_of_cut_vertex =
-            elements(face_of_cut_vertex, vertices, "face_of_cut_vertex", from, faces_of);
-    tf::carry_sources({from.begin(), from.end()}).carry(file, made);
+        cut = elements(face_of_cut_vertex, vertices, "face_of_cut_vertex", from, faces_of);
+    tf::carry_sources({from.begin(), from.end()})
+        .carry(file, elements(face_source, file.mesh.faces.size(), "face_source", from, faces_of),
+               elements(vertex_source, vertices, "vertex_source", from, points), cut);
 }
 
 /// The same for what was made of one input: `face_source` [F] and `vertex_source` [V] are those of
-/// a `treeform_resolve_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
+/// a `treeform_repair_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
 /// `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
 inline void carry_one(tf::mesh_file& file, const treeform_carry_source* input,
                       const std::uint32_t* face_source, const std::uint32_t* vertex_source,

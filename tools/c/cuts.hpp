@@ -9,12 +9,6 @@
 
 namespace glue {
 
-inline tf::section_result section(const tf::mesh_ref& mesh, const tf::oriented_plane& plane,
-                                  std::span<const double> heights,
-                                  const tf::progress_callback& progress) {
-    return tf::section(mesh, plane, heights, {progress});
-}
-
 /// Heights above `plane` (null: as above) of the middles of layers of this thickness, from the
 /// lowest point of the mesh to the highest.
 inline std::vector<double> layer_heights(tf::mesh_view mesh, const tf::oriented_plane& plane,
@@ -40,8 +34,7 @@ inline void write_section(const std::filesystem::path& path, const treeform_sect
 /// `largest` ones where that is not 0.
 inline std::vector<tf::mesh_part> components(const tf::mesh_ref& mesh, double min_volume,
                                              std::size_t largest) {
-    return tf::components(mesh,
-                          {.min_volume = min_volume, .largest = largest != 0 ? largest : SIZE_MAX});
+    return tf::components(mesh, min_volume, largest);
 }
 
 /// Points and faces of all meshes, one after the other; nothing is joined. `index` [F] is the mesh

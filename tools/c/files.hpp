@@ -235,10 +235,9 @@ inline tf::mesh_file scene(const treeform_file* const* files, const char* const*
     const std::span all = array(files, count, "files");
     if (all.empty()) throw std::invalid_argument("no files for the scene");
     const std::vector<std::string> labels = names_of(names, count);
-    std::vector<tf::scene_member> members;
-    for (std::size_t i = 0; i < count; ++i)
-        members.push_back({&content(all[i], "files"), labels[i], labels[i]});
-    return tf::scene_of(members);
+    std::vector<const tf::mesh_file*> members;
+    for (const treeform_file* one : all) members.push_back(&content(one, "files"));
+    return tf::scene_of(members, labels, labels);
 }
 
 /// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
@@ -284,8 +283,8 @@ inline void link_transforms(const tf::urdf_robot& robot, const char* const* join
                             const double* values, std::size_t count, double* places) {
     const std::vector<std::string> names = texts(joints, count, "joints");
     const std::span all = array(values, count, "values");
-    std::vector<tf::joint_value> given;
-    for (std::size_t i = 0; i < count; ++i) given.push_back({names[i], all[i]});
+    std::map<std::string, double> given;
+    for (std::size_t i = 0; i < count; ++i) given[names[i]] = all[i];
     const auto found = robot.link_transforms(given);
     (void)array(places, 12 * found.size(), "places");
     for (std::size_t i = 0; i < found.size(); ++i) copy(found[i], places + 12 * i);

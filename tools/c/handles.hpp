@@ -105,9 +105,11 @@ void give_written(const Write& write, treeform_written** out) {
 /// stays where it is. Its answers go to `out`.
 template <class Ask, class T>
 void in_positions(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
-                  const double* moves_b, std::size_t count, const Ask& ask, std::span<T> out) {
+                  const double* moves_b, std::size_t count, const Ask& ask, std::span<T> out,
+                  double radius = infinity) {
     std::vector<tf::mesh_positions> where(count);
     for (std::size_t i = 0; i < count; ++i) {
+        where[i].radius = radius;
         if (moves_a) where[i].move_a = matrix(moves_a + 12 * i);
         if (moves_b) where[i].move_b = matrix(moves_b + 12 * i);
     }

@@ -18,9 +18,9 @@ namespace glue {
 
 /// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
 /// Exact on the coordinates as given.
-inline tf::self_intersection_result self_intersections(
-    const tf::mesh_ref& mesh, const treeform_self_intersections_options* options) {
-    tf::self_intersection_options how = read(options);
+inline tf::intersection_result self_intersections(const tf::mesh_ref& mesh,
+                                                  const treeform_intersections_options* options) {
+    tf::intersection_options how = read(options);
     if (options && options->component_of_face)
         how.component_of_face = {options->component_of_face, mesh.view().faces.size()};
     return tf::self_intersections(mesh, how);

@@ -129,9 +129,9 @@ inline answer_of<treeform_mesh_set> mesh_set_create(const treeform_mesh* const* 
 /// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they
 /// first appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
 inline made_mesh join_equal_points(tf::mesh_view mesh) {
-    tf::equal_points found = tf::find_equal_points(mesh.points);
-    const tf::point_groups groups{std::move(found.new_of_old), std::move(found.first_of_new)};
-    return {groups.joined(mesh), groups.group_of_point};
+    tf::point_groups groups = tf::find_equal_points(mesh.points);
+    tf::mesh joined = groups.joined(mesh);
+    return {std::move(joined), std::move(groups.group_of_point)};
 }
 
 /// The faces of all meshes one after the other, with equal points joined. `index` [F] is the mesh
@@ -140,8 +140,10 @@ inline made_mesh join_meshes(const treeform_mesh* const* meshes, std::size_t cou
     std::vector<tf::mesh_view> views;
     for (const treeform_mesh* one : array(meshes, count, "meshes"))
         views.push_back(finite_view(one));
-    tf::joined_meshes joined = tf::join_meshes(views);
-    return {std::move(joined.mesh), std::move(joined.mesh_of_face)};
+    std::vector<std::uint32_t> mesh_of_face;
+    for (std::uint32_t i = 0; i < views.size(); ++i)
+        mesh_of_face.resize(mesh_of_face.size() + views[i].faces.size(), i);
+    return {tf::join_meshes(views), std::move(mesh_of_face)};
 }
 
 /// A mesh of the faces with these numbers, in this order, and of the points that they use.
@@ -155,18 +157,21 @@ inline tf::mesh round(tf::mesh_view mesh, tf::precision precision) {
     return {tf::rounded(mesh.points, precision), {mesh.faces.begin(), mesh.faces.end()}};
 }
 
-/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved).
-/// Exact: faces that meet now, and did not, are found by `treeform_self_intersections`.
+/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved),
+/// of precision `before` and written as `after`; with `always_compare`, faces too where the step is
+/// too small to be noticed. Exact: faces that meet now, and did not, are found by
+/// `treeform_self_intersections`.
 inline tf::rounding_effects rounding_effects(const treeform_mesh* mesh,
                                              const tf::transform<3>& matrix, const double* placed,
-                                             const treeform_rounding_options* options) {
-    const auto o = chosen(options, treeform_rounding_options_init);
+                                             tf::precision before, tf::precision after,
+                                             bool always_compare,
+                                             const tf::progress_callback& progress) {
     const tf::mesh_view view = glue::view(mesh);
-    const tf::points_view after = points(placed, view.points.size(), "placed");
-    const tf::rounding_options how = read(o);
-    tf::rounding_effects found = tf::effects_of_rounding(ref(mesh, "mesh"), matrix, after, how);
-    if (found.status == tf::status::ok && o.always_compare != 0 && !found.compared) {
-        const tf::rounding_defects defects = tf::find_rounding_defects(view, after, how.progress);
+    const tf::points_view there = points(placed, view.points.size(), "placed");
+    tf::rounding_effects found =
+        tf::effects_of_rounding(ref(mesh, "mesh"), matrix, there, before, after, progress);
+    if (found.status == tf::status::ok && always_compare && !found.compared) {
+        const tf::rounding_effects defects = tf::find_rounding_defects(view, there, progress);
         check(defects.status);
         found.compared = true;
         found.collapsed = defects.collapsed;

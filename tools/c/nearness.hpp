@@ -48,7 +48,7 @@ inline treeform_closest closest_points(const tf::mesh_ref& a, const tf::mesh_ref
 /// The distance of the surfaces; infinite where one has no faces.
 inline double distance(const tf::mesh_ref& a, const tf::mesh_ref& b, const tf::transform<3>& move_a,
                        const tf::transform<3>& move_b) {
-    return tf::distance(a, b, tf::distance_options{move_a, move_b});
+    return tf::distance(a, b, tf::mesh_positions{move_a, move_b});
 }
 
 /// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
@@ -59,8 +59,8 @@ inline void distance_poses(const treeform_mesh* a, const treeform_mesh* b, const
     const std::span out = array(distances, count, "distances");
     in_positions(
         a, b, moves_a, moves_b, count,
-        [&](const auto& x, const auto& y, auto where) { return tf::distance(x, y, where, radius); },
-        out);
+        [&](const auto& x, const auto& y, auto where) { return tf::distance(x, y, where); }, out,
+        radius);
 }
 
 // ---- inside and outside ----
@@ -114,8 +114,8 @@ inline void locate_in_curves(const double* points, std::size_t point_count,
                              const std::uint32_t* edges, std::size_t edge_count,
                              const double* queries, std::size_t count, std::uint8_t* where,
                              std::int32_t* winding) {
-    const tf::curve_locator locator({rows_of<tf::point2>(points, point_count, "points"),
-                                     rows_of<tf::curve_edge>(edges, edge_count, "edges")});
+    const tf::curve_locator locator(rows_of<tf::point2>(points, point_count, "points"),
+                                    rows_of<tf::curve_edge>(edges, edge_count, "edges"));
     const auto all = rows_of<tf::point2>(queries, count, "queries");
     in_pieces(count, [&](std::size_t begin, std::size_t end) {
         answer_all(locator.locate(all.subspan(begin, end - begin)), from(where, begin),
@@ -161,13 +161,13 @@ inline void raycast_any(const treeform_mesh* mesh, const treeform_ray* rays, std
 inline answer_of<treeform_hits> raycast_all(const treeform_mesh* mesh, const treeform_ray* rays,
                                             std::size_t count) {
     auto made = make<treeform_hits>();
-    auto& found = made->keep(tf::mesh_hits{{0}, {}});
+    auto& found = made->keep(tf::answer_lists<tf::mesh_hit>{{0}, {}});
     along_rays(mesh, rays, count, [&](const auto& m, auto some, std::size_t) {
         auto more = tf::raycast_all(m, some);
-        append(found.begin, found.hits, std::move(more.begin), std::move(more.hits));
+        append(found.begin, found.answers, std::move(more.begin), std::move(more.answers));
     });
     made->value.begin = found.begin.data();
-    made->value.hits = same<treeform_hit>(found.hits);
+    made->value.hits = same<treeform_hit>(found.answers);
     made->value.count = count;
     return made;
 }

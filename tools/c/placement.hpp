@@ -10,50 +10,27 @@
 
 namespace glue {
 
-/// A placement, and what only its operation has: `more(to)` fills it.
-template <class More>
-treeform_code give_placed(tf::placement&& at, treeform_placement** out, const More& more) {
+inline treeform_code give(tf::placement&& at, treeform_placement** out) {
     check(at.certificate.status);
-    treeform_placement& to = hand_out(std::move(at), out);
-    more(to);
+    const treeform_placement& to = hand_out(std::move(at), out);
     if (to.certificate->status == TREEFORM_STATUS_OK) return TREEFORM_OK;
     say(to.message);
     return TREEFORM_NO_PLACE;
 }
 
-inline treeform_code give(tf::placement&& at, treeform_placement** out) {
-    return give_placed(std::move(at), out, [](treeform_placement&) {});
-}
-
-inline treeform_code give(tf::turn_result&& turned, treeform_placement** out) {
-    return give_placed(std::move(turned.at), out, [&](treeform_placement& to) {
-        to.angle = turned.angle;
-        to.tolerance = turned.tolerance;
-        to.steps = turned.steps;
-    });
-}
-
-inline treeform_code give(tf::feature_mating&& mated, treeform_placement** out) {
-    return give_placed(std::move(mated.at), out, [&](treeform_placement& to) {
-        to.angle = mated.turn_angle;
-        to.offset = mated.offset;
-    });
-}
-
 /// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of
 /// which there may be none.
 inline tf::placement drop(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
-                          const double* direction, const treeform_place_options* options) {
-    auto how = read_as<tf::drop_options>(options);
-    if (direction) how.direction = point(direction, "direction");
-    return fixed.size() == 0 ? tf::drop(moving, how) : tf::drop(moving, fixed, how);
+                          const double* direction, const tf::placement_options& options) {
+    return tf::drop(moving, fixed, options,
+                    direction ? point(direction, "direction") : tf::point3{0.0, 0.0, -1.0});
 }
 
 /// Turns `moving` about the axis through `origin` along `direction` until it first comes within the
 /// tolerance of one of `fixed`, or of the clearance from one.
-inline tf::turn_result turn(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
-                            const tf::point3& origin, const tf::point3& direction,
-                            const tf::turn_options& options) {
+inline tf::placement turn(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
+                          const tf::point3& origin, const tf::point3& direction,
+                          const tf::placement_options& options) {
     return tf::turn(moving, fixed, {origin, direction}, options);
 }
 
@@ -72,10 +49,10 @@ inline tf::mesh_feature feature_of(const treeform_feature* from, const char* nam
 }
 
 /// Brings two planes, or two axes, together, and slides `moving` until it meets one of `fixed`.
-inline tf::feature_mating mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
-                                        const treeform_feature* of_moving,
-                                        const treeform_feature* of_fixed,
-                                        const tf::feature_mate_options& options) {
+inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
+                                   const treeform_feature* of_moving,
+                                   const treeform_feature* of_fixed,
+                                   const tf::placement_options& options) {
     return tf::mate_features(moving, fixed, feature_of(of_moving, "of_moving"),
                              feature_of(of_fixed, "of_fixed"), options);
 }
@@ -103,17 +80,6 @@ inline answer_of<treeform_contact_classes> classify_contacts(const treeform_mesh
     made->value.fixed_count = of_fixed.size();
     made->value.fixed = of_fixed.data();
     return made;
-}
-
-/// The first time after which it is nearer to `b` than `distance`, which is greater than 0;
-/// rounded.
-inline tf::approach time_to_distance(const tf::mesh_ref& a, const tf::mesh_ref& b,
-                                     const tf::point3& motion, double distance,
-                                     const treeform_impact_options* options) {
-    const tf::impact_options how = read(options);
-    if (options && (options->move_a || options->move_b))
-        throw std::invalid_argument("a distance is looked for where the meshes are");
-    return tf::time_to_distance(a, b, motion, distance, {how.latest, how.limit, how.progress});
 }
 
 }  // namespace glue

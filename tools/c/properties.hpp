@@ -81,12 +81,6 @@ inline std::size_t closing_tolerance(tf::mesh_view mesh, std::span<const double>
     return tf::closing_tolerance(mesh, tolerances).value_or(tolerances.size());
 }
 
-/// Whether two meshes have the same faces, by coordinates, turned the same way; with `any_order`
-/// wherever they stand in their lists.
-inline bool same_triangles(tf::mesh_view a, tf::mesh_view b, bool any_order) {
-    return tf::same_triangles(a, b, any_order ? tf::face_order::any : tf::face_order::kept);
-}
-
 // ---- features ----
 
 /// The flat or cylindrical regions of the mesh, largest first. Join equal points first.

@@ -101,7 +101,7 @@ inline void shared_weld_tile(shared_weld& weld, std::size_t tile) {
 /// the folder, and writes `output`, whole or not at all.
 inline tf::weld_stream_result shared_weld_finish(shared_weld& weld, const std::string& output) {
     tf::weld_stream_outputs to = weld.outputs;
-    to.welded->path = output;
+    to.welded->first = output;
     weld.steps.check_tiles();
     tf::stream_weld& steps = weld.with_survey();
     check(steps.weld());

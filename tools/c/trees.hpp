@@ -7,7 +7,7 @@
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/search_pair.hpp>
 
-#include <tools/bindings/trees.hpp>
+#include <tools/bindings/box_trees.hpp>
 #include <tools/c/made/structs.hpp>
 
 #include <algorithm>
@@ -123,19 +123,18 @@ inline answer_of<treeform_neighbors> point_tree_within(const point_tree& tree,
                                                        const double* queries, std::size_t count,
                                                        double radius) {
     auto made = make<treeform_neighbors>();
-    auto& found = made->keep(tf::neighbor_lists<tf::near_point>{{0}, {}});
+    auto& found = made->keep(tf::answer_lists<tf::near_point>{{0}, {}});
     std::visit(
         [&](const auto& of) {
             const auto all = rows(of, queries, count, "queries");
             in_pieces(count, [&](std::size_t begin, std::size_t end) {
                 auto some = of.all_within(all.subspan(begin, end - begin), radius);
-                append(found.begin, found.neighbors, std::move(some.begin),
-                       std::move(some.neighbors));
+                append(found.begin, found.answers, std::move(some.begin), std::move(some.answers));
             });
         },
         tree);
     made->value.begin = found.begin.data();
-    made->value.neighbors = same<treeform_neighbor>(found.neighbors);
+    made->value.neighbors = same<treeform_neighbor>(found.answers);
     made->value.count = count;
     return made;
 }

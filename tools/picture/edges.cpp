@@ -31,7 +31,7 @@ std::vector<side> sides_of(tf::mesh_view mesh) {
 }  // namespace
 
 open_edges find_open_edges(tf::mesh_view given) {
-    const tf::mesh mesh = tf::join_meshes({&given, 1}).mesh;
+    const tf::mesh mesh = tf::join_meshes({&given, 1});
     const std::vector<side> sides = sides_of(mesh);
     std::vector<side> open;
     for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {

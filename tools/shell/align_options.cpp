@@ -15,7 +15,7 @@
 namespace tools {
 namespace {
 
-/// By `align_method` and `align_weights`.
+/// By `align_method`, and by whether it is robust.
 constexpr std::array<const char*, 4> metrics{"plane", "point", "auto", "planes"};
 constexpr std::array<const char*, 2> weights{"equal", "welsch"};
 
@@ -55,7 +55,7 @@ void add_align_options(command_line& line, tf::align_options& options) {
                 [overlap](std::string_view text) {
                     overlap("--trim", text, 1.0 - parse_share("--trim", text));
                 });
-    line.option(o.weights,
+    line.option(o.robust,
                 {"--weights", "W",
                  "fit: welsch: far pairs count less; finds out by itself\n"
                  "what has no partner, up to half of MOVING | equal",

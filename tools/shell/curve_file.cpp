@@ -16,7 +16,7 @@ void check_curve_path(const std::filesystem::path& path) {
 
 void write_curves(const job& work, const std::filesystem::path& path, tf::mesh_view mesh,
                   std::span<const tf::face_pair> pairs,
-                  const std::vector<tf::pair_numbers>& numbers) {
+                  const std::vector<tf::pair_column>& numbers) {
     if (path.empty() || work.options.dry_run) return;
     output_place place(path, work.options.force);
     try {

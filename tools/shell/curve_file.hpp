@@ -21,6 +21,6 @@ void check_curve_path(const std::filesystem::path& path);
 /// (bad_output)
 void write_curves(const job& work, const std::filesystem::path& path, tf::mesh_view mesh,
                   std::span<const tf::face_pair> pairs,
-                  const std::vector<tf::pair_numbers>& numbers);
+                  const std::vector<tf::pair_column>& numbers);
 
 }  // namespace tools

@@ -26,8 +26,7 @@ void look_again(const std::filesystem::path& path, const std::string& format,
     if (path == "-" || !std::filesystem::is_regular_file(path, error)) return;
     const tf::mesh_file written = tf::read(path, format);
     const bool numbered = !scene && written.indexed;
-    if (!tf::same_triangles(written.mesh, surface,
-                            scene ? tf::face_order::any : tf::face_order::kept) ||
+    if (!tf::same_triangles(written.mesh, surface, scene) ||
         (numbered && written.mesh.faces != surface.faces))
         throw std::logic_error("the file written does not hold what was certified");
 }
@@ -85,7 +84,7 @@ void warn_of_rounding(job& work, double max_displacement, const std::string& who
                                  brief(max_displacement));
 }
 
-void warn_of_folds(job& work, const tf::rounding_defects& defects, tf::precision precision) {
+void warn_of_folds(job& work, const tf::rounding_effects& defects, tf::precision precision) {
     std::string text;
     if (defects.collapsed > 0)
         text = counted(defects.collapsed, "face has", "faces have") + " no area any more";

@@ -28,7 +28,7 @@ void warn_of_moves(job& work, tf::points_view points, const tf::certificate& kno
 void warn_of_rounding(job& work, double max_displacement, const std::string& whose = {});
 
 /// Says which faces rounding to these numbers has folded, if any.
-void warn_of_folds(job& work, const tf::rounding_defects& defects, tf::precision precision);
+void warn_of_folds(job& work, const tf::rounding_effects& defects, tf::precision precision);
 
 /// Enters what points have lost at their places as "rounding", and says what is noticeable of it.
 void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision precision);

@@ -8,6 +8,7 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -134,8 +135,8 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     const written_form form = form_of(o);
     tf::mesh_file file = file_of(std::move(result.mesh), result.certificate);
     if (!settings.no_attributes) {
-        sources_of(solids).carry(
-            file, {result.face_source, result.vertex_source, result.face_of_cut_vertex});
+        sources_of(solids).carry(file, result.face_source, result.vertex_source,
+                                 result.face_of_cut_vertex);
         if (form.format == "obj") warn_of_ambiguous_materials(work, files_of(solids));
     }
     if (holds_sources(form.format)) {
@@ -151,8 +152,8 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
 
 meetings meetings_of(job& work, const std::vector<solid>& solids) {
     meetings all{.joined = tf::join_meshes(views_of(solids))};
-    auto found = tf::self_intersections(all.joined.mesh, {.vertices = tf::vertex_identity::by_index,
-                                                          .progress = work.progress("curves")});
+    auto found = tf::self_intersections(all.joined, {.vertices = tf::vertex_identity::by_index,
+                                                     .progress = work.progress("curves")});
     work.call_ended(found.status == tf::status::cancelled);
     all.pairs = std::move(found.pairs);
     return all;
@@ -161,12 +162,15 @@ meetings meetings_of(job& work, const std::vector<solid>& solids) {
 void write_curves(job& work, const boolean_settings& settings, const std::vector<solid>& solids) {
     if (settings.curves.empty() || work.options.dry_run) return;
     const meetings all = meetings_of(work, solids);
-    tf::pair_numbers first{settings.source + "_mesh1", {}}, second{settings.source + "_mesh2", {}};
+    std::vector<std::uint32_t> mesh_of_face;
+    for (std::uint32_t i = 0; i < solids.size(); ++i)
+        mesh_of_face.resize(mesh_of_face.size() + solids[i].file.mesh.faces.size(), i);
+    tf::pair_column first{settings.source + "_mesh1", {}}, second{settings.source + "_mesh2", {}};
     for (const tf::face_pair& pair : all.pairs) {
-        first.of_pair.push_back(all.joined.mesh_of_face[pair.a]);
-        second.of_pair.push_back(all.joined.mesh_of_face[pair.b]);
+        first.second.push_back(mesh_of_face[pair.a]);
+        second.second.push_back(mesh_of_face[pair.b]);
     }
-    write_curves(work, settings.curves, all.joined.mesh, all.pairs,
+    write_curves(work, settings.curves, all.joined, all.pairs,
                  {std::move(first), std::move(second)});
 }
 

@@ -29,7 +29,7 @@ void enter_result(job& work, const boolean_settings& settings, const std::vector
 
 /// All inputs as one mesh, and its faces that meet. \throws failure (stopped)
 struct meetings {
-    tf::joined_meshes joined{};
+    tf::mesh joined{};
     std::vector<tf::face_pair> pairs{};
 };
 [[nodiscard]] meetings meetings_of(job& work, const std::vector<solid>& solids);

@@ -1,13 +1,13 @@
 #include "tools/tf-cut/cutting.hpp"
 
 #include "tools/shell/console.hpp"
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -48,8 +48,8 @@ std::string thinnest_wall(job& work, const cut_settings& s, const usable_input& 
     if (s.walls == measured_walls::none) return {};
     const tf::thickness_result found = tf::wall_thickness(
         input.file.mesh,
-        {.by = s.walls == measured_walls::ray ? tf::thickness_by::ray : tf::thickness_by::sphere,
-         .progress = work.progress("walls")});
+        s.walls == measured_walls::ray ? tf::thickness_by::ray : tf::thickness_by::sphere,
+        work.progress("walls"));
     work.call_ended(found.status == tf::status::cancelled);
     if (!std::isfinite(found.least)) return {};
     tf::point3 middle{};

@@ -28,10 +28,8 @@ using tools::refuse;
 using tools::usable_input;
 
 std::vector<cut_off> parts_of(const usable_input& input, const cut_settings& s) {
-    tf::components_options options{.min_volume = s.parts.min_volume};
-    if (s.parts.largest > 0) options.largest = s.parts.largest;
     std::vector<cut_off> parts;
-    for (tf::mesh_part& part : tf::components(input.file.mesh, options))
+    for (tf::mesh_part& part : tf::components(input.file.mesh, s.parts.min_volume, s.parts.largest))
         parts.push_back(tools::cut_off_of(std::move(part.mesh), std::move(part.face_source),
                                           std::move(part.vertex_source),
                                           {.precision = input.file.stored_as}));

@@ -19,11 +19,9 @@ tf::rounding_effects rounding_of(job& work, const tf::body_set& moving,
     tf::rounding_effects sum;
     for (const placed_body& at : placed) {
         const bool was_single = is_single(moving.file_of(at.number).content);
-        sum += tf::effects_of_rounding(
-            moving.shapes[at.number], at.matrix, at.points,
-            {.before = was_single ? tf::precision::float32 : tf::precision::float64,
-             .after = precision,
-             .progress = work.progress("rounding")});
+        sum += tf::effects_of_rounding(moving.shapes[at.number], at.matrix, at.points,
+                                       was_single ? tf::precision::float32 : tf::precision::float64,
+                                       precision, work.progress("rounding"));
         work.call_ended();
     }
     return sum;
@@ -46,10 +44,11 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     }
     if (work.options.dry_run) return;
     std::vector<const tf::mesh_file*> files;
-    std::vector<tf::scene_member> members;
+    std::vector<std::string> names, labels;
     const auto add = [&](const tf::body_file& file) {
         files.push_back(&file.content);
-        members.push_back({&file.content, file.name, file.label});
+        names.push_back(file.name);
+        labels.push_back(file.label);
     };
     for (const placed_body& at : placed) {
         moving.put_back(at.number, at.points, at.matrix, precision);
@@ -59,7 +58,7 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     }
     std::for_each(fixed.files.begin(), fixed.files.end(), add);
     const written_form form = form_of(work, *files[0], *path);
-    tf::mesh_file file = scene ? tf::scene_of(members) : *files[0];
+    tf::mesh_file file = scene ? tf::scene_of(files, names, labels) : *files[0];
     if (scene) work.warn(file.warnings);
     if (scene && form.format == "obj") warn_of_ambiguous_materials(work, files);
     // `fit` looks at no faces, and without fixed meshes there is nothing to meet.

@@ -102,12 +102,11 @@ tf::placement fit(placing& p, const tf::progress_callback& progress) {
 }
 
 tf::placement turn(placing& p, double clearance, const tf::progress_callback& progress) {
-    p.turned = tf::turn(p.moving.shapes[0], p.fixed.shapes, p.settings.turn.axis,
-                        {.clearance = clearance,
-                         .max_angle = p.settings.turn.max_angle,
-                         .precision = p.precision,
-                         .progress = progress});
-    return std::move(p.turned->at);
+    return tf::turn(p.moving.shapes[0], p.fixed.shapes, p.settings.turn.axis,
+                    {.clearance = clearance,
+                     .max_angle = p.settings.turn.max_angle,
+                     .precision = p.precision,
+                     .progress = progress});
 }
 
 tf::placement mate(placing& p, double clearance, const tf::progress_callback& progress) {
@@ -117,7 +116,7 @@ tf::placement mate(placing& p, double clearance, const tf::progress_callback& pr
                                 .precision = p.precision,
                                 .progress = progress},
                                p.reason);
-    if (p.mated) return std::move(p.mated->found.at);
+    if (p.mated) return std::move(p.mated->found);
     return {.certificate = {.status = tf::status::no_place}, .end = tf::placement_end::nothing_met};
 }
 
@@ -127,34 +126,27 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
     const tf::prepared_mesh& mesh = p.moving.shapes[0];
     const auto& fixed = p.fixed.shapes;
     const double clearance = p.used(s.clearance);
-    const auto with = [&](auto options) {
-        options.clearance = clearance;
-        if (s.max_travel) options.max_travel = p.used(*s.max_travel);
-        options.precision = p.precision;
-        options.progress = progress;
-        return options;
-    };
+    tf::placement_options options{
+        .clearance = clearance, .precision = p.precision, .progress = progress};
+    if (s.max_travel) options.max_travel = p.used(*s.max_travel);
+    const tf::point3 direction = s.direction.value_or(tf::point3{0.0, 0.0, -1.0});
     switch (s.mode) {
         case place_mode::lay:
             return lay(p, progress);
         case place_mode::fit:
             return fit(p, progress);
-        case place_mode::drop: {
-            tf::drop_options options = with(tf::drop_options{});
-            options.direction = s.direction.value_or(options.direction);
+        case place_mode::drop:
             if (s.has_bed()) options.bed = bed_of(s, p.precision, clearance);
-            return tf::drop(mesh, fixed, options);
-        }
+            return tf::drop(mesh, fixed, options, direction);
         case place_mode::slide:
-            return tf::slide(mesh, fixed, s.direction.value_or(tf::point3{0.0, 0.0, -1.0}),
-                             with(tf::slide_options{}));
+            return tf::slide(mesh, fixed, direction, options);
         case place_mode::turn:
             return turn(p, clearance, progress);
         case place_mode::mate:
             if (s.feature.kind) return mate(p, clearance, progress);
-            return tf::mate(mesh, fixed, with(tf::mate_options{}));
+            return tf::mate(mesh, fixed, options);
         case place_mode::clear:
-            return tf::separate(mesh, fixed, with(tf::separate_options{}));
+            return tf::separate(mesh, fixed, options);
         default:
             return tf::measure_among(mesh, fixed, {.clearance = clearance, .progress = progress});
     }

@@ -75,7 +75,6 @@ struct placing {
     tf::placement at{};
     std::optional<tf::laid_flat> laid{};
     std::optional<tf::align_result> aligned{};
-    std::optional<tf::turn_result> turned{};
     std::optional<mating> mated{};
     std::string reason{};       ///< why there is no place, in words
     tf::transform<3> matrix{};  ///< from the file to the place, with --start

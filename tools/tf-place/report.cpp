@@ -103,8 +103,8 @@ void enter_place(json& entry, const placing& p) {
     entry["contact_count"] = at.contact_count;
     if (at.effort.bound > 0) entry["effort"] = effort_entry(at.effort);
     if (at.nearest) enter_nearest(entry, p.moving, p.fixed, p.settings.fixed, *at.nearest);
-    if (p.turned) entry["turn"] = turn_entry(p.settings.turn, *p.turned);
-    if (p.mated) entry["features"] = mating_entry(*p.mated);
+    if (p.settings.mode == place_mode::turn) entry["turn"] = turn_entry(p.settings.turn, at);
+    if (p.mated) entry["features"] = mating_entry(*p.mated, at);
     if (!at) {
         entry["reason"] = p.reason;
         entry["not_placed"].push_back(entry["input"]);
@@ -133,8 +133,8 @@ std::string sentence(const placing& p) {
     if (p.settings.mode == place_mode::measure) return relation;
     if (p.aligned) return align_sentence(*p.aligned);
     if (p.laid) return "laid " + p.laid->message() + "; " + relation;
-    if (p.turned && p.turned->angle > 0.0)
-        return "turned by " + brief(p.turned->angle) + " degrees; " + relation;
+    if (p.settings.mode == place_mode::turn && at.angle > 0.0)
+        return "turned by " + brief(at.angle) + " degrees; " + relation;
     if (p.mated) return "mated; " + relation;
     if (at.travel == 0.0) return "stays where it is; " + relation;
     const bool drops = p.settings.mode == place_mode::drop;

@@ -88,13 +88,13 @@ void write_solid(job& work, const dirty_mesh& input, const repair_settings& sett
 void write_curves(job& work, const dirty_mesh& input, const repair_settings& settings) {
     if (settings.curves.empty() || work.options.dry_run) return;
     const tf::mesh_view mesh = input.file.mesh;
-    const tf::mesh joined = tf::join_meshes({&mesh, 1}).mesh;
+    const tf::mesh joined = tf::join_meshes({&mesh, 1});
     const auto found = tf::self_intersections(
         joined, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("curves")});
     work.call_ended(found.status == tf::status::cancelled);
-    tf::pair_numbers kinds{"tf_class", {}};
+    tf::pair_column kinds{"tf_class", {}};
     for (const tf::face_pair& pair : found.pairs)
-        kinds.of_pair.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
+        kinds.second.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
     write_curves(work, settings.curves, joined, found.pairs, {std::move(kinds)});
 }
 

@@ -167,7 +167,7 @@ void write_page(job& work, const dirty_mesh& input, const std::string& verdict, 
     fate was = compare(input, made, face_source, is_left, filled_holes);
     if (!after) {
         std::fill(was.before.begin(), was.before.end(), mark::kept);
-        const tf::mesh joined = tf::join_meshes({&before, 1}).mesh;
+        const tf::mesh joined = tf::join_meshes({&before, 1});
         const auto found = tf::self_intersections(
             joined, {.vertices = tf::vertex_identity::by_index, .progress = work.progress("page")});
         work.call_ended(found.status == tf::status::cancelled);

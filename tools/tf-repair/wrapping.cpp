@@ -15,13 +15,13 @@
 namespace tools {
 namespace {
 
-tf::wrap_result wrapped(job& work, const dirty_mesh& input, const wrap_settings& settings,
-                        tf::precision precision) {
+tf::offset_result wrapped(job& work, const dirty_mesh& input, const wrap_settings& settings,
+                          tf::precision precision) {
     const auto timing = work.time("repair");
-    tf::wrap_options options{.precision = precision, .progress = work.progress("wrap")};
+    tf::offset_options options{.precision = precision, .progress = work.progress("wrap")};
     if (settings.offset) options.offset = settings.offset->used(input.diagonal);
     try {
-        tf::wrap_result made =
+        tf::offset_result made =
             tf::wrap(input.file.mesh, settings.size->used(input.diagonal), options);
         work.call_ended(made.certificate.status == tf::status::cancelled);
         return made;
@@ -33,12 +33,12 @@ tf::wrap_result wrapped(job& work, const dirty_mesh& input, const wrap_settings&
     }
 }
 
-void enter(job& work, const dirty_mesh& input, const tf::wrap_result& made, double volume) {
-    const tf::wrap_statistics& did = made.statistics;
+void enter(job& work, const dirty_mesh& input, const tf::offset_result& made, double volume) {
+    const tf::offset_statistics& did = made.statistics;
     const auto topology = tf::count_topology(made.mesh.points.size(), made.mesh.faces);
     work.entry["wrap"] = {{"certified", static_cast<bool>(made.certificate)},
-                          {"size", did.size},
-                          {"offset", did.offset},
+                          {"size", did.resolution},
+                          {"offset", did.distance},
                           {"points", did.points},
                           {"tetrahedra", did.tetrahedra},
                           {"filled", did.filled},
@@ -51,17 +51,18 @@ void enter(job& work, const dirty_mesh& input, const tf::wrap_result& made, doub
 
 /// Of a surface with a hole that is wider than the size, the wrap is on both sides, and encloses
 /// less than the surface nearly does.
-void warn_of_skin(job& work, const dirty_mesh& input, const tf::wrap_result& made, double volume) {
+void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& made,
+                  double volume) {
     constexpr double much = 0.9;
     if (volume > much * std::abs(input.volume)) return;
     const tf::mesh_view mesh = input.file.mesh;
-    const tf::mesh joined = tf::join_meshes({&mesh, 1}).mesh;
+    const tf::mesh joined = tf::join_meshes({&mesh, 1});
     const auto edges = tf::count_topology(joined.points.size(), joined.faces);
     // Where parts overlap or are within each other, volumes say nothing.
     if (edges.boundary_edges <= edges.nonmanifold_edges) return;
     work.warn("skin",
               "the wrap is a skin on both sides of the faces: the way inside is wider than " +
-                  brief(made.statistics.size) + "; a larger --wrap closes it");
+                  brief(made.statistics.resolution) + "; a larger --wrap closes it");
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ exit_status wrap(job& work, const dirty_mesh& input, const wrap_settings& settin
     std::optional<written_form> form;
     if (output) form = form_of(work, input.file, *output);
     const tf::mesh_file* const inputs = &input.file;
-    tf::wrap_result made =
+    tf::offset_result made =
         wrapped(work, input, settings, written_precision(work.options, form, {&inputs, 1}));
     const double volume = tf::signed_volume(made.mesh);
     enter(work, input, made, volume);
@@ -101,7 +102,7 @@ exit_status wrap(job& work, const dirty_mesh& input, const wrap_settings& settin
         throw std::logic_error("the wrap is no solid: " + made.certificate.message());
     const std::string verdict = "wrap, " + counted(made.mesh.faces.size(), "face", "faces") +
                                 ", volume " + brief(volume) + " (was " + brief(input.volume) +
-                                "), " + brief(made.statistics.offset) + " from the faces";
+                                "), " + brief(made.statistics.distance) + " from the faces";
     work.out.result(work.name + ": " + verdict);
     warn_of_skin(work, input, made, volume);
     write_page(work, input, verdict, true, made.mesh,

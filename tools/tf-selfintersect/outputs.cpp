@@ -87,9 +87,9 @@ void write_pairs(const job& work, const std::filesystem::path& path, const findi
 }
 
 void write_curves(const job& work, const std::filesystem::path& path, const findings& result) {
-    tf::pair_numbers kinds{"tf_class", {}};
+    tf::pair_column kinds{"tf_class", {}};
     for (const tf::face_pair& pair : result.found.pairs)
-        kinds.of_pair.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
+        kinds.second.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
     write_curves(work, path, result.part, result.found.pairs,
                  {std::move(kinds), {"tf_region", result.regions.region_of_pair}});
 }

@@ -22,11 +22,11 @@ bool keeps_cuts(const tf::mesh_file& input, const repair_settings& settings) {
     return tf::carry_sources(source).merging_mixes_values();
 }
 
-tf::resolve_result compute(job& work, const tf::mesh_file& input, const findings& result,
-                           const repair_settings& settings, tf::precision precision) {
+tf::repair_result compute(job& work, const tf::mesh_file& input, const findings& result,
+                          const repair_settings& settings, tf::precision precision) {
     check_arrangeable(work.name, result.part.mesh);
     const auto timing = work.time("repair");
-    tf::resolve_result repaired = tf::resolve_self_intersections(
+    tf::repair_result repaired = tf::resolve_self_intersections(
         result.part.mesh, settings.mode,
         {.inside = settings.inside,
          .precision = precision,
@@ -44,7 +44,7 @@ face_numbers numbers_in_file(const findings& result) {
 }
 
 void enter_repair(job& work, const findings& result, const repair_settings& settings,
-                  const tf::resolve_result& repaired) {
+                  const tf::repair_result& repaired) {
     const tf::mesh& surface = repaired.mesh;
     const tf::certificate& known = repaired.certificate;
     const auto topology = tf::count_topology(surface.points.size(), surface.faces);
@@ -60,7 +60,7 @@ void enter_repair(job& work, const findings& result, const repair_settings& sett
         {"covered_faces", repaired.statistics.covered},
         {"filled_faces", repaired.statistics.filled},
         {"left_open_edges", repaired.statistics.left_open},
-        {"lost_components", repaired.vanished_components},
+        {"lost_components", repaired.statistics.vanished_components},
         {"volume",
          {{"before", tf::signed_volume(result.part.mesh)}, {"after", tf::signed_volume(surface)}}},
         {"precision_out", name_of(known.precision)},
@@ -91,20 +91,20 @@ std::string remedy_for(const tf::certificate& known, tf::resolve_mode mode) {
 
 /// Why the result cannot be taken; empty when it can.
 std::string objection(const findings& result, const repair_settings& settings,
-                      const tf::resolve_result& repaired, std::string too_far) {
+                      const tf::repair_result& repaired, std::string too_far) {
     const tf::certificate& known = repaired.certificate;
     if (!known)
         return (known.status == tf::status::open_input ? "it bounds no solid: " : "") +
                message_of(known, numbers_in_file(result)) + remedy_for(known, settings.mode);
     if (!too_far.empty()) return too_far;
-    if (settings.keep_components && repaired.vanished_components > 0)
-        return counted(repaired.vanished_components, "component", "components") +
+    if (settings.keep_components && repaired.statistics.vanished_components > 0)
+        return counted(repaired.statistics.vanished_components, "component", "components") +
                " would disappear (--keep-components)";
     return {};
 }
 
-void say_result(job& work, const repair_settings& settings, const tf::resolve_result& repaired) {
-    const tf::resolve_statistics& did = repaired.statistics;
+void say_result(job& work, const repair_settings& settings, const tf::repair_result& repaired) {
+    const tf::repair_statistics& did = repaired.statistics;
     std::string text = work.name + ": repaired (" + repair_modes[std::size_t(settings.mode)] +
                        "): " + counted(repaired.mesh.faces.size(), "face", "faces") +
                        ", no self-intersections";
@@ -117,13 +117,14 @@ void say_result(job& work, const repair_settings& settings, const tf::resolve_re
         text += ", rounding moved points by " + brief(repaired.certificate.max_displacement) +
                 " at most";
     work.out.result(text);
-    if (repaired.vanished_components > 0)
-        work.warn("lost-components",
-                  counted(repaired.vanished_components, "component has", "components have") +
-                      " disappeared" +
-                      (settings.mode == tf::resolve_mode::split && did.covered > 0
-                           ? ", or all of it lies on others"
-                           : ""));
+    if (repaired.statistics.vanished_components > 0)
+        work.warn(
+            "lost-components",
+            counted(repaired.statistics.vanished_components, "component has", "components have") +
+                " disappeared" +
+                (settings.mode == tf::resolve_mode::split && did.covered > 0
+                     ? ", or all of it lies on others"
+                     : ""));
 }
 
 /// The face that each one lies in, -1 where it fills a hole.
@@ -132,7 +133,7 @@ void add_source_faces(tf::mesh_file& file, const findings& result,
     std::vector<std::int32_t> sources;
     sources.reserve(face_of.size());
     for (const std::uint32_t f : face_of)
-        sources.push_back(f == tf::resolve_result::none
+        sources.push_back(f == tf::repair_result::none
                               ? -1
                               : static_cast<std::int32_t>(result.part.face_in_file(f)));
     file.attributes.obtain("face", file.mesh.faces.size())
@@ -142,7 +143,7 @@ void add_source_faces(tf::mesh_file& file, const findings& result,
 /// Gives `file` what the input has. What points have is left out where these were joined, for they
 /// may stand for several.
 void carry(job& work, tf::mesh_file& file, tf::mesh_file& input, const findings& result,
-           const tf::resolve_result& repaired) {
+           const tf::repair_result& repaired) {
     const tf::carry_source source{&input, result.part.triangle_of_face};
     bool all = !tf::carry_sources(source).has_values_left_out();
     if (input.mesh.points.size() != result.part.mesh.points.size()) {
@@ -163,7 +164,7 @@ bool repair_and_write(job& work, tf::mesh_file& input, const findings& result,
     std::optional<written_form> form;
     if (output) form = form_of(work, input, *output);
     const tf::mesh_file* const inputs = &input;
-    tf::resolve_result repaired =
+    tf::repair_result repaired =
         compute(work, input, result, settings, written_precision(work.options, form, {&inputs, 1}));
     enter_repair(work, result, settings, repaired);
     const std::string too_far =

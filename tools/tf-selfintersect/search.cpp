@@ -20,8 +20,8 @@ tf::part_options part_options_of(const job& work, const tf::mesh_file& file,
             .details = settings.between || settings.within || work.options.detailed()};
 }
 
-tf::self_intersection_options search_options(job& work, const findings& result,
-                                             const search_settings& settings) {
+tf::intersection_options search_options(job& work, const findings& result,
+                                        const search_settings& settings) {
     return {.vertices = tf::vertex_identity::by_index,  // joined as asked
             .first_only = settings.first,
             .kinds = settings.looked_for(),

@@ -33,8 +33,8 @@ struct search_settings {
 };
 
 struct findings {
-    tf::usable_mesh part{};                ///< what was searched
-    tf::self_intersection_result found{};  ///< only pairs that count; all counts
+    tf::usable_mesh part{};           ///< what was searched
+    tf::intersection_result found{};  ///< only pairs that count; all counts
     tf::intersection_regions regions{};
     tf::face_marks marks{};
     std::optional<tf::box3> box{};  ///< of all finite points

@@ -66,7 +66,8 @@ std::optional<tf::cloud_outline> cloud_at(const tf::cloud_inputs& inputs,
                                           const tf::communicator& ranks) {
     try {
         return inputs.outline(ranks);
-    } catch (const tf::whole_file_error&) {
+    } catch (const tf::io_error& error) {
+        if (!error.needs_all()) throw;
         return std::nullopt;  // reading all of it will say why
     } catch (const std::invalid_argument&) {
         return std::nullopt;

@@ -3,6 +3,7 @@
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/words.hpp"
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/point_search.hpp>
 
@@ -75,7 +76,7 @@ void add_points(scene& shown, const tf::mesh_file& file, const welding& w) {
 void add_distances(scene& shown, const tf::mesh_file& file, const welding& w) {
     constexpr std::size_t most = 100'000, bins = 60;
     std::vector<std::array<double, 3>> places;
-    for (const std::uint32_t p : tf::find_equal_points(file.mesh.points).first_of_new)
+    for (const std::uint32_t p : tf::find_equal_points(file.mesh.points).first_of_group)
         if (const tf::point3& at = file.mesh.points[p]; is_finite(at))
             places.push_back({at.x, at.y, at.z});
     if (places.size() < 2) return;
@@ -84,7 +85,7 @@ void add_distances(scene& shown, const tf::mesh_file& file, const welding& w) {
     std::vector<std::array<double, 3>> asked;
     for (std::size_t i = 0; i < places.size(); i += step) asked.push_back(places[i]);
     std::vector<double> distances;
-    for (const auto& near : search.k_nearest(asked, 2).neighbors)
+    for (const auto& near : search.k_nearest(asked, 2).answers)
         if (near.distance > 0.0) distances.push_back(near.distance);
     if (distances.empty()) return;
     const auto [low, high] = std::ranges::minmax(distances);

@@ -146,17 +146,11 @@ std::string keep_in_words(const tf::weld_options& options) {
 const char* name_of(tf::weld_rule rule) { return rule == tf::weld_rule::first ? "first" : "chain"; }
 
 failure property_failure(const tf::weld_property_error& error, const tf::attributes& known) {
-    using enum tf::weld_property_error::option;
-    using enum tf::weld_property_error::fault;
-    const char* const option = error.where() == same       ? "--same "
-                               : error.where() == across   ? "--across "
-                               : error.where() == order_by ? "--order "
-                                                           : "--keep ";
-    std::string why =
-        error.what_is_wrong() == is_list ? "has lists of values" : "is more than one property";
-    if (error.what_is_wrong() == missing) {
-        why = "no such property; " + known_properties(known);
-    }
+    const std::string option = error.option() == "keep_by"    ? "--keep "
+                               : error.option() == "order_by" ? "--order "
+                                                              : "--" + error.option() + " ";
+    const std::string why =
+        error.reason().empty() ? "no such property; " + known_properties(known) : error.reason();
     return {bad_input, "property", option + error.name() + ": " + why};
 }
 

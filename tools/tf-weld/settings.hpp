@@ -36,7 +36,7 @@ struct weld_outputs {
 struct weld_request {
     weld_settings settings{};
     weld_outputs outputs{};
-    bool mixed = false;  ///< as in `tf::join_options`
+    bool mixed = false;  ///< as in `tf::join`
 };
 
 /// Values of options. All of them: \throws failure (bad_usage) naming option and text

@@ -52,6 +52,5 @@
 #include <treeform/tree/refit.hpp>
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/search_pair.hpp>
-#include <treeform/tree/strategy.hpp>
 #include <treeform/tree/tree.hpp>
 #include <treeform/tree/version.hpp>

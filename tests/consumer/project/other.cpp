@@ -1,5 +1,5 @@
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/tree.hpp>

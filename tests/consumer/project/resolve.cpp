@@ -8,7 +8,7 @@
 
 int main() {
     const tf::usable_mesh part = tf::read_mesh("data/two_spheres.stl");
-    const tf::resolve_result solid = tf::resolve_self_intersections(
+    const tf::repair_result solid = tf::resolve_self_intersections(
         part, tf::resolve_mode::outer, {.precision = tf::precision::float32});
     std::puts(solid.certificate.message().c_str());
     const tf::mesh& clean = solid.value();  // throws unless it is certified

@@ -2,8 +2,8 @@
 /// The arrangement of faces: what must hold of any complex, and the thread count.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

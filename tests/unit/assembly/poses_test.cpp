@@ -40,7 +40,7 @@ tf::mesh placed(tf::mesh mesh, const motion& by) {
 /// What `clash` says of the parts where they are moved to.
 void check_by_moving(const std::vector<tf::mesh>& parts, const std::vector<motion>& poses,
                      double clearance) {
-    tf::pose_options options;
+    tf::clash_options options;
     options.clearance = clearance;
     const auto found = tf::check_poses(prepared(parts), poses, options);
     REQUIRE(found.poses.size() == poses.size() / parts.size());
@@ -71,10 +71,13 @@ TEST_CASE("poses: batches say what single questions say, in their order") {
     const tf::prepared_mesh a(ball(2, 1.0)), b(test::ring(1.5, 0.3, 20, 8));
     std::vector<tf::mesh_positions> positions;
     for (int i = 0; i < 300; ++i)
-        positions.push_back({random_motion(source, 1.5), random_motion(source, 1.5)});
+        positions.push_back(
+            {.move_a = random_motion(source, 1.5), .move_b = random_motion(source, 1.5)});
     const auto meet = tf::intersects(a, b, positions);
     const auto apart = tf::distance(a, b, positions);
-    const auto near = tf::distance(a, b, positions, 0.5);
+    auto within = positions;
+    for (tf::mesh_positions& one : within) one.radius = 0.5;
+    const auto near = tf::distance(a, b, within);
     std::size_t meeting = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         REQUIRE(meet[i] == tf::intersects(a, b, positions[i]));
@@ -160,7 +163,7 @@ TEST_CASE("poses: ignored pairs, the first clash only, and counts") {
     CHECK(all.poses[1][0] == tf::pose_clash{0, 1, mesh_relation::touching, 0.0});
     CHECK(all.clashing == 1);
     CHECK(all.boxes_apart == 4);
-    tf::pose_options options;
+    tf::clash_options options;
     options.first_only = true;
     const std::vector<tf::part_pair> ignored{{1, 0}};
     options.ignored = ignored;
@@ -183,7 +186,7 @@ TEST_CASE("poses: what makes no sense is refused, and it stops when told to") {
                          "treeform::check_poses: pose 1: the transform of part 1 is not finite",
                          std::invalid_argument);
     poses[3] = {};
-    tf::pose_options options;
+    tf::clash_options options;
     options.progress = [](double) { return false; };
     CHECK(tf::check_poses(parts, poses, options).status == tf::status::cancelled);
     CHECK(tf::check_poses({}, {}).poses.empty());

@@ -1,6 +1,7 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -1,7 +1,7 @@
 #include <libmesh/boolean/split_nonmanifold.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

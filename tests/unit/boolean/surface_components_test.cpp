@@ -1,7 +1,7 @@
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/boolean/surface_components.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -1,11 +1,11 @@
 /// \file
 /// Isolines: beside sections, on open sheets, through vertices; meshes cut along them.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -159,7 +159,7 @@ TEST_CASE("isolines: what has no value is refused; progress may stop it") {
     CHECK_THROWS_AS((void)tf::isolines(box, values, std::array{std::nan("")}),
                     std::invalid_argument);
     const auto stop = [](double) { return false; };
-    CHECK(tf::isolines(box, values, levels, {.progress = stop}).status == tf::status::cancelled);
+    CHECK(tf::isolines(box, values, levels, stop).status == tf::status::cancelled);
     CHECK(tf::cut_along(box, values, levels, {.progress = stop}).certificate.status ==
           tf::status::cancelled);
     values[3] = std::nan("");

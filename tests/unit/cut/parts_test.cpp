@@ -58,13 +58,12 @@ TEST_CASE("components are compact meshes with the numbers of the whole") {
         CHECK(same.mesh == part.mesh);
         CHECK(same.vertex_source == part.vertex_source);
     }
-    CHECK(tf::components(all, {.min_volume = 3.0}).size() == 3);
-    const std::vector<tf::mesh_part> two = tf::components(all, {.largest = 2});
+    CHECK(tf::components(all, 3.0).size() == 3);
+    const std::vector<tf::mesh_part> two = tf::components(all, 0.0, 2);
     REQUIRE(two.size() == 2);
     CHECK(two[0].volume + two[1].volume == 9.0);
-    CHECK(tf::components(all, {.largest = 0}).empty());
     CHECK(tf::components(tf::mesh{}).empty());
-    CHECK_THROWS_AS((void)tf::components(all, {.min_volume = -1.0}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::components(all, -1.0), std::invalid_argument);
 }
 
 TEST_CASE("cavities go with what is around them") {
@@ -91,10 +90,10 @@ TEST_CASE("corners with equal coordinates link; open parts have no volume") {
     open.faces.pop_back();
     const tf::mesh both = test::together(open, soup);
     CHECK(tf::components(both).size() == 2);
-    const std::vector<tf::mesh_part> largest = tf::components(both, {.largest = 1});
+    const std::vector<tf::mesh_part> largest = tf::components(both, 0.0, 1);
     REQUIRE(largest.size() == 1);
     CHECK(largest[0].volume == 1.0);
-    CHECK(tf::components(both, {.min_volume = 0.5}).size() == 1);
+    CHECK(tf::components(both, 0.5).size() == 1);
 }
 
 TEST_CASE("meshes one after the other, and moved") {

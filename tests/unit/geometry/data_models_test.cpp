@@ -2,10 +2,10 @@
 /// The models in data/ have the defects that data/expected.csv gives them: worked out by hand for
 /// all but two_spheres.stl, whose count an exact kernel gave.
 
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -1,8 +1,8 @@
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

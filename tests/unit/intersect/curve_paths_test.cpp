@@ -19,8 +19,6 @@
 
 namespace {
 
-using origin = tf::curve_point::origin;
-
 tf::curve_network paths_of(const tf::mesh& mesh) {
     return tf::intersection_paths(mesh, tf::self_intersections(mesh).pairs);
 }
@@ -45,7 +43,7 @@ TEST_CASE("curve paths: two faces that cross give one open path, its ends named"
     REQUIRE(path.points.size() == 2);
     std::set<std::array<std::uint32_t, 2>> edges;
     for (const std::uint32_t p : path.points) {
-        CHECK(network.points[p].kind == origin::edge_face);
+        CHECK(network.points[p].by[1] == tf::curve_point::none);
         CHECK(network.points[p].by[0] == 0);
         edges.insert(network.points[p].edge);
     }
@@ -61,7 +59,7 @@ TEST_CASE("curve paths: two balls meet in one closed path") {
     CHECK(network.paths[0].points.size() == network.points.size());
     // In general position every point is an edge through a face, and lies on both balls.
     for (const tf::curve_point& p : network.points) {
-        CHECK(p.kind == origin::edge_face);
+        CHECK(p.by[1] == tf::curve_point::none);
         const double radius = std::hypot(p.position.x, p.position.y, p.position.z);
         CHECK(radius <= 1.0 + 1e-12);
         CHECK(radius > 0.95);
@@ -84,8 +82,7 @@ TEST_CASE("curve paths: a corner on a face is a point, named by its number") {
     REQUIRE(network.paths.size() == 1);
     CHECK(network.paths[0].points.size() == 1);
     CHECK(!network.paths[0].closed);
-    CHECK(network.points[network.paths[0].points[0]] ==
-          tf::curve_point{origin::corner, {3, 3}, {3, 3}, {1, 1, 0}});
+    CHECK(network.points[network.paths[0].points[0]] == tf::curve_point{{3, 3}, {3, 3}, {1, 1, 0}});
 }
 
 TEST_CASE("curve paths: the rim of an overlap is closed, common to all who have it") {

@@ -42,7 +42,7 @@ struct told {
     friend bool operator==(const told&, const told&) = default;
 };
 
-told told_of(const tf::usable_mesh& part, const tf::self_intersection_result& found,
+told told_of(const tf::usable_mesh& part, const tf::intersection_result& found,
              const std::optional<tf::box3>& bounds) {
     told t{.counts = found.counts,
            .dropped = part.dropped,

@@ -1,5 +1,6 @@
 // 3MF: what is read of packages that others write, and that what we write reads back.
 
+#include <libmesh/attributes/scene_parts.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>

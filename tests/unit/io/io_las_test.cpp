@@ -399,7 +399,7 @@ TEST_CASE("LAS: parts with a joined head are the file") {
                 writer.write(block);
                 REQUIRE(writer.has_parts());
                 tf::write_result result;
-                const tf::point_writer::part part = writer.commit_part(result);
+                const tf::detail::io::written_part part = writer.commit_part(result);
                 CHECK(part.points == las.record_size * (last - first));
                 std::ifstream in(path, std::ios::binary);
                 const std::string bytes(std::istreambuf_iterator<char>(in), {});
@@ -447,7 +447,7 @@ TEST_CASE("LAZ: parts of whole chunks with a joined head and all chunks are the 
             std::string points;
             for (std::size_t r = 0; r < writers.size(); ++r) {
                 tf::write_result result;
-                const tf::point_writer::part part = writers[r].commit_part(result, told);
+                const tf::detail::io::written_part part = writers[r].commit_part(result, told);
                 std::ifstream in(path.string() + std::to_string(r), std::ios::binary);
                 const std::string bytes(std::istreambuf_iterator<char>(in), {});
                 if (part.points > 0) heads.push_back(bytes.substr(0, part.head));

@@ -285,7 +285,7 @@ void copy_by(std::size_t most, const fs::path& from, const fs::path& to, bool as
     tf::point_writer writer(to, reader.header(), *reader.count(), {.ascii = ascii}, 5);
     tf::point_block points;
     while (with_points && reader.read(points, most)) writer.write(points);
-    for (tf::row_block rows; reader.read(rows, most);) writer.write(rows);
+    for (tf::detail::io::row_block rows; reader.read(rows, most);) writer.write(rows);
     writer.commit();
 }
 
@@ -328,7 +328,7 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
             tf::point_block points;
             REQUIRE(reader.read(points, first == 0 ? 3 : 2));
             writer.write(points);
-            tf::row_block rows;
+            tf::detail::io::row_block rows;
             REQUIRE(reader.read(rows, 3));  // three faces for the first part
             if (first > 0) REQUIRE(reader.read(rows, 3));
             CHECK_THROWS_AS(writer.write(rows), std::invalid_argument);  // points are missing
@@ -339,7 +339,7 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
             do writer.write(rows);
             while (first > 0 && reader.read(rows, 100));
             tf::write_result result;
-            const tf::point_writer::part part = writer.commit_part(result);
+            const tf::detail::io::written_part part = writer.commit_part(result);
             const std::string made = bytes_of(path);
             CHECK(part.points == bytes);
             CHECK(made.size() == part.head + part.points + room + part.rows);
@@ -356,7 +356,7 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
     tf::point_reader reader(text, {}, 5, true);
     tf::point_writer writer(here.folder / "part.ply", reader.header(), 5, {}, 5);
     writer.end_part();
-    tf::row_block rows;
+    tf::detail::io::row_block rows;
     while (reader.read(rows, 100))
         if (rows.rows.name == "edge") writer.write(rows);
     rows.rows.name = "face";
@@ -368,7 +368,7 @@ TEST_CASE("point streams: rows behind the points can be read alone, and are chec
     const fs::path text = here.put("text.ply", mesh_text);
     tf::point_reader reader(text, {}, 5, true);
     CHECK(reader.header().attributes.elements.at(1).rows == 4);
-    tf::row_block rows;
+    tf::detail::io::row_block rows;
     REQUIRE(reader.read(rows, 3));
     CHECK(rows.rows.name == "face");
     CHECK(rows.corners == std::vector<std::uint32_t>{0, 1, 2, 3, 1, 4, 2, 0, 0, 1});

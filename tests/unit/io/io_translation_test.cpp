@@ -372,8 +372,7 @@ TEST_CASE("translation: LAS of other reference systems or time types is joined o
           std::string::npos);
     CHECK(complaint(with("", true), with(zone44, true)).find("none, zone 44") != std::string::npos);
     CHECK(complaint(with(zone43, true), with(zone43, false)).find("GPS time") != std::string::npos);
-    CHECK(tf::join({with(zone43, true), with(zone44, false)}, two, {.mixed = true})
-              .mesh.points.size() == 2);
+    CHECK(tf::join({with(zone43, true), with(zone44, false)}, two, true).mesh.points.size() == 2);
 }
 
 TEST_CASE("translation: files of several formats are joined in the sentences of the first") {

@@ -379,7 +379,7 @@ TEST_CASE("curves: written as lines of an OBJ or as edges of a PLY") {
     const auto pairs = tf::self_intersections(mesh).pairs;
     REQUIRE(pairs.size() == 1);
     const std::filesystem::path folder = written_folder();
-    const tf::pair_numbers kinds{"kind", {7}};
+    const tf::pair_column kinds{"kind", {7}};
     tf::write_curves(folder / "lines.obj", mesh, pairs, {&kinds, 1});
     CHECK(content(folder / "lines.obj") == "v 1 1 0\nv 1.5 1 0\nl 1 2\n");
     tf::write_curves(folder / "lines.dat", mesh, pairs, {&kinds, 1}, "ply");
@@ -388,7 +388,7 @@ TEST_CASE("curves: written as lines of an OBJ or as edges of a PLY") {
     CHECK(ply.find("element edge 1\n") != std::string::npos);
     CHECK_THROWS_AS(tf::write_curves(folder / "lines.stl", mesh, pairs), tf::io_error);
     CHECK_THROWS_AS(tf::write_curves(folder / "none" / "lines.obj", mesh, pairs), tf::io_error);
-    const tf::pair_numbers wrong{"kind", {}};
+    const tf::pair_column wrong{"kind", {}};
     CHECK_THROWS_AS(tf::write_curves(folder / "lines.obj", mesh, pairs, {&wrong, 1}),
                     std::invalid_argument);
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -93,7 +94,7 @@ TEST_CASE("urdf: a chain of joints of each kind puts links where the joints say"
     CHECK(rest[0] == tf::transform<3>{});
     check_near(rest[1](tf::point3{1, 0, 0}), {1, 1, 0});
     check_near(rest[3](tf::point3{0, 0, 0}), {1, 0, 5});
-    const std::vector<tf::joint_value> values{
+    const std::map<std::string, double> values{
         {"slide", 2.0}, {"turn", -0.5 * std::numbers::pi}, {"spin", 0.5 * std::numbers::pi}};
     const auto moved = r.link_transforms(values);
     check_near(moved[1](tf::point3{1, 0, 0}), {2, 0, 0});
@@ -118,7 +119,7 @@ TEST_CASE("urdf: a joint that mimics another follows it, unless it has a value o
         three + joint("p", "prismatic", "a", "b") +
         joint("q", "prismatic", "a", "c", "<mimic joint=\"p\" multiplier=\"-2\" offset=\"1\"/>")));
     const auto r = tf::read_urdf(path);
-    const auto x = [&](const std::vector<tf::joint_value>& values) {
+    const auto x = [&](const std::map<std::string, double>& values) {
         return r.link_transforms(values)[2].rows[0][3];
     };
     CHECK(x({}) == 1.0);
@@ -316,8 +317,8 @@ TEST_CASE("urdf: values of joints that are not there, fixed or not finite are re
     const robot_folder folder;
     const auto r = tf::read_urdf(folder.write(
         robot(three + joint("j", "fixed", "a", "b") + joint("k", "continuous", "a", "c"))));
-    const auto with = [&](const tf::joint_value& one) {
-        static_cast<void>(r.link_transforms({&one, 1}));
+    const auto with = [&](const std::pair<const std::string, double>& one) {
+        static_cast<void>(r.link_transforms({one}));
     };
     CHECK_THROWS_WITH_AS(with({"x", 1.0}), "treeform::link_transforms: there is no joint x",
                          std::invalid_argument);

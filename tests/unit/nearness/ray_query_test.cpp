@@ -54,7 +54,7 @@ void check_against_brute_force(const tf::mesh& mesh, const std::vector<tf::ray3>
             CHECK(hits[j].coplanar == expected[j].second.coplanar);
             CHECK(std::abs(hits[j].t - expected[j].second.t) <=
                   0x1p-39 * std::abs(expected[j].second.t));
-            CHECK(hits[j] == all.hits[all.begin[i] + j]);
+            CHECK(hits[j] == all.answers[all.begin[i] + j]);
             if (j > 0) CHECK(hits[j - 1].t <= hits[j].t);
         }
         REQUIRE(first[i].has_value() == !expected.empty());
@@ -192,12 +192,12 @@ TEST_CASE("rays and a mesh: scale, offset, face order and threads change nothing
     for (int i = 0; i < 600; ++i) rays.push_back(whole_ray(random, 6));
     const auto tree = tf::build_face_tree(mesh);
     const auto hits = tf::detail::intersect::ray_query(mesh, tree).all(rays);
-    REQUIRE(hits.hits.size() > 300);
+    REQUIRE(hits.answers.size() > 300);
 
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
         const auto again = tf::build_face_tree(mesh);
-        CHECK(tf::detail::intersect::ray_query(mesh, again).all(rays).hits == hits.hits);
+        CHECK(tf::detail::intersect::ray_query(mesh, again).all(rays).answers == hits.answers);
     }
 
     std::vector<tf::ray3> placed = rays;
@@ -210,9 +210,9 @@ TEST_CASE("rays and a mesh: scale, offset, face order and threads change nothing
     const auto moved_tree = tf::build_face_tree(moved);
     const auto moved_hits = tf::detail::intersect::ray_query(moved, moved_tree).all(placed);
     REQUIRE(moved_hits.begin == hits.begin);
-    for (std::size_t i = 0; i < hits.hits.size(); ++i) {
-        CHECK(moved_hits.hits[i].face == hits.hits[i].face);
-        CHECK(moved_hits.hits[i].at == hits.hits[i].at);
+    for (std::size_t i = 0; i < hits.answers.size(); ++i) {
+        CHECK(moved_hits.answers[i].face == hits.answers[i].face);
+        CHECK(moved_hits.answers[i].at == hits.answers[i].at);
     }
 
     const test::shuffled_mesh other = test::shuffled(random, mesh);
@@ -222,8 +222,8 @@ TEST_CASE("rays and a mesh: scale, offset, face order and threads change nothing
     for (std::size_t i = 0; i + 1 < hits.begin.size(); ++i) {
         std::vector<std::uint32_t> faces, others;
         for (std::size_t j = hits.begin[i]; j < hits.begin[i + 1]; ++j) {
-            faces.push_back(hits.hits[j].face);
-            others.push_back(other.old_of_new[other_hits.hits[j].face]);
+            faces.push_back(hits.answers[j].face);
+            others.push_back(other.old_of_new[other_hits.answers[j].face]);
         }
         CHECK(std::is_permutation(faces.begin(), faces.end(), others.begin()));
     }

@@ -125,7 +125,7 @@ TEST_CASE("align: a third of the points are somewhere else, and are trimmed") {
         CHECK(largest_difference(moved(moved(home, away), near.matrix), home) < 1e-10);
         CHECK(near.overlap == doctest::Approx(0.7).epsilon(0.01));
         // with all of them it is another place
-        const auto all = tf::align(there, fixed, {.weights = tf::align_weights::equal});
+        const auto all = tf::align(there, fixed, {.robust = false});
         CHECK(largest_difference(moved(moved(home, away), all.matrix), home) > 1e-3);
     }
 }
@@ -209,7 +209,7 @@ TEST_CASE("align: never worse than the start, whatever is fitted to what") {
         tf::align_options options;
         options.method = static_cast<align_method>(source.below(3));
         options.overlap = std::min(source.in(0.2, 1.8), 1.0);
-        options.weights = tf::align_weights::equal;
+        options.robust = false;
         options.samples = round % 3 == 0 ? 20 : 0;
         options.max_iterations = static_cast<unsigned>(source.below(30));
         const auto found = tf::align(there, fixed, options);
@@ -219,7 +219,7 @@ TEST_CASE("align: never worse than the start, whatever is fitted to what") {
         // what is said of it is what one finds there
         const auto again = tf::align(there, fixed,
                                      {.overlap = options.overlap,
-                                      .weights = options.weights,
+                                      .robust = options.robust,
                                       .max_iterations = 0,
                                       .start = found.matrix});
         CHECK(again.rms_at_start == doctest::Approx(found.rms).epsilon(1e-9));
@@ -371,7 +371,7 @@ TEST_CASE("align: what has no partner is found by weights, trimmed by its share,
         const auto weighed = tf::align(scan.moving, scan.fixed);
         CHECK(weighed.converged);
         CHECK(test::error_of(scan, weighed.matrix, false) < 1e-5);
-        const tf::align_options equal{.weights = tf::align_weights::equal};
+        const tf::align_options equal{.robust = false};
         CHECK(tf::align(scan.moving, scan.fixed, equal).end == tf::align_end::doubtful);
         // a share that is too large does no harm, either
         for (const double overlap : {0.5, 0.6, 0.62}) {

@@ -211,7 +211,7 @@ TEST_CASE("rounding effects: far away float32 folds what it has not folded befor
                                               double{static_cast<float>(p.z)}}
                                  : tf::point3{x, y, p.z});
         }
-        return tf::effects_of_rounding(ball, away, placed, {.after = precision});
+        return tf::effects_of_rounding(ball, away, placed, tf::precision::float64, precision);
     };
     const auto exact = written(tf::precision::float64);
     CHECK_FALSE(exact.noticeable);

@@ -3,6 +3,7 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/point_faces.hpp>
+#include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
@@ -148,10 +149,12 @@ TEST_CASE("clouds: sliding ends at the first exact contact of any point") {
                     tf::first_contact(triangle_of(given, i), triangle_of(still, j), motion);
                 if (one && (!first || tf::compare(motion, *one, *first) < 0)) first = one;
             }
-        REQUIRE((found.end == tf::motion_end::contact) == first.has_value());
+        REQUIRE((found.end == tf::placement_end::contact) == first.has_value());
         if (!first) continue;
         ++met;
-        CHECK(tf::compare(motion, *first, found.exact) == 0);
+        CHECK(tf::compare_cut(first->from, motion, first->until, found.time) >= 0);
+        CHECK(tf::compare_cut(first->from, motion, first->until,
+                              std::nextafter(found.time, 1e300)) < 0);
     }
     CHECK(met > 10);
 }

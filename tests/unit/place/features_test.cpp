@@ -73,13 +73,12 @@ tf::mesh moved_by(tf::mesh mesh, const tf::transform<3>& by) {
 }
 
 /// That it penetrates nothing, and that the matrix says how it went there.
-void check_features(const tf::mesh& moving, const tf::mesh& fixed,
-                    const tf::feature_mating& found) {
+void check_features(const tf::mesh& moving, const tf::mesh& fixed, const tf::placement& found) {
     REQUIRE(found);
-    const tf::mesh there{found.at.points, moving.faces};
+    const tf::mesh there{found.points, moving.faces};
     CHECK(tf::relation(there, fixed).relation != tf::mesh_relation::penetrating);
     for (std::size_t i = 0; i < moving.points.size(); ++i)
-        CHECK(length(minus(found.at.matrix(moving.points[i]), found.at.points[i])) < 1e-11);
+        CHECK(length(minus(found.matrix(moving.points[i]), found.points[i])) < 1e-11);
 }
 
 }  // namespace
@@ -166,15 +165,15 @@ TEST_CASE("mate features: a block comes to lie flat on another, center above cen
         const tf::mesh base = moved_by(test::box(9, 9, 4), random_move(source));
         const auto of_block = tf::find_features(block, feature_kind::plane)[0];
         const auto of_base = tf::find_features(base, feature_kind::plane)[0];
-        const tf::feature_mate_options options{.clearance = round % 2 == 0 ? 0.0 : 0.5};
+        const tf::placement_options options{.clearance = round % 2 == 0 ? 0.0 : 0.5};
         const auto found = tf::mate_features(block, base, of_block, of_base, options);
         check_features(block, base, found);
         CHECK(found.offset == doctest::Approx(options.clearance).epsilon(1e-12));
-        CHECK(found.at.end == tf::placement_end::contact);
-        const tf::mesh there{found.at.points, block.faces};
+        CHECK(found.end == tf::placement_end::contact);
+        const tf::mesh there{found.points, block.faces};
         CHECK(tf::distance(there, base) >= options.clearance);
         CHECK(tf::distance(there, base) <= options.clearance + 1e-12);
-        const tf::point3 center = found.at.matrix(of_block.origin);
+        const tf::point3 center = found.matrix(of_block.origin);
         const tf::point3 from = minus(center, of_base.origin);
         CHECK(std::abs(length(from) - options.clearance) < 1e-12);
         // All of the face is on the plane.
@@ -186,7 +185,7 @@ TEST_CASE("mate features: a block comes to lie flat on another, center above cen
     const tf::mesh block = test::box(1, 1, 1), base = test::moved(block, {5, 5, 5});
     const auto up = tf::find_features(block, feature_kind::plane);
     const auto found = tf::mate_features(block, base, up[0], up[0], {.flip = true});
-    CHECK(found.turn_angle == 0.0);
+    CHECK(found.angle == 0.0);
 }
 
 TEST_CASE("mate features: a bolt goes into its hole, coaxial, until its head is on the plate") {
@@ -209,13 +208,13 @@ TEST_CASE("mate features: a bolt goes into its hole, coaxial, until its head is 
         for (const bool flip : {false, true}) {
             const auto found = tf::mate_features(bolt, plate, shank, hole, {.flip = flip});
             check_features(bolt, plate, found);
-            CHECK(found.at.end == tf::placement_end::contact);
-            const tf::point3 center = minus(found.at.matrix(shank.origin), hole.origin);
+            CHECK(found.end == tf::placement_end::contact);
+            const tf::point3 center = minus(found.matrix(shank.origin), hole.origin);
             const double along = dot(center, hole.direction);
             CHECK(std::abs(along) == doctest::Approx(std::abs(found.offset)));
             CHECK(length(minus(center, {along * hole.direction.x, along * hole.direction.y,
                                         along * hole.direction.z})) < 1e-10);
-            const tf::mesh there{found.at.points, bolt.faces};
+            const tf::mesh there{found.points, bolt.faces};
             CHECK(tf::distance(there, plate) < 1e-10);
             // Head first it stays outside; else the shank is through.
             const double deep = std::abs(found.offset);
@@ -231,9 +230,9 @@ TEST_CASE("mate features: a shaft that goes through its bore stays in the middle
     const auto on_shaft = tf::find_features(shaft, feature_kind::axis)[0];
     const auto found = tf::mate_features(shaft, bore, on_shaft, in_bore);
     check_features(shaft, bore, found);
-    CHECK(found.at.end == tf::placement_end::stays);
+    CHECK(found.end == tf::placement_end::stays);
     CHECK(std::abs(found.offset) < 1e-12);
-    CHECK(found.at.at_place == tf::mesh_relation::separate);
+    CHECK(found.at_place == tf::mesh_relation::separate);
     // One that is too thick stops outside.
     const tf::mesh thick = test::moved(tube(10.2, 4, 30, 64), {50, 3, 2});
     const auto stopped =

@@ -1,3 +1,4 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 

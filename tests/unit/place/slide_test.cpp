@@ -156,7 +156,7 @@ TEST_CASE("slide: what fell on something is close to it in the coordinates writt
                                           {source.in(-0.5, 0.5), source.in(-0.5, 0.5), 4.0}));
         const tf::point3 motion{source.in(-0.1, 0.1), source.in(-0.1, 0.1), -1.0};
         const auto contact = tf::time_of_impact(a, b, motion);
-        REQUIRE(contact.end == tf::motion_end::contact);
+        REQUIRE(contact.end == tf::placement_end::contact);
         const auto found = tf::slide(
             a, b, motion, {.precision = single ? tf::precision::float32 : tf::precision::float64});
         REQUIRE(found);
@@ -223,7 +223,7 @@ TEST_CASE("slide and drop: what cannot be meant is refused, and named") {
     for (const double c : {-1.0, infinity, std::nan("")})
         CHECK_THROWS_AS(static_cast<void>(tf::slide(a, b, down, {.clearance = c})),
                         std::invalid_argument);
-    CHECK_THROWS_WITH_AS(static_cast<void>(tf::drop(a, {.bed = 0.0, .direction = {0, 0, 1}})),
+    CHECK_THROWS_WITH_AS(static_cast<void>(tf::drop(a, {.bed = 0.0}, {0, 0, 1})),
                          "treeform::drop: the direction does not lead down to the bed",
                          std::invalid_argument);
     CHECK_THROWS_AS(

@@ -114,7 +114,7 @@ TEST_CASE("wall thickness: a hollow box, a ball, a sheet") {
             (t == doctest::Approx(0.5) || t == doctest::Approx(1.0) || t == doctest::Approx(10.0)));
     const tf::mesh ball = test::ball(4, 2.0);
     const auto rays = tf::wall_thickness(ball);
-    const auto balls = tf::wall_thickness(ball, {.by = tf::thickness_by::sphere});
+    const auto balls = tf::wall_thickness(ball, tf::thickness_by::sphere);
     for (std::size_t f = 0; f < ball.faces.size(); ++f) {
         CHECK(rays.of_face[f] == doctest::Approx(4).epsilon(0.05));
         CHECK(balls.of_face[f] <= rays.of_face[f]);
@@ -131,6 +131,6 @@ TEST_CASE("wall thickness: a hollow box, a ball, a sheet") {
     const tf::mesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}};
     const auto open = tf::wall_thickness(sheet);
     CHECK(open.of_face == std::vector<double>(2, std::numeric_limits<double>::infinity()));
-    CHECK(tf::wall_thickness(ball, {.progress = [](double) { return false; }}).status ==
+    CHECK(tf::wall_thickness(ball, tf::thickness_by::ray, [](double) { return false; }).status ==
           tf::status::cancelled);
 }

@@ -37,17 +37,17 @@ tf::transform<3> about_z(double angle) {
 }
 
 /// What the header says of a place.
-void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::turn_result& found,
-                const tf::turn_options& options = {}) {
+void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::placement& found,
+                const tf::placement_options& options = {}) {
     REQUIRE(found);
-    REQUIRE(found.at.points.size() == moving.points.size());
-    const tf::mesh there{found.at.points, moving.faces};
+    REQUIRE(found.points.size() == moving.points.size());
+    const tf::mesh there{found.points, moving.faces};
     CHECK(tf::relation(there, fixed).relation != tf::mesh_relation::penetrating);
     const double gap = tf::distance(there, fixed);
-    CAPTURE(found.steps);
-    CAPTURE(found.at.statistics.backed_off);
-    CAPTURE(found.at.nearest->how.distance);
-    CAPTURE(found.at.contacts.size());
+    CAPTURE(found.statistics.steps);
+    CAPTURE(found.statistics.backed_off);
+    CAPTURE(found.nearest->how.distance);
+    CAPTURE(found.contacts.size());
     CHECK(gap >= options.clearance);
     double largest = 0.0;
     for (const tf::mesh* m : {&moving, &fixed, &there})
@@ -57,15 +57,14 @@ void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::turn_re
     const double unit = largest * (single ? 0x1p-21 : 0x1p-44);
     CHECK(gap <= options.clearance + found.tolerance + unit);
     for (std::size_t i = 0; i < moving.points.size(); ++i) {
-        const tf::point3 q = found.at.matrix(moving.points[i]);
+        const tf::point3 q = found.matrix(moving.points[i]);
         for (std::size_t k = 0; k < 3; ++k) {
-            CHECK(std::abs(q[k] - found.at.points[i][k]) <= unit);
-            if (single)
-                CHECK(found.at.points[i][k] == double{static_cast<float>(found.at.points[i][k])});
+            CHECK(std::abs(q[k] - found.points[i][k]) <= unit);
+            if (single) CHECK(found.points[i][k] == double{static_cast<float>(found.points[i][k])});
         }
     }
-    CHECK(found.at.end == tf::placement_end::contact);
-    CHECK_FALSE(found.at.contacts.empty());
+    CHECK(found.end == tf::placement_end::contact);
+    CHECK_FALSE(found.contacts.empty());
 }
 
 }  // namespace
@@ -76,14 +75,14 @@ TEST_CASE("turn: a door stops at the wall, at the angle that it is known to") {
     const double radius = std::sqrt(101.0), begin = std::atan2(1.0, 10.0);
     for (const double clearance : {0.0, 0.25})
         for (const auto precision : {tf::precision::float64, tf::precision::float32}) {
-            const tf::turn_options options{.clearance = clearance, .precision = precision};
+            const tf::placement_options options{.clearance = clearance, .precision = precision};
             const auto found = tf::turn(door, wall, {}, options);
             check_turn(door, wall, found, options);
             const double angle = (std::asin((5 - clearance) / radius) - begin) * 180 / pi;
             const double unit = precision == tf::precision::float32 ? 1e-4 : 1e-7;
             CHECK(found.angle <= angle + unit);
             CHECK(found.angle >= angle - unit);
-            CHECK(found.steps < 100);
+            CHECK(found.statistics.steps < 100);
         }
     // The other way round it comes to the wall's other end.
     const auto back = tf::turn(door, wall, {.direction = {0, 0, -3}});
@@ -95,11 +94,11 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     const tf::mesh bore = test::moved(test::tube(20, 10 + 0.05, 10, 96), {0, 0, 5});
     const auto found = tf::turn(shaft, bore, {});
     CHECK_FALSE(found);
-    CHECK(found.at.end == tf::placement_end::nothing_met);
-    CHECK(found.steps < 5000);
+    CHECK(found.end == tf::placement_end::nothing_met);
+    CHECK(found.statistics.steps < 5000);
     const auto nothing = tf::turn(shaft, test::moved(bore, {100, 0, 0}), {});
-    CHECK(nothing.at.end == tf::placement_end::nothing_met);
-    CHECK(nothing.at.statistics.fixed_culled == 1);
+    CHECK(nothing.end == tf::placement_end::nothing_met);
+    CHECK(nothing.statistics.fixed_culled == 1);
     // A hexagonal shaft in a hexagonal bore gets stuck.
     const tf::mesh nut = test::tube(20, 11, 10, 6),
                    screw = test::moved(test::tube(10.5, 5, 10, 6), {0, 0, 0.5});
@@ -110,10 +109,10 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     // where a corner of the screw is on a side of the nut
     const double angle = 30 - std::acos(11 * std::cos(pi / 6) / 10.5) * 180 / pi;
     CHECK(stuck.angle == doctest::Approx(angle).epsilon(1e-7));
-    tf::turn_options few{.max_steps = 3};
-    CHECK(tf::turn(shaft, bore, {}, few).at.end == tf::placement_end::too_many_steps);
+    tf::placement_options few{.max_steps = 3};
+    CHECK(tf::turn(shaft, bore, {}, few).end == tf::placement_end::too_many_steps);
     few = {.max_angle = 0.5 * angle};
-    CHECK(tf::turn(screw, nut, {}, few).at.end == tf::placement_end::nothing_met);
+    CHECK(tf::turn(screw, nut, {}, few).end == tf::placement_end::nothing_met);
 }
 
 TEST_CASE("turn: on the way nothing is met, and a little further something is") {
@@ -127,7 +126,7 @@ TEST_CASE("turn: on the way nothing is met, and a little further something is") 
         tf::mesh b = test::moved(test::box(source.in(1, 3), source.in(1, 3), source.in(1, 3)),
                                  {source.in(-7, -2), source.in(-4, 4), source.in(-2, 1)});
         if (tf::relation(a, b).relation != tf::mesh_relation::separate) continue;
-        const tf::turn_options options{.clearance = round % 3 == 0 ? 0.1 : 0.0};
+        const tf::placement_options options{.clearance = round % 3 == 0 ? 0.1 : 0.0};
         if (tf::distance(a, b) <= options.clearance) continue;
         const auto found = tf::turn(a, b, {}, options);
         const double last = found ? found.angle * pi / 180 : 2 * pi;
@@ -159,13 +158,13 @@ TEST_CASE("turn: about any line, with others about, the same on any number of th
     const tf::prepared_mesh moving(tf::mesh{arm});
     const tf::turn_axis axis{{100, 50, 20}, {0.3, -0.2, 1.0}};
     const auto one = tf::turn(moving, fixed, axis);
-    CHECK(one.at.points.size() == arm.points.size());
+    CHECK(one.points.size() == arm.points.size());
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
         const auto other = tf::turn(moving, fixed, axis);
-        CHECK(other.at.points == one.at.points);
+        CHECK(other.points == one.points);
         CHECK(other.angle == one.angle);
-        CHECK(other.steps == one.steps);
+        CHECK(other.statistics.steps == one.statistics.steps);
     }
 }
 
@@ -173,25 +172,25 @@ TEST_CASE("turn: what touches at the start stays, what penetrates has no place")
     const tf::mesh box = test::box(1, 1, 1);
     const auto touching = tf::turn(box, test::moved(box, {1, 0, 0}), {});
     REQUIRE(touching);
-    CHECK(touching.at.end == tf::placement_end::stays);
-    CHECK(touching.at.points == box.points);
+    CHECK(touching.end == tf::placement_end::stays);
+    CHECK(touching.points == box.points);
     CHECK(touching.angle == 0.0);
-    CHECK(tf::turn(box, test::moved(box, {1, 0, 0}), {}, {.clearance = 1}).at.end ==
+    CHECK(tf::turn(box, test::moved(box, {1, 0, 0}), {}, {.clearance = 1}).end ==
           tf::placement_end::starts_touching);
-    CHECK(tf::turn(box, test::moved(box, {0.5, 0, 0}), {}).at.end ==
+    CHECK(tf::turn(box, test::moved(box, {0.5, 0, 0}), {}).end ==
           tf::placement_end::starts_penetrating);
-    CHECK(tf::turn(box, test::moved(box, {1.5, 0, 0}), {}, {.clearance = 1}).at.end ==
+    CHECK(tf::turn(box, test::moved(box, {1.5, 0, 0}), {}, {.clearance = 1}).end ==
           tf::placement_end::starts_too_near);
-    CHECK(tf::turn(box, tf::mesh{}, {}).at.end == tf::placement_end::nothing_met);
-    CHECK(tf::turn(tf::mesh{}, box, {}).at.end == tf::placement_end::nothing_met);
+    CHECK(tf::turn(box, tf::mesh{}, {}).end == tf::placement_end::nothing_met);
+    CHECK(tf::turn(tf::mesh{}, box, {}).end == tf::placement_end::nothing_met);
     CHECK(tf::turn(box, test::moved(box, {3, 0, 0}), {}, {.progress = [](double) { return false; }})
-              .at.end == tf::placement_end::cancelled);
+              .end == tf::placement_end::cancelled);
 }
 
 TEST_CASE("turn: what cannot be meant is refused") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const tf::mesh box = test::box(1, 1, 1), other = test::moved(box, {3, 0, 0});
-    const auto refused = [&](const tf::turn_axis& axis, const tf::turn_options& o = {}) {
+    const auto refused = [&](const tf::turn_axis& axis, const tf::placement_options& o = {}) {
         CHECK_THROWS_AS(static_cast<void>(tf::turn(box, other, axis, o)), std::invalid_argument);
     };
     refused({.direction = {0, 0, 0}});

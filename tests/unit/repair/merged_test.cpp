@@ -132,9 +132,9 @@ TEST_CASE("repair: what is too thin for floats is a loss, also where its faces w
         CHECK(made.certificate.status == tf::status::excessive_loss);
         CHECK(std::ranges::count(made.is_left, 1) == 12);
         CHECK(made.statistics.vanished_components == 2);
-        const tf::resolve_result resolved = tf::resolve_self_intersections(
+        const tf::repair_result resolved = tf::resolve_self_intersections(
             dirty, tf::resolve_mode::outer, {.precision = to_float, .keep_cuts = keep_cuts});
-        CHECK(resolved.vanished_components == 2);
+        CHECK(resolved.statistics.vanished_components == 2);
         CHECK(resolved.statistics.removed == 24);
     }
 }
@@ -143,14 +143,14 @@ TEST_CASE("resolve: outer merges what was cut, split does not") {
     const tf::mesh pair =
         test::together(test::box(2, 1, 1), test::moved(test::box(2, 1, 1), {1, 0, 0}));
     using enum tf::resolve_mode;
-    const tf::resolve_result merged = tf::resolve_self_intersections(pair, outer);
-    const tf::resolve_result as_cut =
+    const tf::repair_result merged = tf::resolve_self_intersections(pair, outer);
+    const tf::repair_result as_cut =
         tf::resolve_self_intersections(pair, outer, {.keep_cuts = true});
     CHECK(merged.mesh.faces.size() == 12);
     CHECK(as_cut.mesh.faces.size() > 12);
     CHECK(merged.statistics.removed == as_cut.statistics.removed);
-    CHECK(merged.vanished_components == 0);
-    const tf::resolve_result all = tf::resolve_self_intersections(pair, split);
+    CHECK(merged.statistics.vanished_components == 0);
+    const tf::repair_result all = tf::resolve_self_intersections(pair, split);
     CHECK(all.mesh == tf::resolve_self_intersections(pair, split, {.keep_cuts = true}).mesh);
     CHECK(all.mesh.faces.size() > as_cut.mesh.faces.size());
 }

@@ -2,10 +2,10 @@
 /// Faces that meet, removed, and the holes they leave.
 
 #include <libmesh/repair/greedy_vertex_cover.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/mesh/self_intersections.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -95,7 +95,7 @@ TEST_CASE("repair: where what is deleted goes around a border, no face is left b
     const auto component = tf::face_components(result.mesh.points.size(), result.mesh.faces);
     std::set<std::uint32_t> all(component.begin(), component.end()), with_given;
     for (std::size_t f = 0; f < component.size(); ++f)
-        if (result.face_source[f] != tf::resolve_result::none) with_given.insert(component[f]);
+        if (result.face_source[f] != tf::repair_result::none) with_given.insert(component[f]);
     CHECK(with_given == all);
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("repair: of two open sheets that pass through each other, one is cut o
     const auto result = tf::resolve_self_intersections(mesh, mode::remove);
     CHECK(result.certificate);
     CHECK(tf::self_intersections(result.mesh).pairs.empty());
-    CHECK(result.vanished_components == 0);
+    CHECK(result.statistics.vanished_components == 0);
     CHECK(result.statistics.left_open > 0);
     for (std::uint32_t f = 0; f < meets.size(); ++f)  // nothing else is touched
         if (meets[f] == 0) CHECK(std::ranges::count(result.face_source, f) == 1);
@@ -123,7 +123,7 @@ TEST_CASE("repair: a closed part that an open sheet passes through stays as it i
     const auto result = tf::resolve_self_intersections(mesh, mode::remove);
     CHECK(result.certificate);
     CHECK(tf::self_intersections(result.mesh).pairs.empty());
-    CHECK(result.vanished_components == 0);
+    CHECK(result.statistics.vanished_components == 0);
     for (std::uint32_t f = 0; f < ball.faces.size(); ++f)
         CHECK(std::ranges::count(result.face_source, f) == 1);
 }
@@ -198,7 +198,7 @@ TEST_CASE("repair: a sheet whose back ends before it does not vanish") {
     const auto result = tf::resolve_self_intersections(both, mode::remove);
     CHECK(result.certificate);
     CHECK(result.mesh.faces.size() == count);
-    CHECK(result.vanished_components == 0);
+    CHECK(result.statistics.vanished_components == 0);
 }
 
 TEST_CASE("repair: of random sheets, what is removed never leaves faces that meet") {
@@ -218,8 +218,8 @@ TEST_CASE("repair: of random sheets, what is removed never leaves faces that mee
             for (const tf::face_pair& pair : tf::self_intersections(result.mesh).pairs) {
                 CHECK(!touching);
                 CHECK(pair.kind == tf::pair_kind::touching);
-                CHECK(result.face_source[pair.a] != tf::resolve_result::none);
-                CHECK(result.face_source[pair.b] != tf::resolve_result::none);
+                CHECK(result.face_source[pair.a] != tf::repair_result::none);
+                CHECK(result.face_source[pair.b] != tf::repair_result::none);
             }
         }
     }
@@ -274,6 +274,6 @@ TEST_CASE("repair: a component that is nothing but faces that meet is counted as
         test::ball(2, 1.0), {{{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}});
     const auto result = tf::resolve_self_intersections(mesh, mode::outer);
     CHECK(result.certificate);
-    CHECK(result.vanished_components == 1);
+    CHECK(result.statistics.vanished_components == 1);
     CHECK(result.statistics.removed == 2);
 }

@@ -79,7 +79,7 @@ TEST_CASE("repair: the outer surface of two balls bounds what either held") {
             CHECK(tf::self_intersections(result.mesh).pairs.empty());
             CHECK(!tf::find_open_edge(result.mesh));
             CHECK(result.certificate.max_displacement < (to_float ? 1e-6 : 1e-15));
-            CHECK(result.vanished_components == 0);
+            CHECK(result.statistics.vanished_components == 0);
             if (!to_float) CHECK(wrong_points(mesh, rule, result.mesh, 2000) == 0);
         }
 }
@@ -105,7 +105,7 @@ TEST_CASE("repair: faces that meet nothing come out bit for bit and in order") {
         CHECK(same > 0);
         if (m == mode::split) CHECK(same == static_cast<std::size_t>(std::ranges::count(meets, 0)));
         for (std::size_t p = 0; p < result.vertex_source.size(); ++p)
-            if (result.vertex_source[p] != tf::resolve_result::none)
+            if (result.vertex_source[p] != tf::repair_result::none)
                 CHECK(result.mesh.points[p] == mesh.points[result.vertex_source[p]]);
     }
 }
@@ -229,7 +229,7 @@ TEST_CASE("resolve: what loses too much is not certified") {
     dirty.points.push_back({5, 0, 0});
     dirty.faces[0] = {0, 2, 8};
     dirty.faces.insert(dirty.faces.end(), {{2, 1, 8}, {0, 8, 1}});
-    const tf::resolve_result lost = tf::resolve_self_intersections(dirty, mode::remove);
+    const tf::repair_result lost = tf::resolve_self_intersections(dirty, mode::remove);
     if (tf::signed_volume(lost.mesh) < 950) {
         CHECK(lost.certificate.status == tf::status::excessive_loss);
         CHECK(lost.certificate.size_is_volume);
@@ -237,7 +237,7 @@ TEST_CASE("resolve: what loses too much is not certified") {
         CHECK(lost.certificate.size_after == doctest::Approx(tf::signed_volume(lost.mesh)));
         CHECK_THROWS_AS((void)lost.value(), tf::not_certified_error);
     }
-    const tf::resolve_result allowed =
+    const tf::repair_result allowed =
         tf::resolve_self_intersections(dirty, mode::remove, {.max_loss = 1.0});
     CHECK(allowed.certificate);
     CHECK(allowed.mesh == lost.mesh);
@@ -251,7 +251,7 @@ TEST_CASE("resolve: an inward body that cancels another one is a loss, an invert
     for (tf::face& f : turned.faces) std::swap(f[1], f[2]);
     CHECK(tf::resolve_self_intersections(turned).certificate);
     const tf::mesh pair = test::together(ball, test::moved(turned, {0.5, 0.1, 0.2}));
-    const tf::resolve_result lost = tf::resolve_self_intersections(pair);
+    const tf::repair_result lost = tf::resolve_self_intersections(pair);
     CHECK(lost.certificate.status == tf::status::excessive_loss);
     CHECK(lost.certificate.size_after < 0.95 * lost.certificate.size_before);
     CHECK(tf::resolve_self_intersections(pair, mode::outer, {.max_loss = 1.0}).certificate);

@@ -3,6 +3,7 @@
 #include <libmesh/round/straight_rims.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

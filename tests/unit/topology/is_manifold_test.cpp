@@ -1,6 +1,6 @@
 #include <libmesh/topology/is_manifold.hpp>
-#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>

@@ -7,7 +7,7 @@
 
 namespace {
 
-using enum tf::face_order;
+constexpr bool kept = false, any = true;
 
 const tf::mesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
 

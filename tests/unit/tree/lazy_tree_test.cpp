@@ -166,10 +166,10 @@ TEST_CASE("lazy_tree: pairs, k nearest, batches and all hits are those of a whol
         return squared_between(of[id], few[query]);
     };
     CHECK(tf::nearest_batch(tree, few, from) == tf::nearest_batch(whole, few, from));
-    CHECK(tf::k_nearest_batch(tree, few, 3, from).neighbors ==
-          tf::k_nearest_batch(whole, few, 3, from).neighbors);
-    CHECK(tf::all_within_batch(tree, few, 0.01, from).neighbors ==
-          tf::all_within_batch(whole, few, 0.01, from).neighbors);
+    CHECK(tf::k_nearest_batch(tree, few, 3, from).answers ==
+          tf::k_nearest_batch(whole, few, 3, from).answers);
+    CHECK(tf::all_within_batch(tree, few, 0.01, from).answers ==
+          tf::all_within_batch(whole, few, 0.01, from).answers);
     const tf::ray<double, 3> ray{{-1.0, 0.05, 0.25}, {1, 0, 0}};
     const auto hit_of = [&](std::uint32_t id) { return entry_along_x(ray, of[id]); };
     const auto ids_of = [](const auto& hits) {

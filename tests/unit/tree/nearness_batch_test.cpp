@@ -70,7 +70,7 @@ TEST_CASE("nearness batch: no queries have no answers, and an empty tree has non
     CHECK(tf::k_nearest_batch(in.tree, none, 2, in).size() == 0);
     const auto empty = tf::build(none, [](const point& p) { return tf::aabb<double, 3>{p, p}; });
     for (const auto& one : tf::nearest_batch(empty, in.queries, in)) CHECK(!one);
-    CHECK(tf::k_nearest_batch(empty, in.queries, 2, in).neighbors.empty());
+    CHECK(tf::k_nearest_batch(empty, in.queries, 2, in).answers.empty());
 }
 
 TEST_CASE("nearness batch: the query that is not finite is named") {

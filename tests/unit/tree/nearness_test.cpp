@@ -35,9 +35,8 @@ answers first(answers all, std::size_t k) {
     return all;
 }
 
-const std::vector<tf::nearness_strategy> strategies{
-    tf::strategy::depth_first{}, tf::strategy::top_k_sorted{}, tf::strategy::top_k_sorted{.k = 5},
-    tf::strategy::priority_queue{}};
+const std::vector<tf::node_order> node_orders{tf::node_order::depth_first,
+                                              tf::node_order::best_first};
 
 /// Those whose squared distances are doubles.
 const std::vector<std::string> families{"random", "grid", "equal", "line", "far", "mixed"};
@@ -66,17 +65,16 @@ void compare_with_brute_force(const std::string& family, std::size_t count) {
         const auto distance_of = [&](std::uint32_t id) { return squared_between(of[id], query); };
         const answers all = neighbors_by_brute_force(of, query);
         const double radius = all.empty() ? 1.0 : std::sqrt(all[all.size() / 2].answer);
-        const tf::nearness_strategy& strategy = strategies[turn++ % strategies.size()];
-        const auto one = tf::nearest(tree, query, distance_of, {.strategy = strategy});
+        const tf::node_order order = node_orders[turn++ % node_orders.size()];
+        const auto one = tf::nearest(tree, query, distance_of, {.order = order});
         REQUIRE(one.has_value() == !all.empty());
         if (one) REQUIRE(*one == all[0]);
         for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{40}, count + 1})
-            REQUIRE(tf::k_nearest(tree, query, k, distance_of, {.strategy = strategy}) ==
-                    first(all, k));
+            REQUIRE(tf::k_nearest(tree, query, k, distance_of, {.order = order}) == first(all, k));
         const answers inside = neighbors_by_brute_force(of, query, radius);
-        REQUIRE(tf::all_within(tree, query, radius, distance_of, strategy) == inside);
-        REQUIRE(tf::k_nearest(tree, query, 9, distance_of,
-                              {.radius = radius, .strategy = strategy}) == first(inside, 9));
+        REQUIRE(tf::all_within(tree, query, radius, distance_of, order) == inside);
+        REQUIRE(tf::k_nearest(tree, query, 9, distance_of, {.radius = radius, .order = order}) ==
+                first(inside, 9));
     }
 }
 
@@ -137,9 +135,9 @@ TEST_CASE("nearness: of equally near primitives the lowest comes first") {
     const auto tree = tf::build(same, test::itself);
     const tf::aabb<double, 3> query = test::box_at<3>({0, 0, 0}, 0.5);
     const auto distance_of = [&](std::uint32_t id) { return squared_between(same[id], query); };
-    for (const tf::nearness_strategy& strategy : strategies) {
-        CHECK(tf::nearest(tree, query, distance_of, {.strategy = strategy})->id == 2);
-        const auto some = tf::k_nearest(tree, query, 20, distance_of, {.strategy = strategy});
+    for (const tf::node_order order : node_orders) {
+        CHECK(tf::nearest(tree, query, distance_of, {.order = order})->id == 2);
+        const auto some = tf::k_nearest(tree, query, 20, distance_of, {.order = order});
         for (std::uint32_t i = 0; i < 20; ++i) CHECK(some[i].id == i + 2);
     }
 }
@@ -191,7 +189,7 @@ TEST_CASE("nearness: queries and radii that cannot be meant are refused") {
     CHECK_THROWS_AS((void)tf::all_within(tree, query{}, nan, zero), std::invalid_argument);
 }
 
-TEST_CASE("nearness: one, k and all within agree with brute force, whatever the strategy") {
+TEST_CASE("nearness: one, k and all within agree with brute force, whatever the order") {
     for (const std::string& family : families) {
         CAPTURE(family);
         for (const std::size_t count : {2U, 8U, 9U, 65U, 700U}) {

@@ -95,7 +95,7 @@ TEST_CASE("point search: nothing is near where there are no points") {
     CHECK(none.all_within({1, 2, 3}, 1e300).empty());
     const cloud<3> queries(3);
     CHECK(none.k_nearest(queries, 2).size() == 3);
-    CHECK(none.k_nearest(queries, 2).neighbors.empty());
+    CHECK(none.k_nearest(queries, 2).answers.empty());
     const tf::point_search<3> also_none(cloud<3>{});
     CHECK(also_none.k_nearest({1, 2, 3}, 4).empty());
 }
@@ -186,7 +186,7 @@ TEST_CASE("point search: answers are the same on any number of threads") {
     const auto expected = search.k_nearest(queries, 5);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(search.k_nearest(queries, 5).neighbors == expected.neighbors);
+        CHECK(search.k_nearest(queries, 5).answers == expected.answers);
     }
 }
 

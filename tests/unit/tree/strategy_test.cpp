@@ -3,7 +3,6 @@
 #include <libtree/paper/selections.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>
-#include <treeform/tree/strategy.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,5 @@
 #include <libtree/paper/nary_tree.hpp>
+#include <libtree/paper/selections.hpp>
 #include <libtree/paper/validate.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/build.hpp>

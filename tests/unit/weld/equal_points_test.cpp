@@ -1,5 +1,5 @@
 #include <libmesh/weld/few_equal_points.hpp>
-#include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -26,52 +26,53 @@ using points = std::vector<tf::point3>;
 using ids = std::vector<std::uint32_t>;
 
 /// The words of the header, with a sorted container.
-tf::equal_points equal_by_definition(const points& list) {
+tf::point_groups equal_by_definition(const points& list) {
     std::map<std::tuple<double, double, double>, std::uint32_t> number;
-    tf::equal_points result;
+    tf::point_groups result;
     for (std::uint32_t i = 0; i < list.size(); ++i) {
         const auto& [x, y, z] = list[i];
-        const auto fresh = static_cast<std::uint32_t>(result.first_of_new.size());
+        const auto fresh = static_cast<std::uint32_t>(result.first_of_group.size());
         std::uint32_t mine = fresh;
         if (!std::isnan(x) && !std::isnan(y) && !std::isnan(z))
             mine = number.try_emplace({x, y, z}, fresh).first->second;
-        if (mine == fresh) result.first_of_new.push_back(i);
-        result.new_of_old.push_back(mine);
+        if (mine == fresh) result.first_of_group.push_back(i);
+        result.group_of_point.push_back(mine);
     }
     return result;
 }
 
 void check(const points& list) {
-    const tf::equal_points expected = equal_by_definition(list);
+    const tf::point_groups expected = equal_by_definition(list);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const tf::equal_points found = tf::find_equal_points(list);
-        CHECK((found.new_of_old == expected.new_of_old));
-        CHECK((found.first_of_new == expected.first_of_new));
+        const tf::point_groups found = tf::find_equal_points(list);
+        CHECK((found.group_of_point == expected.group_of_point));
+        CHECK((found.first_of_group == expected.first_of_group));
         const auto few = tf::detail::weld::few_equal_points(list);
-        REQUIRE(few.has_value() == (expected.first_of_new.size() < list.size()));
+        REQUIRE(few.has_value() == (expected.first_of_group.size() < list.size()));
         if (!few) continue;
-        CHECK((few->new_of_old == expected.new_of_old));
-        CHECK((few->first_of_new == expected.first_of_new));
+        CHECK((few->group_of_point == expected.group_of_point));
+        CHECK((few->first_of_group == expected.first_of_group));
     }
 }
 
 }  // namespace
 
 TEST_CASE("equal_points: numbers go by first appearance") {
-    const tf::equal_points found =
+    const tf::point_groups found =
         tf::find_equal_points(points{{2, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 0, 0}});
-    CHECK(found.new_of_old == ids{0, 1, 0, 2, 1});
-    CHECK(found.first_of_new == ids{0, 1, 3});
-    CHECK(tf::find_equal_points({}).new_of_old.empty());
-    CHECK(tf::find_equal_points(points{{1, 2, 3}}).new_of_old == ids{0});
+    CHECK(found.group_of_point == ids{0, 1, 0, 2, 1});
+    CHECK(found.first_of_group == ids{0, 1, 3});
+    CHECK(tf::find_equal_points({}).group_of_point.empty());
+    CHECK(tf::find_equal_points(points{{1, 2, 3}}).group_of_point == ids{0});
 }
 
 TEST_CASE("equal_points: -0 equals +0, in every coordinate, and one bit more is another point") {
     constexpr double least = std::numeric_limits<double>::denorm_min();
     check({{0.0, 0.0, 0.0}, {-0.0, 0.0, 0.0}, {0.0, -0.0, 0.0}, {0.0, 0.0, -0.0}});
-    CHECK(tf::find_equal_points(points{{0.0, 1.0, -0.0}, {-0.0, 1.0, 0.0}}).first_of_new == ids{0});
-    CHECK(tf::find_equal_points(points{{0, 0, 0}, {least, 0, 0}, {-least, 0, 0}}).first_of_new ==
+    CHECK(tf::find_equal_points(points{{0.0, 1.0, -0.0}, {-0.0, 1.0, 0.0}}).first_of_group ==
+          ids{0});
+    CHECK(tf::find_equal_points(points{{0, 0, 0}, {least, 0, 0}, {-least, 0, 0}}).first_of_group ==
           ids{0, 1, 2});
     const double next = std::nextafter(1.0, 2.0);
     check({{1, 1, 1}, {next, 1, 1}, {1, next, 1}, {1, 1, next}, {1, 1, 1}});
@@ -82,7 +83,7 @@ TEST_CASE("equal_points: a NaN equals nothing, infinities equal themselves") {
     const points list{{not_a_number, 0, 0}, {not_a_number, 0, 0}, {0, not_a_number, 0},
                       {0, 0, not_a_number}, {infinity, 0, 0},     {-infinity, 0, 0},
                       {infinity, 0, 0},     {0, 0, not_a_number}};
-    CHECK(tf::find_equal_points(list).new_of_old == ids{0, 1, 2, 3, 4, 5, 4, 6});
+    CHECK(tf::find_equal_points(list).group_of_point == ids{0, 1, 2, 3, 4, 5, 4, 6});
     check(list);
 }
 
@@ -101,12 +102,12 @@ TEST_CASE("equal_points: as a sorted container finds them, with few and with man
 
 TEST_CASE("equal_points: two million equal points, and as many different ones on a line") {
     constexpr std::size_t count = 2000000;
-    const tf::equal_points one = tf::find_equal_points(points(count, {0.5, -3.0, 1e300}));
-    CHECK(one.first_of_new == ids{0});
-    CHECK((one.new_of_old == ids(count, 0)));
+    const tf::point_groups one = tf::find_equal_points(points(count, {0.5, -3.0, 1e300}));
+    CHECK(one.first_of_group == ids{0});
+    CHECK((one.group_of_point == ids(count, 0)));
     points line(count);
     for (std::size_t i = 0; i < count; ++i) line[i].z = static_cast<double>(i);
-    CHECK(tf::find_equal_points(line).first_of_new.size() == count);
+    CHECK(tf::find_equal_points(line).first_of_group.size() == count);
 }
 
 TEST_CASE("join_equal_points: a soup gets its neighbors back and keeps every face") {

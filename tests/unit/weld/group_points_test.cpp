@@ -1,3 +1,4 @@
+#include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
@@ -22,11 +23,12 @@
 namespace {
 
 using tf::group_points;
-using tf::neighbor_search;
 using tf::point3;
 using tf::point_groups;
 using tf::weld_options;
 using tf::weld_rule;
+using tf::detail::weld::find_groups;
+using tf::detail::weld::neighbor_search;
 using family = test::weld_family;
 using numbers = std::vector<std::uint32_t>;
 
@@ -75,8 +77,7 @@ void check_definition(const std::vector<point3>& points, weld_options options) {
             CAPTURE(static_cast<int>(rule));
             CAPTURE(static_cast<int>(search));
             CAPTURE(options.tolerance);
-            options.search = search;
-            const point_groups groups = group_points(points, options);
+            const point_groups groups = find_groups("group_points", points, options, search);
             CHECK(groups.group_of_point == expected.group_of_point);
             CHECK(groups.first_of_group == expected.first_of_group);
             CHECK_FALSE(groups.status == tf::status::cancelled);
@@ -240,9 +241,12 @@ TEST_CASE("join_groups: faces stay, also those that collapse, and kept points ar
 
 namespace {
 
-weld_options options_of(double tolerance, weld_rule rule,
-                        neighbor_search search = neighbor_search::automatic) {
-    return {.tolerance = tolerance, .rule = rule, .search = search};
+weld_options options_of(double tolerance, weld_rule rule) {
+    return {.tolerance = tolerance, .rule = rule};
+}
+
+point_groups groups_by(neighbor_search search, const family& f, weld_rule rule) {
+    return find_groups("group_points", f.points, options_of(f.tolerance, rule), search);
 }
 
 }  // namespace
@@ -300,8 +304,7 @@ TEST_CASE("group_points: the number of threads changes nothing") {
                 for (const unsigned threads : {1U, 2U, 8U}) {
                     if (threads == 8 && search == neighbor_search::tree) continue;
                     const tf::thread_scope scope(threads);
-                    const point_groups found =
-                        group_points(f.points, options_of(f.tolerance, rule, search));
+                    const point_groups found = groups_by(search, f, rule);
                     if (threads == 1) one = found;
                     REQUIRE(found.group_of_point == one.group_of_point);
                     REQUIRE(found.first_of_group == one.first_of_group);
@@ -313,12 +316,9 @@ TEST_CASE("group_points: searches agree on many points") {
     for (const family& f : test::weld_families(13, 4'000))
         for (const weld_rule rule : rules) {
             CAPTURE(f.name);
-            const point_groups expected =
-                group_points(f.points, options_of(f.tolerance, rule, neighbor_search::tree));
+            const point_groups expected = groups_by(neighbor_search::tree, f, rule);
             for (const neighbor_search search : searches)
-                REQUIRE(
-                    group_points(f.points, options_of(f.tolerance, rule, search)).group_of_point ==
-                    expected.group_of_point);
+                REQUIRE(groups_by(search, f, rule).group_of_point == expected.group_of_point);
         }
 }
 

@@ -193,8 +193,8 @@ TEST_CASE(
         const auto take = [&] {
             std::vector<std::string> all;
             for (const auto* out : {&work.outputs.welded, &work.outputs.removed}) {
-                all.push_back(bytes_of((*out)->path));
-                fs::remove((*out)->path);
+                all.push_back(bytes_of((*out)->first));
+                fs::remove((*out)->first);
             }
             return all;
         };

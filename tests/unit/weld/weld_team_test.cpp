@@ -301,7 +301,7 @@ TEST_CASE("weld_team: text is read from where the share of each begins") {
             work.inputs.paths.push_back(folder.path / (std::to_string(i) + "." + format));
             tf::write(work.inputs.paths.back(), file, {.ascii = true});
         }
-        const std::string out = work.outputs().welded->path.extension().string().substr(1);
+        const std::string out = work.outputs().welded->first.extension().string().substr(1);
         work.options.tolerance = 0.02;
         work.options.points_per_tile = 80;
         choices[round % choices.size()](work.options);

@@ -26,8 +26,9 @@
 namespace {
 
 /// What holds of every wrap.
-tf::wrap_result wrapped(const tf::mesh& mesh, double size, const tf::wrap_options& options = {}) {
-    tf::wrap_result made = tf::wrap(mesh, size, options);
+tf::offset_result wrapped(const tf::mesh& mesh, double size,
+                          const tf::offset_options& options = {}) {
+    tf::offset_result made = tf::wrap(mesh, size, options);
     CHECK(made.certificate);
     CHECK(test::is_clean_solid(made.mesh));
     CHECK(tf::signed_volume(made.mesh) > 0.0);
@@ -36,7 +37,7 @@ tf::wrap_result wrapped(const tf::mesh& mesh, double size, const tf::wrap_option
     const double offset = options.offset.value_or(size / 30);
     for (const tf::point3& p : made.mesh.points)
         CHECK(tf::closest_point(mesh, p)->distance == doctest::Approx(offset).epsilon(0.02));
-    CHECK(made.statistics.offset == offset);
+    CHECK(made.statistics.distance == offset);
     return made;
 }
 
@@ -95,7 +96,7 @@ TEST_CASE("parts that are further apart than the size stay apart, and cavities a
     CHECK(components(wrapped(boxes(0.2), 0.3).mesh) == 1);
     const tf::mesh hollow = test::together(
         test::box(3, 3, 3), test::moved(test::inside_out(test::box(1, 1, 1)), {1, 1, 1}));
-    const tf::wrap_result made = wrapped(hollow, 0.3);
+    const tf::offset_result made = wrapped(hollow, 0.3);
     CHECK(tf::signed_volume(made.mesh) > 27.0);
     CHECK(components(made.mesh) == 1);
 }
@@ -107,7 +108,7 @@ TEST_CASE("the offset is as asked for, also a wide one") {
 
 TEST_CASE("coordinates are of the precision asked for, far from the origin, too") {
     const tf::mesh ball = test::moved(test::ball(3, 1.0), {100, 200, 300});
-    const tf::wrap_result made = wrapped(ball, 0.2, {.precision = tf::precision::float32});
+    const tf::offset_result made = wrapped(ball, 0.2, {.precision = tf::precision::float32});
     for (const tf::point3& p : made.mesh.points)
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(p[k] == static_cast<double>(static_cast<float>(p[k])));

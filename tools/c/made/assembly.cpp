@@ -16,6 +16,7 @@ tf::clash_options glue::read(const treeform_clash_options& o) {
     how.depths = o.depths != 0;
     how.effort = o.effort;
     how.limit = limit(o.limit);
+    how.first_only = o.first_only != 0;
     how.ignored = rows_of<tf::part_pair>(o.ignored, o.ignored_count, "ignored");
 
     how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
@@ -32,6 +33,7 @@ void treeform_clash_options_init(treeform_clash_options* options, size_t size) {
     to.depths = from.depths;
     to.effort = from.effort;
     to.limit = from.limit;
+    to.first_only = from.first_only;
     to.vertices = static_cast<treeform_vertices>(from.vertices);
     glue::init(options, size, to);
 }
@@ -71,30 +73,6 @@ void glue::fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to
     to.ignored = from.ignored;
     to.parts_indexed = from.parts_indexed;
     to.clashes = from.clashes;
-}
-
-tf::pose_options glue::read(const treeform_poses_options* options) {
-    return read(chosen(options, treeform_poses_options_init));
-}
-tf::pose_options glue::read(const treeform_poses_options& o) {
-    tf::pose_options how;
-    how.clearance = o.clearance;
-    how.first_only = o.first_only != 0;
-    how.ignored = rows_of<tf::part_pair>(o.ignored, o.ignored_count, "ignored");
-
-    how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
-    how.progress = progress(o);
-
-    return how;
-}
-
-void treeform_poses_options_init(treeform_poses_options* options, size_t size) {
-    treeform_poses_options to{};
-    const tf::pose_options from;
-    to.clearance = from.clearance;
-    to.first_only = from.first_only;
-    to.vertices = static_cast<treeform_vertices>(from.vertices);
-    glue::init(options, size, to);
 }
 
 static_assert(sizeof(treeform_pose_clash) == sizeof(tf::pose_clash));
@@ -144,7 +122,7 @@ treeform_code treeform_pairs_named(const char* const* names, size_t count, const
 
 treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t count,
                                    const double* poses, size_t pose_count,
-                                   const treeform_poses_options* options,
+                                   const treeform_clash_options* options,
                                    treeform_poses_result** result) {
     return glue::guard([&] {
         glue::start(result);

@@ -1,5 +1,6 @@
 // Made by tools/bindings of cuts.h and the headers of C++: see its README.
 #include <treeform/mesh/cut.hpp>
+#include <treeform/mesh/section.hpp>
 
 #include <tools/c/cuts.hpp>
 #include <tools/c/made/structs.hpp>
@@ -106,8 +107,8 @@ treeform_code treeform_section(const treeform_mesh* mesh, const treeform_plane* 
     return glue::guard([&] {
         glue::start(result);
         return glue::give(
-            glue::section(glue::ref(mesh, "mesh"), glue::plane(plane),
-                          glue::heights(heights, count), glue::progress(progress, progress_data)),
+            tf::section(glue::ref(mesh, "mesh"), glue::plane(plane), glue::heights(heights, count),
+                        glue::progress(progress, progress_data)),
             result);
     });
 }

@@ -20,26 +20,21 @@ static_assert(offsetof(treeform_face_pair, a) == offsetof(tf::face_pair, a));
 static_assert(offsetof(treeform_face_pair, b) == offsetof(tf::face_pair, b));
 static_assert(offsetof(treeform_face_pair, kind) == offsetof(tf::face_pair, kind));
 
-void glue::fill(keeper&, const tf::self_intersection_result& from, treeform_pairs& to) {
+void glue::fill(keeper&, const tf::intersection_result& from, treeform_pairs& to) {
     to.pairs = same<treeform_face_pair>(from.pairs);
     to.count = from.pairs.size();
     std::copy(from.counts.begin(), from.counts.end(), to.counts);
     to.box_pairs = from.box_pairs;
 }
 
-void glue::fill(keeper&, const tf::mesh_intersection_result& from, treeform_pairs& to) {
-    to.pairs = same<treeform_face_pair>(from.pairs);
-    to.count = from.pairs.size();
-    std::copy(from.counts.begin(), from.counts.end(), to.counts);
-    to.box_pairs = from.box_pairs;
+tf::intersection_options glue::read(const treeform_intersections_options* options) {
+    return read(chosen(options, treeform_intersections_options_init));
 }
-
-tf::self_intersection_options glue::read(const treeform_self_intersections_options* options) {
-    return read(chosen(options, treeform_self_intersections_options_init));
-}
-tf::self_intersection_options glue::read(const treeform_self_intersections_options& o) {
-    tf::self_intersection_options how;
+tf::intersection_options glue::read(const treeform_intersections_options& o) {
+    tf::intersection_options how;
     how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    how.move_a = matrix(o.move_a);
+    how.move_b = matrix(o.move_b);
     how.first_only = o.first_only != 0;
     how.kinds = kinds(o.kinds);
 
@@ -51,10 +46,9 @@ tf::self_intersection_options glue::read(const treeform_self_intersections_optio
     return how;
 }
 
-void treeform_self_intersections_options_init(treeform_self_intersections_options* options,
-                                              size_t size) {
-    treeform_self_intersections_options to{};
-    const tf::self_intersection_options from;
+void treeform_intersections_options_init(treeform_intersections_options* options, size_t size) {
+    treeform_intersections_options to{};
+    const tf::intersection_options from;
     to.vertices = static_cast<treeform_vertices>(from.vertices);
     to.first_only = from.first_only;
     to.kinds = TREEFORM_ALL_KINDS;
@@ -77,30 +71,6 @@ void glue::fill(keeper& kept, const tf::intersection_regions& from, treeform_reg
     to.count = from.regions.size();
     to.region_of_pair = or_null(from.region_of_pair);
     to.pair_count = from.region_of_pair.size();
-}
-
-tf::mesh_intersection_options glue::read(const treeform_intersections_options* options) {
-    return read(chosen(options, treeform_intersections_options_init));
-}
-tf::mesh_intersection_options glue::read(const treeform_intersections_options& o) {
-    tf::mesh_intersection_options how;
-    how.move_a = matrix(o.move_a);
-    how.move_b = matrix(o.move_b);
-    how.first_only = o.first_only != 0;
-    how.kinds = kinds(o.kinds);
-    how.limit = limit(o.limit);
-    how.progress = progress(o);
-
-    return how;
-}
-
-void treeform_intersections_options_init(treeform_intersections_options* options, size_t size) {
-    treeform_intersections_options to{};
-    const tf::mesh_intersection_options from;
-    to.first_only = from.first_only;
-    to.kinds = TREEFORM_ALL_KINDS;
-    to.limit = from.limit;
-    glue::init(options, size, to);
 }
 
 static_assert(sizeof(treeform_segment) == sizeof(tf::curve_segment));
@@ -168,7 +138,7 @@ void glue::fill(keeper&, const std::vector<tf::curve_segment>& from, treeform_se
 }
 
 treeform_code treeform_self_intersections(const treeform_mesh* mesh,
-                                          const treeform_self_intersections_options* options,
+                                          const treeform_intersections_options* options,
                                           treeform_pairs** pairs) {
     return glue::guard([&] {
         glue::start(pairs);

@@ -19,8 +19,6 @@ static_assert(TREEFORM_POINT_TO_PLANE == static_cast<int>(tf::align_method::poin
 static_assert(TREEFORM_POINT_TO_POINT == static_cast<int>(tf::align_method::point_to_point));
 static_assert(TREEFORM_ALIGN_AUTOMATIC == static_cast<int>(tf::align_method::automatic));
 static_assert(TREEFORM_PLANE_TO_PLANE == static_cast<int>(tf::align_method::plane_to_plane));
-static_assert(TREEFORM_WEIGHTS_EQUAL == static_cast<int>(tf::align_weights::equal));
-static_assert(TREEFORM_WEIGHTS_WELSCH == static_cast<int>(tf::align_weights::welsch));
 static_assert(TREEFORM_ALIGN_CONVERGED == static_cast<int>(tf::align_end::converged));
 static_assert(TREEFORM_ALIGN_OUT_OF_ITERATIONS ==
               static_cast<int>(tf::align_end::out_of_iterations));
@@ -153,7 +151,7 @@ tf::align_options glue::read(const treeform_align_options& o) {
     tf::align_options how;
     how.method = choice<tf::align_method>(o.method, 4, "method");
     how.overlap = o.overlap;
-    how.weights = choice<tf::align_weights>(o.weights, 2, "weights");
+    how.robust = o.robust != 0;
     how.max_distance = o.max_distance;
     how.scale = o.scale != 0;
     how.least_scale = o.least_scale;
@@ -175,7 +173,7 @@ void treeform_align_options_init(treeform_align_options* options, size_t size) {
     const tf::align_options from;
     to.method = static_cast<treeform_align_method>(from.method);
     to.overlap = from.overlap;
-    to.weights = static_cast<treeform_align_weights>(from.weights);
+    to.robust = from.robust;
     to.max_distance = from.max_distance;
     to.scale = from.scale;
     to.least_scale = from.least_scale;

@@ -6,26 +6,6 @@
 
 namespace tf = treeform;
 
-tf::rounding_options glue::read(const treeform_rounding_options* options) {
-    return read(chosen(options, treeform_rounding_options_init));
-}
-tf::rounding_options glue::read(const treeform_rounding_options& o) {
-    tf::rounding_options how;
-    how.before = choice<tf::precision>(o.before, 2, "before");
-    how.after = choice<tf::precision>(o.after, 2, "after");
-    how.progress = progress(o);
-
-    return how;
-}
-
-void treeform_rounding_options_init(treeform_rounding_options* options, size_t size) {
-    treeform_rounding_options to{};
-    const tf::rounding_options from;
-    to.before = static_cast<treeform_precision>(from.before);
-    to.after = static_cast<treeform_precision>(from.after);
-    glue::init(options, size, to);
-}
-
 void glue::fill(keeper&, const tf::rounding_effects& from, treeform_rounding& to) {
     to.max_displacement = from.max_displacement;
     to.step = from.step;
@@ -142,12 +122,17 @@ treeform_code treeform_coordinate_step(const treeform_mesh* mesh, treeform_preci
 }
 
 treeform_code treeform_rounding_effects(const treeform_mesh* mesh, const double* matrix,
-                                        const double* placed,
-                                        const treeform_rounding_options* options,
+                                        const double* placed, treeform_precision before,
+                                        treeform_precision after, int32_t always_compare,
+                                        treeform_progress progress, void* progress_data,
                                         treeform_rounding** rounding) {
     return glue::guard([&] {
         glue::start(rounding);
-        return glue::give(glue::rounding_effects(mesh, glue::matrix(matrix), placed, options),
-                          rounding);
+        return glue::give(
+            glue::rounding_effects(mesh, glue::matrix(matrix), placed,
+                                   glue::choice<tf::precision>(before, 2, "before"),
+                                   glue::choice<tf::precision>(after, 2, "after"),
+                                   always_compare != 0, glue::progress(progress, progress_data)),
+            rounding);
     });
 }

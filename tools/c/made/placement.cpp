@@ -1,5 +1,4 @@
 // Made by tools/bindings of placement.h and the headers of C++: see its README.
-#include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 
@@ -25,23 +24,48 @@ static_assert(TREEFORM_END_TOO_MANY_STEPS == static_cast<int>(tf::placement_end:
 static_assert(TREEFORM_END_OUT_OF_RANGE == static_cast<int>(tf::placement_end::out_of_range));
 static_assert(TREEFORM_END_CANCELLED == static_cast<int>(tf::placement_end::cancelled));
 
+tf::placement_options glue::read(const treeform_place_options* options) {
+    return read(chosen(options, treeform_place_options_init));
+}
+tf::placement_options glue::read(const treeform_place_options& o) {
+    tf::placement_options how;
+    how.clearance = o.clearance;
+    how.max_travel = given(o.max_travel);
+    how.flip = o.flip != 0;
+    how.max_angle = o.max_angle;
+    how.tolerance = given(o.tolerance);
+    how.max_steps = limit(o.max_steps);
+    how.precision = choice<tf::precision>(o.precision, 2, "precision");
+    how.bed = given(o.bed);
+    how.close_in = o.close_in != 0;
+    how.normals = limit(o.normals);
+    how.face_pairs = limit(o.face_pairs);
+    how.effort = o.effort;
+    how.limit = limit(o.limit);
+    how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    how.progress = progress(o);
+
+    return how;
+}
+
 void treeform_place_options_init(treeform_place_options* options, size_t size) {
     treeform_place_options to{};
+    const tf::placement_options from;
     using namespace glue;
-    to.clearance = tf::slide_options{}.clearance;
+    to.clearance = from.clearance;
     to.max_travel = not_known;
-    to.precision = static_cast<treeform_precision>(tf::slide_options{}.precision);
-    to.bed = not_known;
-    to.close_in = tf::slide_options{}.close_in;
-    to.limit = tf::slide_options{}.limit;
-    to.vertices = static_cast<treeform_vertices>(tf::slide_options{}.vertices);
-    to.normals = tf::separate_options{}.normals;
-    to.face_pairs = tf::separate_options{}.face_pairs;
-    to.effort = tf::separate_options{}.effort;
-    to.max_angle = tf::turn_options{}.max_angle;
+    to.flip = from.flip;
+    to.max_angle = from.max_angle;
     to.tolerance = not_known;
-    to.max_steps = tf::turn_options{}.max_steps;
-    to.flip = tf::feature_mate_options{}.flip;
+    to.max_steps = from.max_steps;
+    to.precision = static_cast<treeform_precision>(from.precision);
+    to.bed = not_known;
+    to.close_in = from.close_in;
+    to.normals = from.normals;
+    to.face_pairs = from.face_pairs;
+    to.effort = from.effort;
+    to.limit = from.limit;
+    to.vertices = static_cast<treeform_vertices>(from.vertices);
     glue::init(options, size, to);
 }
 
@@ -74,23 +98,18 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
     to.contact_listed = from.contacts.size();
     to.contact_count = from.contact_count;
     to.effort = same<treeform_search_effort>(from.effort);
+    to.angle = from.angle;
+    to.tolerance = from.tolerance;
+    to.offset = from.offset;
     to.backed_off = from.statistics.backed_off;
     to.fixed_culled = from.statistics.fixed_culled;
     to.pairs_tested = from.statistics.pairs_tested;
+    to.steps = from.statistics.steps;
     to.message = kept.keep(from.message()).c_str();
 }
 
 void glue::fill(keeper&, const tf::impact& from, treeform_impact& to) {
-    to.end = static_cast<int32_t>(from.end);
-    to.time = from.time;
-    to.contacts = same<treeform_impact_contact>(from.contacts);
-    to.contact_listed = from.contacts.size();
-    to.contact_count = from.contact_count;
-    to.pairs_tested = from.pairs_tested;
-}
-
-void glue::fill(keeper&, const tf::approach& from, treeform_impact& to) {
-    to.end = static_cast<int32_t>(from.end);
+    to.end = static_cast<treeform_placement_end>(from.end);
     to.time = from.time;
     to.contacts = same<treeform_impact_contact>(from.contacts);
     to.contact_listed = from.contacts.size();
@@ -132,8 +151,7 @@ treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* c
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(tf::slide(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
-                                    glue::finite(direction, "direction"),
-                                    glue::read_as<tf::slide_options>(options)),
+                                    glue::finite(direction, "direction"), glue::read(options)),
                           placement);
     });
 }
@@ -144,7 +162,7 @@ treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* co
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(glue::drop(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
-                                     direction, options),
+                                     direction, glue::read(options)),
                           placement);
     });
 }
@@ -155,7 +173,7 @@ treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* co
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(tf::mate(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
-                                   glue::read_as<tf::mate_options>(options)),
+                                   glue::read(options)),
                           placement);
     });
 }
@@ -165,10 +183,9 @@ treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh
                                 treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
-        return glue::give(
-            tf::separate(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
-                         glue::read_as<tf::separate_options>(options)),
-            placement);
+        return glue::give(tf::separate(glue::ref(moving, "moving"),
+                                       glue::refs(fixed, count, "fixed"), glue::read(options)),
+                          placement);
     });
 }
 
@@ -177,11 +194,10 @@ treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* co
                             const treeform_place_options* options, treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
-        return glue::give(
-            glue::turn(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
-                       glue::finite(origin, "origin"), glue::finite(direction, "direction"),
-                       glue::read_as<tf::turn_options>(options)),
-            placement);
+        return glue::give(glue::turn(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
+                                     glue::finite(origin, "origin"),
+                                     glue::finite(direction, "direction"), glue::read(options)),
+                          placement);
     });
 }
 
@@ -194,8 +210,7 @@ treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform
         glue::start(placement);
         return glue::give(
             glue::mate_features(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
-                                of_moving, of_fixed,
-                                glue::read_as<tf::feature_mate_options>(options)),
+                                of_moving, of_fixed, glue::read(options)),
             placement);
     });
 }
@@ -205,10 +220,9 @@ treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform
                                      treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
-        return glue::give(
-            tf::measure_among(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
-                              glue::read_as<tf::measure_among_options>(options)),
-            placement);
+        return glue::give(tf::measure_among(glue::ref(moving, "moving"),
+                                            glue::refs(fixed, count, "fixed"), glue::read(options)),
+                          placement);
     });
 }
 
@@ -241,8 +255,9 @@ treeform_code treeform_time_to_distance(const treeform_mesh* a, const treeform_m
                                         treeform_impact** impact) {
     return glue::guard([&] {
         glue::start(impact);
-        return glue::give(glue::time_to_distance(glue::ref(a, "a"), glue::ref(b, "b"),
-                                                 glue::finite(motion, "motion"), distance, options),
-                          impact);
+        return glue::give(
+            tf::time_to_distance(glue::ref(a, "a"), glue::ref(b, "b"),
+                                 glue::finite(motion, "motion"), distance, glue::read(options)),
+            impact);
     });
 }

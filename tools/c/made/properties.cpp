@@ -174,7 +174,7 @@ treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mes
                                       int32_t any_order, int32_t* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::same_triangles(glue::view(a), glue::view(b), any_order != 0);
+        *result = tf::same_triangles(glue::view(a), glue::view(b), any_order != 0);
     });
 }
 

@@ -25,6 +25,7 @@ tf::offset_options glue::read(const treeform_offset_options* options) {
 tf::offset_options glue::read(const treeform_offset_options& o) {
     tf::offset_options how;
     how.resolution = given(o.resolution);
+    how.offset = given(o.offset);
     how.precision = choice<tf::precision>(o.precision, 2, "precision");
     how.progress = progress(o);
 
@@ -36,6 +37,7 @@ void treeform_offset_options_init(treeform_offset_options* options, size_t size)
     const tf::offset_options from;
     using namespace glue;
     to.resolution = not_known;
+    to.offset = not_known;
     to.precision = static_cast<treeform_precision>(from.precision);
     glue::init(options, size, to);
 }
@@ -49,6 +51,9 @@ void glue::fill(keeper& kept, const tf::offset_result& from, treeform_offset_res
     to.greatest = from.statistics.greatest;
     to.cells = from.statistics.cells;
     to.sealed_cavities = from.statistics.sealed_cavities;
+    to.points = from.statistics.points;
+    to.tetrahedra = from.statistics.tetrahedra;
+    to.filled = from.statistics.filled;
     to.blind_drains = or_null(from.blind_drains);
     to.blind_drain_count = from.blind_drains.size();
 }
@@ -95,24 +100,6 @@ void glue::fill(keeper& kept, const tf::simplify_result& from, treeform_simplify
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
 }
 
-tf::thickness_options glue::read(const treeform_thickness_options* options) {
-    return read(chosen(options, treeform_thickness_options_init));
-}
-tf::thickness_options glue::read(const treeform_thickness_options& o) {
-    tf::thickness_options how;
-    how.by = choice<tf::thickness_by>(o.by, 2, "by");
-    how.progress = progress(o);
-
-    return how;
-}
-
-void treeform_thickness_options_init(treeform_thickness_options* options, size_t size) {
-    treeform_thickness_options to{};
-    const tf::thickness_options from;
-    to.by = static_cast<treeform_thickness_by>(from.by);
-    glue::init(options, size, to);
-}
-
 void glue::fill(keeper&, const tf::thickness_result& from, treeform_thickness_result& to) {
     to.of_face = or_null(from.of_face);
     to.least = from.least;
@@ -139,6 +126,15 @@ void glue::fill(keeper&, const tf::isolines_result& from, treeform_isolines_resu
     to.points = flat(from.points);
     to.point_count = from.points.size();
     to.faces = or_null(from.faces);
+}
+
+treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
+                            const treeform_offset_options* options,
+                            treeform_offset_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(tf::wrap(glue::ref(mesh, "mesh"), size, glue::read(options)), result);
+    });
 }
 
 treeform_code treeform_offset(const treeform_mesh* mesh, double distance,
@@ -185,12 +181,15 @@ treeform_code treeform_simplify(const treeform_mesh* mesh, double max_distance,
     });
 }
 
-treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
-                                      const treeform_thickness_options* options,
+treeform_code treeform_wall_thickness(const treeform_mesh* mesh, treeform_thickness_by by,
+                                      treeform_progress progress, void* progress_data,
                                       treeform_thickness_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(tf::wall_thickness(glue::ref(mesh, "mesh"), glue::read(options)), result);
+        return glue::give(
+            tf::wall_thickness(glue::ref(mesh, "mesh"), glue::choice<tf::thickness_by>(by, 2, "by"),
+                               glue::progress(progress, progress_data)),
+            result);
     });
 }
 

@@ -1,6 +1,5 @@
 // Made by tools/bindings of solids.h and the headers of C++: see its README.
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/repair.hpp>
 
 #include <tools/c/made/structs.hpp>
@@ -117,20 +116,6 @@ void treeform_resolve_options_init(treeform_resolve_options* options, size_t siz
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper& kept, const tf::resolve_result& from, treeform_resolve_result& to) {
-    to.mesh = arrays(from.mesh);
-    to.face_source = or_null(from.face_source);
-    to.vertex_source = or_null(from.vertex_source);
-    to.certificate = &filled<treeform_certificate>(kept, from.certificate);
-    to.vanished_components = from.vanished_components;
-    to.removed = from.statistics.removed;
-    to.covered = from.statistics.covered;
-    to.filled = from.statistics.filled;
-    to.left_open = from.statistics.left_open;
-    to.exact_faces = from.statistics.exact_faces;
-    to.split_vertices = from.statistics.split_vertices;
-}
-
 tf::repair_options glue::read(const treeform_repair_options* options) {
     return read(chosen(options, treeform_repair_options_init));
 }
@@ -198,6 +183,9 @@ void glue::fill(keeper&, const tf::repair_statistics& from, treeform_repair_stat
     to.dropped_area = from.dropped_area;
     to.turned_area = from.turned_area;
     to.removed = from.removed;
+    to.covered = from.covered;
+    to.left_open = from.left_open;
+    to.exact_faces = from.exact_faces;
     to.split_vertices = from.split_vertices;
     to.detached = from.detached;
     to.touching = from.touching;
@@ -242,38 +230,6 @@ void glue::fill(keeper& kept, const tf::solid_defects& from, treeform_solid_defe
     to.wrongly_nested = from.wrongly_nested;
     to.any = from.any();
     to.message = kept.keep(from.message()).c_str();
-}
-
-tf::wrap_options glue::read(const treeform_wrap_options* options) {
-    return read(chosen(options, treeform_wrap_options_init));
-}
-tf::wrap_options glue::read(const treeform_wrap_options& o) {
-    tf::wrap_options how;
-    how.offset = given(o.offset);
-    how.precision = choice<tf::precision>(o.precision, 2, "precision");
-    how.progress = progress(o);
-
-    return how;
-}
-
-void treeform_wrap_options_init(treeform_wrap_options* options, size_t size) {
-    treeform_wrap_options to{};
-    const tf::wrap_options from;
-    using namespace glue;
-    to.offset = not_known;
-    to.precision = static_cast<treeform_precision>(from.precision);
-    glue::init(options, size, to);
-}
-
-void glue::fill(keeper& kept, const tf::wrap_result& from, treeform_wrap_result& to) {
-    to.mesh = arrays(from.mesh);
-    to.certificate = &filled<treeform_certificate>(kept, from.certificate);
-    to.size = from.statistics.size;
-    to.offset = from.statistics.offset;
-    to.area = from.statistics.area;
-    to.points = from.statistics.points;
-    to.tetrahedra = from.statistics.tetrahedra;
-    to.filled = from.statistics.filled;
 }
 
 treeform_code treeform_boolean(const treeform_mesh* const* operands, size_t count,
@@ -385,7 +341,7 @@ treeform_code treeform_split(const treeform_mesh* const* operands, size_t count,
 treeform_code treeform_resolve_self_intersections(const treeform_mesh* mesh,
                                                   treeform_resolve_mode mode,
                                                   const treeform_resolve_options* options,
-                                                  treeform_resolve_result** result) {
+                                                  treeform_repair_result** result) {
     return glue::guard([&] {
         glue::start(result);
         return glue::give(tf::resolve_self_intersections(
@@ -436,13 +392,5 @@ treeform_code treeform_find_solid_defects_of_file(const treeform_file* file,
                                              glue::choice<tf::repair_scope>(scope, 2, "scope"),
                                              glue::progress(progress, progress_data)),
             defects);
-    });
-}
-
-treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
-                            const treeform_wrap_options* options, treeform_wrap_result** result) {
-    return glue::guard([&] {
-        glue::start(result);
-        return glue::give(tf::wrap(glue::ref(mesh, "mesh"), size, glue::read(options)), result);
     });
 }

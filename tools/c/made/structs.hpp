@@ -37,8 +37,6 @@
 namespace glue {
 
 void fill(keeper& kept, const tf::certificate& from, treeform_certificate& to);
-[[nodiscard]] tf::rounding_options read(const treeform_rounding_options* options);
-[[nodiscard]] tf::rounding_options read(const treeform_rounding_options& o);
 void fill(keeper& kept, const tf::rounding_effects& from, treeform_rounding& to);
 void fill(keeper& kept, const tf::mass_properties& from, treeform_mass_properties& to);
 void fill(keeper& kept, const tf::topology_counts& from, treeform_topology& to);
@@ -46,15 +44,11 @@ void fill(keeper& kept, const tf::mesh_defects& from, treeform_defects& to);
 void fill(keeper& kept, const tf::mesh_feature& from, treeform_feature& to);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options* options);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options& o);
-void fill(keeper& kept, const tf::self_intersection_result& from, treeform_pairs& to);
-void fill(keeper& kept, const tf::mesh_intersection_result& from, treeform_pairs& to);
-[[nodiscard]] tf::self_intersection_options read(
-    const treeform_self_intersections_options* options);
-[[nodiscard]] tf::self_intersection_options read(const treeform_self_intersections_options& o);
+void fill(keeper& kept, const tf::intersection_result& from, treeform_pairs& to);
+[[nodiscard]] tf::intersection_options read(const treeform_intersections_options* options);
+[[nodiscard]] tf::intersection_options read(const treeform_intersections_options& o);
 void fill(keeper& kept, const tf::intersection_region& from, treeform_region& to);
 void fill(keeper& kept, const tf::intersection_regions& from, treeform_regions& to);
-[[nodiscard]] tf::mesh_intersection_options read(const treeform_intersections_options* options);
-[[nodiscard]] tf::mesh_intersection_options read(const treeform_intersections_options& o);
 void fill(keeper& kept, const tf::curve_path& from, treeform_path& to);
 void fill(keeper& kept, const tf::curve_network& from, treeform_paths& to);
 [[nodiscard]] tf::stream_search_options read(const treeform_search_file_options* options);
@@ -66,16 +60,12 @@ void fill(keeper& kept, const tf::operand_volumes& from, treeform_volumes& to);
 void fill(keeper& kept, const tf::boolean_result& from, treeform_boolean_result& to);
 [[nodiscard]] tf::resolve_options read(const treeform_resolve_options* options);
 [[nodiscard]] tf::resolve_options read(const treeform_resolve_options& o);
-void fill(keeper& kept, const tf::resolve_result& from, treeform_resolve_result& to);
 [[nodiscard]] tf::repair_options read(const treeform_repair_options* options);
 [[nodiscard]] tf::repair_options read(const treeform_repair_options& o);
 void fill(keeper& kept, const tf::repair_statistics& from, treeform_repair_statistics& to);
 void fill(keeper& kept, const tf::repair_result& from, treeform_repair_result& to);
 void fill(keeper& kept, const tf::repaired_file& from, treeform_repair_result& to);
 void fill(keeper& kept, const tf::solid_defects& from, treeform_solid_defects& to);
-[[nodiscard]] tf::wrap_options read(const treeform_wrap_options* options);
-[[nodiscard]] tf::wrap_options read(const treeform_wrap_options& o);
-void fill(keeper& kept, const tf::wrap_result& from, treeform_wrap_result& to);
 void fill(keeper& kept, const tf::section_result& from, treeform_section_result& to);
 [[nodiscard]] tf::cut_options read(const treeform_cut_options* options);
 [[nodiscard]] tf::cut_options read(const treeform_cut_options& o);
@@ -88,8 +78,6 @@ void fill(keeper& kept, const tf::offset_result& from, treeform_offset_result& t
 [[nodiscard]] tf::simplify_options read(const treeform_simplify_options* options);
 [[nodiscard]] tf::simplify_options read(const treeform_simplify_options& o);
 void fill(keeper& kept, const tf::simplify_result& from, treeform_simplify_result& to);
-[[nodiscard]] tf::thickness_options read(const treeform_thickness_options* options);
-[[nodiscard]] tf::thickness_options read(const treeform_thickness_options& o);
 void fill(keeper& kept, const tf::thickness_result& from, treeform_thickness_result& to);
 void fill(keeper& kept, const tf::oriented_box& from, treeform_oriented_box& to);
 void fill(keeper& kept, const tf::isolines_result& from, treeform_isolines_result& to);
@@ -109,34 +97,11 @@ void fill(keeper& kept, const tf::file_weld_result& from, treeform_weld_result& 
 [[nodiscard]] tf::weld_stream_options read(const treeform_weld_stream_options* options);
 [[nodiscard]] tf::weld_stream_options read(const treeform_weld_stream_options& o);
 void fill(keeper& kept, const tf::weld_stream_result& from, treeform_weld_stream_result& to);
-/// Those of the options that an operation has.
-template <class Options>
-[[nodiscard]] Options read_as(const treeform_place_options* options) {
-    const auto o = chosen(options, treeform_place_options_init);
-    Options how;
-    if constexpr (requires { how.clearance; }) how.clearance = o.clearance;
-    if constexpr (requires { how.max_travel; }) how.max_travel = given(o.max_travel);
-    if constexpr (requires { how.precision; })
-        how.precision = choice<tf::precision>(o.precision, 2, "precision");
-    if constexpr (requires { how.bed; }) how.bed = given(o.bed);
-    if constexpr (requires { how.close_in; }) how.close_in = o.close_in != 0;
-    if constexpr (requires { how.limit; }) how.limit = limit(o.limit);
-    if constexpr (requires { how.vertices; })
-        how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
-    if constexpr (requires { how.progress; }) how.progress = progress(o);
-    if constexpr (requires { how.normals; }) how.normals = limit(o.normals);
-    if constexpr (requires { how.face_pairs; }) how.face_pairs = limit(o.face_pairs);
-    if constexpr (requires { how.effort; }) how.effort = o.effort;
-    if constexpr (requires { how.max_angle; }) how.max_angle = o.max_angle;
-    if constexpr (requires { how.tolerance; }) how.tolerance = given(o.tolerance);
-    if constexpr (requires { how.max_steps; }) how.max_steps = limit(o.max_steps);
-    if constexpr (requires { how.flip; }) how.flip = o.flip != 0;
-    return how;
-}
+[[nodiscard]] tf::placement_options read(const treeform_place_options* options);
+[[nodiscard]] tf::placement_options read(const treeform_place_options& o);
 void fill(keeper& kept, const tf::placement_contact& from, treeform_contact& to);
 void fill(keeper& kept, const tf::placement& from, treeform_placement& to);
 void fill(keeper& kept, const tf::impact& from, treeform_impact& to);
-void fill(keeper& kept, const tf::approach& from, treeform_impact& to);
 [[nodiscard]] tf::impact_options read(const treeform_impact_options* options);
 [[nodiscard]] tf::impact_options read(const treeform_impact_options& o);
 [[nodiscard]] tf::lay_flat_options read(const treeform_lay_flat_options* options);
@@ -154,8 +119,6 @@ void fill(keeper& kept, const tf::align_result& from, treeform_align_result& to)
 void fill(keeper& kept, const tf::contact_region& from, treeform_contact_region& to);
 void fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& to);
 void fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to);
-[[nodiscard]] tf::pose_options read(const treeform_poses_options* options);
-[[nodiscard]] tf::pose_options read(const treeform_poses_options& o);
 void fill(keeper& kept, const tf::named_column& from, treeform_named_column& to);
 void fill(keeper& kept, const tf::io_warning& from, treeform_warning& to);
 void fill(keeper& kept, const tf::column& from, treeform_column& to);

@@ -109,8 +109,12 @@ py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
     return py::cast(file_data(std::move(result)));
 }
 
-py::object carrying::to(const tf::mesh& made, const tf::carried_elements& elements) const {
-    return carried(made, [&](tf::mesh_file& file) { sources_.carry(file, elements); });
+py::object carrying::to(const tf::mesh& made, std::span<const tf::operand_element> face_source,
+                        std::span<const tf::operand_element> vertex_source,
+                        std::span<const tf::operand_element> face_of_cut_vertex) const {
+    return carried(made, [&](tf::mesh_file& file) {
+        sources_.carry(file, face_source, vertex_source, face_of_cut_vertex);
+    });
 }
 
 py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> face_source,

@@ -37,7 +37,10 @@ class carrying {
                                                tf::simplify_options options) const;
 
     /// The attributes of what was made of the operands; None where these have none.
-    [[nodiscard]] py::object to(const tf::mesh& made, const tf::carried_elements& elements) const;
+    [[nodiscard]] py::object to(const tf::mesh& made,
+                                std::span<const tf::operand_element> face_source,
+                                std::span<const tf::operand_element> vertex_source,
+                                std::span<const tf::operand_element> face_of_cut_vertex = {}) const;
     [[nodiscard]] py::object to(const tf::mesh& made, std::span<const std::uint32_t> face_source,
                                 std::span<const std::uint32_t> vertex_source,
                                 std::span<const std::uint32_t> face_of_new_vertex = {},

@@ -232,8 +232,8 @@ py::object data_of(const Result& from, const carrying& attributes) {
     if constexpr (!requires { from.face_source; })
         return py::none();
     else if constexpr (requires { from.face_of_cut_vertex; })
-        return attributes.to(from.mesh,
-                             {from.face_source, from.vertex_source, from.face_of_cut_vertex});
+        return attributes.to(from.mesh, std::span(from.face_source), std::span(from.vertex_source),
+                             std::span(from.face_of_cut_vertex));
     else if constexpr (requires { from.cap; })
         return attributes.to(from.mesh, from.face_source, from.vertex_source, {}, {}, from.cap);
     else if constexpr (requires { from.face_of_new_vertex; })

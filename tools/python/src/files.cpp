@@ -19,7 +19,7 @@ py::object read_by(bool join, const Take& take) {
         if (join && !read.indexed) {
             for (tf::element& e : read.attributes.elements)
                 if (e.name == "vertex")
-                    e = e.gathered(tf::find_equal_points(read.mesh.points).first_of_new);
+                    e = e.gathered(tf::find_equal_points(read.mesh.points).first_of_group);
             read.mesh = tf::join_equal_points(read.mesh);
             read.indexed = true;
         }
@@ -44,11 +44,11 @@ py::object read_bytes(const py::bytes& bytes, const std::string& name, const std
 /// Meshes as the parts of one file.
 py::object scene(const held_meshes& meshes, const std::vector<std::string>& names) {
     std::vector<tf::mesh_file> files;
-    std::vector<tf::scene_member> members;
+    std::vector<const tf::mesh_file*> members;
     for (const held_mesh* one : meshes) files.push_back(file_of(*one));
-    for (std::size_t i = 0; i < files.size(); ++i)
-        members.push_back({.file = &files[i], .name = names[i], .label = names[i]});
-    return mesh_of(run([&](const tf::progress_callback&) { return tf::scene_of(members); }));
+    for (const tf::mesh_file& one : files) members.push_back(&one);
+    return mesh_of(
+        run([&](const tf::progress_callback&) { return tf::scene_of(members, names, names); }));
 }
 
 py::object write(const std::filesystem::path& path, const held_mesh& mesh, bool certified,

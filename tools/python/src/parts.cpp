@@ -95,26 +95,8 @@ py::object object(of_result, tf::curve_network&& from) {
         paths);
 }
 
-py::object object(of_result, tf::rounding_defects&& from) {
+py::object object(of_result, tf::rounding_effects&& from) {
     return py::make_tuple(from.collapsed, from.meeting);
-}
-
-py::object with_fields(tf::placement&& at, const held_mesh& moving,
-                       std::initializer_list<std::pair<const char*, double>> more) {
-    const py::object made = as_python(std::move(at), moving);
-    const py::dict fields = made.attr("__dict__");
-    for (const auto& [name, value] : more) fields[name] = value;
-    return made;
-}
-
-py::object object(of_result, tf::turn_result&& from, const held_mesh& moving) {
-    return with_fields(std::move(from.at), moving,
-                       {{"angle", from.angle}, {"tolerance", from.tolerance}});
-}
-
-py::object object(of_result, tf::feature_mating&& from, const held_mesh& moving) {
-    return with_fields(std::move(from.at), moving,
-                       {{"angle", from.turn_angle}, {"offset", from.offset}});
 }
 
 py::list packed_parts(std::vector<tf::packed_part>&& from, const held_meshes& parts) {

@@ -89,16 +89,10 @@ py::object object(of_result, tf::curve_network&& from);
 
 /// The pieces, the certificate of all, and whether the mesh was resolved.
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes);
-/// As placements with more of their own.
-py::object object(of_result, tf::turn_result&& from, const held_mesh& moving);
-py::object object(of_result, tf::feature_mating&& from, const held_mesh& moving);
 /// Each with its part.
 py::list packed_parts(std::vector<tf::packed_part>&& from, const held_meshes& parts);
 /// The counts, as a pair.
-py::object object(of_result, tf::rounding_defects&& from);
-/// A placement with fields that only its operation has.
-py::object with_fields(tf::placement&& at, const held_mesh& moving,
-                       std::initializer_list<std::pair<const char*, double>> more);
+py::object object(of_result, tf::rounding_effects&& from);
 
 /// `of(pose, clash)` of all clashes, pose after pose.
 template <class Of>

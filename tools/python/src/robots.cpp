@@ -28,11 +28,10 @@ py::array_t<double> poses(const robot_data& of, const std::vector<std::string>& 
     const auto count = static_cast<std::size_t>(values.shape(0));
     py::array_t<double> made({count, of.links.size(), std::size_t{4}, std::size_t{4}});
     double* to = made.mutable_data();
-    std::vector<tf::joint_value> given;
-    for (const std::string& name : joints) given.push_back({name, 0.0});
+    std::map<std::string, double> given;
     for (std::size_t p = 0; p < count; ++p) {
         for (std::size_t j = 0; j < joints.size(); ++j)
-            given[j].value = values.data()[p * joints.size() + j];
+            given[joints[j]] = values.data()[p * joints.size() + j];
         const auto places = of.content.link_transforms(given);
         for (const std::uint32_t link : of.links) {
             for (const auto& row : places[link].rows) to = std::copy(row.begin(), row.end(), to);

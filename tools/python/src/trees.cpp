@@ -1,6 +1,5 @@
-#include "tools/bindings/trees.hpp"
-
 #include "bindings.hpp"
+#include "tools/bindings/box_trees.hpp"
 
 namespace binding {
 namespace {
@@ -64,8 +63,8 @@ class cloud {
         run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
             auto found = search_.all_within(all.subspan(begin, end - begin), radius);
             for (std::size_t q = 0; q < found.size(); ++q) {
-                const std::span list(found.neighbors.data() + found.begin[q],
-                                     found.neighbors.data() + found.begin[q + 1]);
+                const std::span list(found.answers.data() + found.begin[q],
+                                     found.answers.data() + found.begin[q + 1]);
                 if (by_number) std::ranges::sort(list, {}, [](const auto& one) { return one.id; });
                 for (const auto& one : list) {
                     ids.push_back(one.id);

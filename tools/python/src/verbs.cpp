@@ -84,7 +84,7 @@ py::object concatenate(const held_meshes& meshes) {
         for (std::uint32_t f = 0; f < views[i].faces.size(); ++f) faces.push_back({i, f});
         for (std::uint32_t v = 0; v < views[i].points.size(); ++v) vertices.push_back({i, v});
     }
-    const py::object data = attributes.to(made, {faces, vertices});
+    const py::object data = attributes.to(made, faces, vertices);
     return mesh_object(std::move(made), py::none(), data);
 }
 
@@ -94,7 +94,8 @@ py::object join_equal_points(const held_mesh& mesh) {
     const carrying attributes({&mesh});
     std::vector<std::uint32_t> first, faces(mesh.view().faces.size());
     tf::mesh joined = run([&](const tf::progress_callback&) {
-        if (!mesh.data().is_none()) first = tf::find_equal_points(mesh.view().points).first_of_new;
+        if (!mesh.data().is_none())
+            first = tf::find_equal_points(mesh.view().points).first_of_group;
         return tf::join_equal_points(mesh.view());
     });
     std::iota(faces.begin(), faces.end(), 0U);
@@ -143,11 +144,12 @@ py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
     const rays all(origins, directions, t_min, t_max);
     std::vector<numbered_hit> hits;
     run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-        const tf::mesh_hits found = tf::raycast_all(mesh.prepared(), all.piece(begin, end));
+        const tf::answer_lists<tf::mesh_hit> found =
+            tf::raycast_all(mesh.prepared(), all.piece(begin, end));
         for (std::size_t i = 0; i + 1 < found.begin.size(); ++i)
             for (std::size_t h = found.begin[i]; h < found.begin[i + 1]; ++h)
-                hits.push_back({finite(found.hits[h].t, i), static_cast<std::uint32_t>(begin + i),
-                                found.hits[h].face});
+                hits.push_back({finite(found.answers[h].t, i),
+                                static_cast<std::uint32_t>(begin + i), found.answers[h].face});
     });
     return py::make_tuple(column(hits, &numbered_hit::t), column(hits, &numbered_hit::ray),
                           column(hits, &numbered_hit::face));
@@ -164,7 +166,7 @@ std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
                                     std::to_string(b.size()) + " of b");
     std::vector<tf::mesh_positions> all(a.size() == 1 ? b.size() : a.size());
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = {a[a.size() == 1 ? 0 : i], b[b.size() == 1 ? 0 : i]};
+        all[i] = {.move_a = a[a.size() == 1 ? 0 : i], .move_b = b[b.size() == 1 ? 0 : i]};
     return all;
 }
 
@@ -187,9 +189,10 @@ py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<doub
 
 py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
                    const array_of<double>& move_b, double radius) {
-    const auto all = positions_of(move_a, move_b);
+    auto all = positions_of(move_a, move_b);
+    for (tf::mesh_positions& one : all) one.radius = radius;
     return as_array<double>(in_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-        return tf::distance(a.prepared(), b.prepared(), some_of(all, begin, end), radius);
+        return tf::distance(a.prepared(), b.prepared(), some_of(all, begin, end));
     }));
 }
 

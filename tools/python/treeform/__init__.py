@@ -44,7 +44,8 @@ from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, WrapRes
 from ._results import Certificate
 from ._robots import Joint, Robot, read_urdf
 from ._shapes import (Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness,
-                      hollow, isolines, offset, oriented_box, simplify, thicken, wall_thickness)
+                      hollow, isolines, offset, oriented_box, simplify, thicken, wall_thickness,
+                      wrap)
 from ._show import Picture, View, plot, show
 from ._threads import thread_count, threads
 from ._trees import BoxTree, Neighbors, PointTree
@@ -75,7 +76,7 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "section", "self_intersections", "self_intersections_of_file", "separate", "show",
            "signed_distance", "simplify", "slide", "split", "submesh", "symmetric_difference",
            "thicken", "thread_count", "threads", "time_of_impact", "transformed", "turn", "union",
-           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write"]
+           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "wrap", "write"]
 # end
 
 __version__: str = _core.version()

@@ -115,7 +115,7 @@ class PoseClashes(Result):
         return bad
 
 
-def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.PoseOptions,
+def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOptions,
                      ignored: PartPairs, progress: Progress) -> PoseClashes:
     """`check_poses`, of all parts or of the first."""
     bodies = _held(parts)
@@ -340,7 +340,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     poses: (P, N, 4, 4) an affine map for each of the N parts, or (P, 4, 4) for a single one beside
         parts that stay: then it moves the first.
     clearance: Parts that are nearer than this are too close.
-    first_only: Name only the first clash of each pose.
+    first_only: `check_poses`: only the first clash of each pose.
     vertices: 'by_coordinates' or 'by_index'. As in `measure`.
     ignored: pairs of numbers of parts that are not looked at.
 
@@ -361,6 +361,6 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     >>> found.in_collision(3)
     array([ True, False, False])
     """
-    how = options(_core.PoseOptions, locals())
+    how = options(_core.ClashOptions, locals())
     return clashes_in_poses(parts, poses, how, ignored, progress)
 # end

@@ -41,8 +41,6 @@ from ._properties import SolidDefects
 from ._properties import Topology
 from ._repair import ConvexHull
 from ._repair import RepairResult
-from ._repair import ResolveResult
-from ._repair import WrapResult
 from ._results import Certificate
 from ._robots import Joint
 from ._robots import Robot
@@ -235,11 +233,6 @@ class CutOptions:
     def __init__(self, *, precision: str = ..., max_displacement: float = ...,
                  caps: bool = ...) -> None: ...
 
-class ComponentsOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, min_volume: float = ..., largest: Optional[int] = ...) -> None: ...
-
 class ResolveOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
@@ -255,15 +248,11 @@ class RepairOptions:
                  max_loss: float = ..., sheet: bool = ..., precision: str = ...,
                  max_displacement: float = ..., keep_cuts: bool = ...) -> None: ...
 
-class WrapOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, offset: Optional[float] = ..., precision: str = ...) -> None: ...
-
 class OffsetOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, resolution: Optional[float] = ..., precision: str = ...) -> None: ...
+    def __init__(self, *, resolution: Optional[float] = ..., offset: Optional[float] = ...,
+                 precision: str = ...) -> None: ...
 
 class SimplifyOptions:
     names: tuple[str, ...]
@@ -271,28 +260,18 @@ class SimplifyOptions:
     def __init__(self, *, precision: str = ..., target_faces: Optional[int] = ...,
                  feature_angle: float = ...) -> None: ...
 
-class ThicknessOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, by: str = ...) -> None: ...
-
 class FeatureOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, tolerance: Optional[float] = ..., plane_angle: float = ...,
                  facet_angle: float = ..., arc: float = ...) -> None: ...
 
-class SelfIntersectionOptions:
+class IntersectionOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, vertices: str = ..., first_only: bool = ...,
-                 kinds: Optional[list[str]] = ..., limit: Optional[int] = ...) -> None: ...
-
-class MeshIntersectionOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, move_a: Floats = ..., move_b: Floats = ..., first_only: bool = ...,
-                 kinds: Optional[list[str]] = ..., limit: Optional[int] = ...) -> None: ...
+    def __init__(self, *, vertices: str = ..., move_a: Floats = ..., move_b: Floats = ...,
+                 first_only: bool = ..., kinds: Optional[list[str]] = ...,
+                 limit: Optional[int] = ...) -> None: ...
 
 class StreamSearchOptions:
     names: tuple[str, ...]
@@ -319,42 +298,13 @@ class WeldStreamOptions:
                  keep_degenerate: bool = ..., as_las: bool = ..., memory: Optional[int] = ...,
                  folder: str = ..., points_per_tile: Optional[int] = ...) -> None: ...
 
-class SlideOptions:
+class PlacementOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, clearance: float = ..., max_travel: Optional[float] = ...,
-                 precision: str = ..., bed: Optional[float] = ...) -> None: ...
-
-class DropOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., max_travel: Optional[float] = ...,
+                 flip: bool = ..., max_angle: float = ..., tolerance: Optional[float] = ...,
                  precision: str = ..., bed: Optional[float] = ...,
-                 direction: Floats = ...) -> None: ...
-
-class MateOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., max_travel: Optional[float] = ...,
-                 precision: str = ...) -> None: ...
-
-class SeparateOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., max_travel: Optional[float] = ...,
-                 precision: str = ..., effort: Optional[int] = ...) -> None: ...
-
-class TurnOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., max_angle: float = ...,
-                 tolerance: Optional[float] = ..., precision: str = ...) -> None: ...
-
-class FeatureMateOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., flip: bool = ...,
-                 precision: str = ...) -> None: ...
+                 effort: Optional[int] = ...) -> None: ...
 
 class MeasureOptions:
     names: tuple[str, ...]
@@ -382,7 +332,7 @@ class LayFlatOptions:
 class AlignOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, method: str = ..., overlap: float = ..., weights: str = ...,
+    def __init__(self, *, method: str = ..., overlap: float = ..., robust: bool = ...,
                  max_distance: float = ..., scale: bool = ..., least_scale: float = ...,
                  most_scale: float = ..., max_iterations: Optional[int] = ...,
                  tolerance: float = ..., starts: Optional[int] = ..., samples: Optional[int] = ...,
@@ -406,12 +356,7 @@ class ClashOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, clearance: float = ..., volumes: bool = ..., depths: bool = ...,
-                 limit: Optional[int] = ..., vertices: str = ...) -> None: ...
-
-class PoseOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, clearance: float = ..., first_only: bool = ...,
+                 limit: Optional[int] = ..., first_only: bool = ...,
                  vertices: str = ...) -> None: ...
 # end
 
@@ -433,7 +378,7 @@ def cut_to_fit(mesh: HeldMesh, size: Floats, options: CutOptions,
                progress: Watched = ...) -> CutPieces: ...
 def cut_along(mesh: HeldMesh, values: Floats, levels: Floats,
               progress: Watched = ...) -> CutPieces: ...
-def components(mesh: HeldMesh, options: ComponentsOptions,
+def components(mesh: HeldMesh, min_volume: float, largest: int,
                progress: Watched = ...) -> list[MeshPart]: ...
 def submesh(mesh: HeldMesh, faces: Ids, progress: Watched = ...) -> MeshPart: ...
 def mass_properties(mesh: HeldMesh, progress: Watched = ...) -> Optional[MassProperties]: ...
@@ -446,16 +391,15 @@ def thicken(mesh: HeldMesh, thickness: float, side: str, options: OffsetOptions,
             progress: Watched = ...) -> OffsetResult: ...
 def simplify(mesh: HeldMesh, max_distance: float, face_groups: Ids, options: SimplifyOptions,
              progress: Watched = ...) -> SimplifyResult: ...
-def wall_thickness(mesh: HeldMesh, options: ThicknessOptions,
-                   progress: Watched = ...) -> Thickness: ...
+def wall_thickness(mesh: HeldMesh, by: str, progress: Watched = ...) -> Thickness: ...
 def oriented_box(points: Floats, progress: Watched = ...) -> Optional[OrientedBox]: ...
 def isolines(mesh: HeldMesh, values: Floats, levels: Floats,
              progress: Watched = ...) -> Isolines: ...
 def resolve_self_intersections(mesh: HeldMesh, mode: str, options: ResolveOptions,
-                               progress: Watched = ...) -> ResolveResult: ...
+                               progress: Watched = ...) -> RepairResult: ...
 def repair(mesh: HeldMesh, options: RepairOptions, progress: Watched = ...) -> RepairResult: ...
-def wrap(mesh: HeldMesh, size: float, options: WrapOptions,
-         progress: Watched = ...) -> WrapResult: ...
+def wrap(mesh: HeldMesh, size: float, options: OffsetOptions,
+         progress: Watched = ...) -> OffsetResult: ...
 def convex_hull(points: Floats, progress: Watched = ...) -> ConvexHull: ...
 def rounded(points: Floats, precision: str, progress: Watched = ...) -> Floats: ...
 def find_rounding_defects(mesh: HeldMesh, placed: Floats,
@@ -471,9 +415,9 @@ def count_inside_out(mesh: HeldMesh, progress: Watched = ...) -> int: ...
 def find_features(mesh: HeldMesh, kind: str, options: FeatureOptions,
                   progress: Watched = ...) -> list[Feature]: ...
 def find_solid_defects(mesh: HeldMesh, progress: Watched = ...) -> SolidDefects: ...
-def self_intersections(mesh: HeldMesh, options: SelfIntersectionOptions,
+def self_intersections(mesh: HeldMesh, options: IntersectionOptions,
                        progress: Watched = ...) -> FacePairs: ...
-def mesh_intersections(a: HeldMesh, b: HeldMesh, options: MeshIntersectionOptions,
+def mesh_intersections(a: HeldMesh, b: HeldMesh, options: IntersectionOptions,
                        progress: Watched = ...) -> FacePairs: ...
 def faces_in_box(mesh: HeldMesh, min: Floats, max: Floats, progress: Watched = ...) -> Ids: ...
 def group_pairs(mesh: HeldMesh, pairs: Ids, kinds: Bytes,
@@ -493,16 +437,16 @@ def deviation(a: HeldMesh, b: HeldMesh, options: DeviationOptions,
               progress: Watched = ...) -> Optional[Deviation]: ...
 def locate_points(mesh: HeldMesh, points: Floats,
                   progress: Watched = ...) -> tuple[Bytes, NDArray[np.int32]]: ...
-def slide(moving: HeldMesh, onto: Sequence[HeldMesh], direction: Floats, options: SlideOptions,
+def slide(moving: HeldMesh, onto: Sequence[HeldMesh], direction: Floats, options: PlacementOptions,
           progress: Watched = ...) -> Placement: ...
-def drop(moving: HeldMesh, onto: Sequence[HeldMesh], options: DropOptions,
+def drop(moving: HeldMesh, onto: Sequence[HeldMesh], direction: Floats, options: PlacementOptions,
          progress: Watched = ...) -> Placement: ...
-def mate(moving: HeldMesh, onto: Sequence[HeldMesh], options: MateOptions,
+def mate(moving: HeldMesh, onto: Sequence[HeldMesh], options: PlacementOptions,
          progress: Watched = ...) -> Placement: ...
-def separate(moving: HeldMesh, fixed: Sequence[HeldMesh], options: SeparateOptions,
+def separate(moving: HeldMesh, fixed: Sequence[HeldMesh], options: PlacementOptions,
              progress: Watched = ...) -> Placement: ...
 def turn(moving: HeldMesh, fixed: Sequence[HeldMesh], axis: Floats, origin: Floats,
-         options: TurnOptions, progress: Watched = ...) -> Placement: ...
+         options: PlacementOptions, progress: Watched = ...) -> Placement: ...
 def measure(a: HeldMesh, b: HeldMesh, options: MeasureOptions,
             progress: Watched = ...) -> Optional[Measure]: ...
 def penetration_depth(a: HeldMesh, b: HeldMesh, options: DepthOptions,
@@ -514,7 +458,7 @@ def lay_flat(mesh: HeldMesh, options: LayFlatOptions,
 def align(moving: HeldMesh, onto: HeldMesh, options: AlignOptions,
           progress: Watched = ...) -> Alignment: ...
 def mate_features(moving: HeldMesh, onto: Sequence[HeldMesh], of_moving: Feature, of_fixed: Feature,
-                  options: FeatureMateOptions, progress: Watched = ...) -> Placement: ...
+                  options: PlacementOptions, progress: Watched = ...) -> Placement: ...
 def pack(parts: Sequence[HeldMesh], options: PackOptions, progress: Watched = ...) -> Packing: ...
 def intersects(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats,
                progress: Watched = ...) -> Bytes: ...
@@ -524,6 +468,6 @@ def closest_points(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats, rad
                    progress: Watched = ...) -> Optional[NearestPoints]: ...
 def clash_parts(parts: Sequence[HeldMesh], options: ClashOptions, ignored: Ids,
                 progress: Watched = ...) -> ClashResult: ...
-def clash_in_poses(parts: Sequence[HeldMesh], poses: Floats, options: PoseOptions, ignored: Ids,
+def clash_in_poses(parts: Sequence[HeldMesh], poses: Floats, options: ClashOptions, ignored: Ids,
                    progress: Watched = ...) -> PoseClashes: ...
 # end

@@ -338,16 +338,16 @@ class MeshPart(MeshResult):
     area: float
 
 
-def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None = None,
+def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
                progress: Progress = None) -> list[MeshPart]:
     """The faces that corners link, as meshes, in the order of their lowest faces. Corners with
     equal coordinates are one. A closed part that is inside out is a cavity, and goes with the
     smallest closed part that it is in, if any. Volumes count without their sign, those of open
-    parts as 0.
+    parts as 0. Parts with less than `min_volume`, in cubic units, are left out; `largest` parts of
+    the greatest volume are kept, of equal ones those of the greatest area; 0: all.
 
-    min_volume: Parts with less are left out, in cubic units. Not negative.
-    largest: So many parts of the greatest volume are kept; of equal ones, those of the greatest
-        area.
+    min_volume: of parts, in cubic units.
+    largest: how many; 0: all.
 
     Raises ValueError naming the lowest face with a corner out of range, and for a `min_volume` that
     is negative or NaN.
@@ -359,8 +359,7 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int | None =
     >>> [part.mesh for part in spheres]
     [Mesh(162 vertices, 320 faces), Mesh(162 vertices, 320 faces)]
     """
-    how = options(_core.ComponentsOptions, locals())
-    return _core.components(held(mesh), how, progress=progress)
+    return _core.components(held(mesh), min_volume, largest, progress=progress)
 
 
 def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> MeshPart:

@@ -156,15 +156,14 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
     segment or point that it is; its pairs have a kind of their own.
 
-    vertices: 'by_coordinates' or 'by_index'. Which corners two faces share: those with equal
-        coordinates, or with the same number.
-    first_only: Stop at the first pair found: the same pair on any number of threads.
+    vertices: 'by_coordinates' or 'by_index'. `self_intersections`: which corners two faces share.
+    first_only: Stop at the first pair: the same on any number of threads.
     kinds: those to look for, of `KINDS`; None is all. 'crossing': interiors pass through each
         other, no shared corner; 'pierce': the same with one shared corner; 'overlap': coplanar,
         with a common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the
         same three corners; 'touching': contact without crossing; 'degenerate': one of them has no
         area.
-    limit: List at most this many pairs, those of the lowest face numbers. All are counted.
+    limit: Lowest pairs listed; all are counted.
 
     Cost: O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face.
 
@@ -173,7 +172,7 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     >>> treeform.self_intersections(m)
     FacePairs(pairs=uint32[78, 2], kinds=uint8[78], counts={'crossing': 78})
     """
-    how = options(_core.SelfIntersectionOptions, locals())
+    how = options(_core.IntersectionOptions, locals())
     return _core.self_intersections(held(mesh), how, progress=progress)
 
 
@@ -191,9 +190,9 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
 
     move_a: (4, 4) an affine map of `a`, applied first.
     move_b: (4, 4) the same of `b`.
-    first_only: Stop at the first pair found: the same pair on any number of threads.
+    first_only: Stop at the first pair: the same on any number of threads.
     kinds: those to look for, of `KINDS`; None is all.
-    limit: List at most this many pairs, those of the lowest face numbers. All are counted.
+    limit: Lowest pairs listed; all are counted.
 
     Raises ValueError when a transform is not finite, or naming the mesh and its face with a corner
     out of range or, as moved, not finite.
@@ -207,7 +206,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     >>> treeform.mesh_intersections(a, b).counts["crossing"]
     6
     """
-    how = options(_core.MeshIntersectionOptions, locals())
+    how = options(_core.IntersectionOptions, locals())
     return _core.mesh_intersections(held(a), held(b), how, progress=progress)
 
 

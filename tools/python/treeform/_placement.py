@@ -67,8 +67,8 @@ class Placement(MeshResult):
     """Where a mesh goes. True where it has a place; else `message` says why not.
 
     mesh: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
-    matrix: (4, 4) new = M * old: a translation. `points` are moved by it and rounded once, except
-        for those that are set on the bed.
+    matrix: (4, 4) new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points`
+        are moved by it and rounded once, except for those that are set on the bed.
     end: Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', 'nothing_met', 'too_far',
         'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
         'no_coordinates', 'too_many_steps', 'out_of_range'.
@@ -84,9 +84,10 @@ class Placement(MeshResult):
     certificate: What was checked about the coordinates.
     effort: Of `separate`: what its search took. Where some of its questions were cut, a shorter way
         may exist; without a place, one that was not found.
-    angle: Of `turn` and `mate_features`: in degrees.
-    tolerance: Of `turn`: the gap beyond the clearance that counts as contact.
-    offset: Of `mate_features`: how far the center of the moving feature ended from the fixed one.
+    angle: Of `turn` and `mate_features`: in degrees, of the turn.
+    tolerance: Of `turn`: the gap, beyond the clearance, that counts as contact.
+    offset: Of `mate_features`: how far the center of the moving feature ended from that of the
+        fixed one, along the direction of the fixed one. Of planes: their distance.
     """
 
     mesh: Mesh
@@ -102,9 +103,9 @@ class Placement(MeshResult):
     nearest: tuple[int, Measure] | None
     certificate: Certificate
     effort: SearchEffort
-    angle: float = 0.0
-    tolerance: float = 0.0
-    offset: float = 0.0
+    angle: float
+    tolerance: float
+    offset: float
 
     def __bool__(self) -> bool:
         return bool(self.certificate)
@@ -174,7 +175,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
-    bed: Z of a bed, which also stops the mesh. Points that rest on it have exactly its z (with
+    bed: z of a bed, which also stops the mesh: points that rest on it have exactly its z (with
         float32, the least one not below it), and no point is below.
 
     Raises ValueError for a direction that is zero or not finite, a clearance that is negative or
@@ -190,23 +191,23 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     >>> bool(seated), seated.travel, seated.at_place
     (True, 4.0, 'touching')
     """
-    how = options(_core.SlideOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.slide(held_body(moving), bodies(onto), _arrays.vector(direction, "direction"), how,
                        progress=progress)
 
 
-def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0, max_travel: float | None = None,
-         precision: str = "float64", bed: float | None = None,
-         direction: ArrayLike = (0.0, 0.0, -1.0), progress: Progress = None) -> Placement:
+def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
+         clearance: float = 0.0, max_travel: float | None = None, precision: str = "float64",
+         bed: float | None = None, progress: Progress = None) -> Placement:
     """Moves `moving` down until it rests on the bed. From below the bed it goes up, back along the
     direction.
 
     onto: a fixed body, or a list of them.
+    direction: (3,) of any length, downward.
     clearance: As of `slide`.
     max_travel: As of `slide`.
     precision: As of `slide`.
-    bed: Z of the bed. None: 0 without fixed meshes, no bed with them.
-    direction: (3,) has to lead down.
+    bed: z of the bed; without fixed bodies, there is one at 0.
 
     Raises ValueError as `slide`, and for a direction that does not lead down.
 
@@ -218,8 +219,9 @@ def drop(moving: Body, onto: Any = None, *, clearance: float = 0.0, max_travel: 
     >>> low.travel, low.mesh.bounds[:, 2].tolist()
     (3.25, [0.0, 1.0])
     """
-    how = options(_core.DropOptions, locals())
-    return _core.drop(held_body(moving), bodies(onto), how, progress=progress)
+    how = options(_core.PlacementOptions, locals())
+    return _core.drop(held_body(moving), bodies(onto), _arrays.vector(direction, "direction"), how,
+                      progress=progress)
 
 
 def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
@@ -230,7 +232,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
 
     onto: a fixed body, or a list of them.
     clearance: The gap to leave, a distance; 0: until contact.
-    max_travel: A length.
+    max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError as `slide`.
@@ -242,7 +244,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     >>> treeform.mate((cube.vertices + [0, 3, 0], cube.faces), cube).travel
     2.0
     """
-    how = options(_core.MateOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.mate(held_body(moving), bodies(onto), how, progress=progress)
 
 
@@ -258,10 +260,10 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     places that take much of it, as that of `penetration_depth` does: `Placement.effort` says so.
 
     fixed: a fixed body, or a list of them.
-    clearance: The least distance wanted; 0: only not to penetrate.
-    max_travel: A length.
+    clearance: The gap to leave, a distance; 0: until contact.
+    max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
-    effort: Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20
+    effort: pairs of faces that the search may look at, a pair in motion counting as two; 0: 20
         million and 200 for each face. Distances for a clearance do not count.
 
     Raises ValueError as `slide`.
@@ -275,13 +277,14 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     >>> apart.travel, apart.at_start, apart.at_place
     (0.25, 'penetrating', 'touching')
     """
-    how = options(_core.SeparateOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.separate(held_body(moving), bodies(fixed), how, progress=progress)
 
 
 def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
-         clearance: float = 0.0, max_angle: float = 360.0, tolerance: float | None = None,
-         precision: str = "float64", progress: Progress = None) -> Placement:
+         clearance: float = 0.0, max_travel: float | None = None, max_angle: float = 360.0,
+         tolerance: float | None = None, precision: str = "float64",
+         progress: Progress = None) -> Placement:
     """Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or
     of the clearance from one.
 
@@ -293,14 +296,19 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     `nothing_met`, all of `max_angle` is free. With `too_many_steps` it was not found out: something
     is passed at a distance that is very small against the size, over a long way.
 
+    `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
+    coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
+    `at_place` is exact: separate, in general, by no more than the tolerance.
+
     Points that no face uses turn along and are otherwise ignored.
 
     fixed: a fixed body, or a list of them.
     axis: (3,) of any length.
     origin: (3,) a point of the axis.
     clearance: The gap to leave, a distance; 0: until contact.
-    max_angle: In degrees; greater than 0, up to 360.
-    tolerance: The gap, beyond the clearance, that counts as contact; greater than 0. None: 2^-32 of
+    max_travel: A length; whatever is further along is ignored.
+    max_angle: in degrees; greater than 0, up to 360.
+    tolerance: the gap, beyond the clearance, that counts as contact; greater than 0. None: 2^-32 of
         the largest distance of a point from the axis.
     precision: 'float32' or 'float64'. Of the points returned.
 
@@ -317,14 +325,14 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     >>> bool(door), 0 < door.angle < 180
     (True, True)
     """
-    how = options(_core.TurnOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.turn(held_body(moving), bodies(fixed), _arrays.vector(axis, "axis"),
                       _arrays.vector(origin, "origin"), how, progress=progress)
 
 
 def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
-                  clearance: float = 0.0, flip: bool = False, precision: str = "float64",
-                  progress: Progress = None) -> Placement:
+                  clearance: float = 0.0, max_travel: float | None = None, flip: bool = False,
+                  precision: str = "float64", progress: Progress = None) -> Placement:
     """Turns `moving` by the least angle that makes the two features' directions opposite (planes)
     or parallel (axes), puts center above center, and slides it from outside along the direction of
     the fixed feature until first contact with any of `onto`, or the clearance, exactly as `slide`
@@ -333,13 +341,14 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
 
     A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
     that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
-    coordinates returned.
+    coordinates returned. `travel` is 0.
 
     onto: a fixed body, or a list of them.
     of_moving: a plane or an axis of `find_features`.
     of_fixed: one of the same kind.
     clearance: The gap to leave, a distance; 0: until contact.
-    flip: Planes look the same way rather than at each other; axes are turned around.
+    max_travel: A length; whatever is further along is ignored.
+    flip: planes look the same way rather than at each other; axes are turned around.
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError for features of two kinds, or with a direction that is not of length 1 or an
@@ -354,7 +363,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     >>> treeform.mate_features(other, cube, side, top).at_place
     'touching'
     """
-    how = options(_core.FeatureMateOptions, locals())
+    how = options(_core.PlacementOptions, locals())
     return _core.mate_features(held_body(moving), bodies(onto),
                                need(of_moving, "of_moving", Feature),
                                need(of_fixed, "of_fixed", Feature), how, progress=progress)
@@ -484,7 +493,7 @@ class Alignment(MeshResult):
 
 
 def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False,
-          method: str = "automatic", overlap: float = 1.0, weights: str = "welsch",
+          method: str = "automatic", overlap: float = 1.0, robust: bool = True,
           max_distance: float = np.inf, max_iterations: int = 100, tolerance: float = 1e-6,
           starts: int = 1, samples: int = 100_000, start: ArrayLike | None = None,
           precision: str = "float64", progress: Progress = None) -> Alignment:
@@ -517,7 +526,10 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     method: 'point_to_plane', 'point_to_point', 'automatic' or 'plane_to_plane'.
     overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share,
         the nearest ones, and ignores the rest.
-    weights: 'equal' or 'welsch'.
+    robust: Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
+        medians of the distances at the start, v is halved down to where a third of the points is
+        within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
+        no partner, and nobody needs to say how many. Otherwise all count alike.
     max_distance: Ignore partners further apart. Not squared, not negative.
     max_iterations: From each start.
     tolerance: Converged when in 5 steps in a row the cost falls by less than this share of itself,
@@ -660,7 +672,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     than `radius`. The relation is exact, and so is whether a distance is 0. Other distances are
     rounded as `distance` says.
 
-    radius: Inclusive.
+    radius: Of `measure`; inclusive.
     vertices: 'by_coordinates': corners with equal coordinates are shared; 'by_index': those with
         the same number.
 
@@ -732,9 +744,9 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
 class Impact(NamedTuple):
     """The first contact of two meshes in motion.
 
-    end: 'free', 'contact' or 'at_start'.
+    end: 'nothing_met', 'contact' or 'starts_touching'.
     time: The greatest double that is not beyond the exact time t of the contact: `a` moved by
-        `time` times the motion has not passed it. 0 when `end` is at_start.
+        `time` times the motion has not passed it. 0 when they meet at the start.
     faces: (n, 2) the faces of `a` and `b` that meet at that time.
     points: (n, 3) a common point of each pair, rounded.
     """

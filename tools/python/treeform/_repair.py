@@ -1,4 +1,4 @@
-"""Meshes mended, wrapped, rounded."""
+"""Meshes mended and rounded."""
 
 from __future__ import annotations
 
@@ -16,9 +16,8 @@ from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
 from ._results import Certificate, Result
 
-__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "ResolveResult", "WrapResult", "convex_hull",
-           "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",
-           "rounded", "wrap"]
+__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "convex_hull", "find_rounding_defects",
+           "join_equal_points", "repair", "resolve_self_intersections", "rounded"]
 # end
 
 
@@ -74,22 +73,8 @@ class ConvexHull(Result):
 
 
 # made of headers:
-#   ResolveResult RepairResult WrapResult resolve_self_intersections repair wrap convex_hull
-#   rounded find_rounding_defects join_equal_points
-@dataclass(frozen=True, repr=False)
-class ResolveResult(MadeMesh):
-    """A mesh without self-intersections.
-
-    face_source: (F',) input face, lowest of those merged, or `NONE`.
-    vertex_source: (V',) input vertex that each is, or `NONE`.
-    statistics: Counts of what was done.
-    """
-
-    face_source: Ids
-    vertex_source: Ids
-    statistics: dict[str, Any]
-
-
+#   RepairResult resolve_self_intersections repair convex_hull rounded find_rounding_defects
+#   join_equal_points
 @dataclass(frozen=True, repr=False)
 class RepairResult(MadeMesh):
     """A mended mesh.
@@ -107,21 +92,11 @@ class RepairResult(MadeMesh):
     steps: dict[str, Any]
 
 
-@dataclass(frozen=True, repr=False)
-class WrapResult(MadeMesh):
-    """A closed surface around a mesh.
-
-    statistics: What it took.
-    """
-
-    statistics: dict[str, Any]
-
-
 def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: str = "nonzero",
                                precision: str = "float64", max_displacement: float = np.inf,
                                keep_cuts: bool = False, touching: bool = False,
                                max_loss: float = 0.05, check: bool = True,
-                               progress: Progress = None) -> ResolveResult:
+                               progress: Progress = None) -> RepairResult:
     """`mesh` without self-intersections. Look at the certificate: it says whether this was
     possible.
 
@@ -223,40 +198,6 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     return checked(_core.repair(held(mesh), how, progress=progress), check, of_one=True)
 
 
-def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
-         check: bool = True, progress: Progress = None) -> WrapResult:
-    """A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
-    no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters no
-    hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills cavities
-    that nothing leads to. A smaller size follows the mesh more closely, with more faces, some area
-    / `size`^2 of them.
-
-    No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
-    coordinates of both. The distance of its vertices is met as far as rounding allows.
-
-    offset: How far the vertices of the wrap are from the mesh, in its length unit; where it is not
-        given, a thirtieth of the size.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    check: False returns what could not be certified, too, with its `certificate`.
-
-    Raises NotCertifiedError where the result could not be certified; ValueError naming the face
-    with a corner out of range or not finite; where the mesh has no faces, where it is larger than
-    2^150 or smaller than 2^-150, for a size or offset that is not positive and finite, or so small
-    that coordinates of the precision do not tell apart what is as near as the offset, or the wrap
-    would have more than 2^30 faces.
-
-    Cost: for n points O(n log n) in most cases, O(n log F) queries of the tree over the faces; some
-    400 bytes a point; serial.
-
-    >>> import treeform
-    >>> around = treeform.wrap(treeform.read("data/two_spheres.stl"), 0.5)
-    >>> around.mesh.is_solid, bool(around.certificate)
-    (True, True)
-    """
-    how = options(_core.WrapOptions, locals())
-    return checked(_core.wrap(held(mesh), size, how, progress=progress), check, of_one=True)
-
-
 def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
     """The convex hull of `points`, exact on the coordinates as given: no point is outside the plane
     of a face, and faces belong to one side if and only if they are exactly coplanar. Of equal
@@ -296,7 +237,8 @@ def rounded(points: ArrayLike, precision: str = "float32", *, progress: Progress
 def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
                           progress: Progress = None) -> tuple[int, int]:
     """What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved
-    and turned, too: distances are not compared, only how faces lie to each other.
+    and turned, too: distances are not compared, only how faces lie to each other: `collapsed` and
+    `meeting` are found, the latter of all kinds except touching and degenerate.
 
     Returns the number of faces that have lost their area, and of pairs of faces that meet now and
     did not before.

@@ -89,7 +89,7 @@ json clashes_entry(const movable& all, const std::vector<tf::pose_clash>& clashe
 /// All poses, some thousands at a time.
 class pose_run {
   public:
-    pose_run(job& work, const movable& all, tf::pose_options options)
+    pose_run(job& work, const movable& all, tf::clash_options options)
         : work_(work), all_(all), options_(std::move(options)) {}
 
     void look_at(pose_file& poses, output_file* results) {
@@ -132,7 +132,7 @@ class pose_run {
 
     job& work_;
     const movable& all_;
-    tf::pose_options options_;
+    tf::clash_options options_;
     std::string text_;
 };
 
@@ -162,7 +162,7 @@ exit_status check_all(job& work, const assembly_settings& settings) {
         warn_of_inside_out(work, all.shapes[i], all.names[i]);
     auto ignored = ignored_pairs(work, settings, all.names);
     ignored.insert(ignored.end(), all.adjacent.begin(), all.adjacent.end());
-    tf::pose_options options;
+    tf::clash_options options;
     options.clearance = settings.clearance.used(diagonal_of(all));
     options.first_only = settings.first_only;
     options.ignored = ignored;

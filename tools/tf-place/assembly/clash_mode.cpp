@@ -120,11 +120,15 @@ void write_parts(job& work, const named_assembly& all, const tf::clash_result& r
     const auto path = mesh_output(work.options, work.path);
     if (!path || work.options.dry_run) return;
     const auto timing = work.time("write");
-    std::vector<tf::scene_member> members;
-    for (const tf::body_file& file : all.set.files)
-        members.push_back({&file.content, file.name, file.label});
+    std::vector<const tf::mesh_file*> inputs;
+    std::vector<std::string> names, labels;
+    for (const tf::body_file& file : all.set.files) {
+        inputs.push_back(&file.content);
+        names.push_back(file.name);
+        labels.push_back(file.label);
+    }
     const written_form form = form_of(work, all.set.files[0].content, *path);
-    tf::mesh_file file = tf::scene_of(members);
+    tf::mesh_file file = tf::scene_of(inputs, names, labels);
     work.warn(file.warnings);
     if (form.format == "ply" || form.format == "glb") {
         const tf::contact_classes classes{{}, classes_of(all, r)};
@@ -132,8 +136,6 @@ void write_parts(job& work, const named_assembly& all, const tf::clash_result& r
         tf::contact_classes::color(file, classes.in_files({}, all.set),
                                    {.split_polygons = true, .halo = 0.02 * box.diagonal()});
     }
-    std::vector<const tf::mesh_file*> inputs;
-    for (const tf::body_file& one : all.set.files) inputs.push_back(&one.content);
     static_cast<void>(write_mesh(work, file,
                                  {.format = form.format,
                                   .ascii = form.ascii,

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 
@@ -152,12 +153,12 @@ void pose_file::enter_parts(const std::string& line, std::vector<tf::transform<3
 }
 
 void pose_file::enter_joints(const std::string& line, std::vector<tf::transform<3>>& poses) const {
-    std::vector<tf::joint_value> values;
+    std::map<std::string, double> values;
     const json object = object_of(line);
     for (const auto& [name, value] : object.items()) {
         if (!value.is_number())
             throw std::invalid_argument("the value of joint " + name + " is no number");
-        values.push_back({name, value.get<double>()});
+        values[name] = value.get<double>();
     }
     const auto at = robot_->link_transforms(values);
     for (const std::uint32_t link : *links_) poses.push_back(at[link]);

@@ -135,8 +135,7 @@ std::span<const char* const> feature_option_names() {
 
 std::optional<mating> mate_by_features(const feature_settings& s, const tf::body_set& moving,
                                        const tf::body_set& fixed,
-                                       const tf::feature_mate_options& options,
-                                       std::string& reason) {
+                                       const tf::placement_options& options, std::string& reason) {
     const char* const kind = kinds[static_cast<std::size_t>(*s.kind)];
     auto of_moving = find(moving, *s.kind, s.moving);
     auto of_fixed = find(fixed, *s.kind, s.fixed);
@@ -153,17 +152,18 @@ std::optional<mating> mate_by_features(const feature_settings& s, const tf::body
     return result;
 }
 
-json turn_entry(const turn_settings& s, const tf::turn_result& found) {
-    return {{"axis", s.axis.direction}, {"origin", s.axis.origin},      {"max_angle", s.max_angle},
-            {"angle", found.angle},     {"tolerance", found.tolerance}, {"steps", found.steps}};
+json turn_entry(const turn_settings& s, const tf::placement& found) {
+    return {{"axis", s.axis.direction},     {"origin", s.axis.origin},
+            {"max_angle", s.max_angle},     {"angle", found.angle},
+            {"tolerance", found.tolerance}, {"steps", found.statistics.steps}};
 }
 
-json mating_entry(const mating& m) {
+json mating_entry(const mating& m, const tf::placement& at) {
     return {{"kind", kinds[static_cast<std::size_t>(m.moving.kind)]},
             {"moving", feature_entry(m.moving)},
             {"fixed", feature_entry(m.fixed)},
-            {"turn_angle", m.found.turn_angle},
-            {"offset", m.found.offset}};
+            {"turn_angle", at.angle},
+            {"offset", at.offset}};
 }
 
 }  // namespace tools

@@ -44,17 +44,17 @@ void add_feature_options(command_line& line, feature_settings& settings);
 struct mating {
     tf::mesh_feature moving{}, fixed{};
     std::size_t fixed_body = 0;
-    tf::feature_mating found{};
+    tf::placement found{};
 };
 
 /// Finds the features and mates by them. None, and `reason` says why, where there is no feature.
 [[nodiscard]] std::optional<mating> mate_by_features(const feature_settings& settings,
                                                      const tf::body_set& moving,
                                                      const tf::body_set& fixed,
-                                                     const tf::feature_mate_options& options,
+                                                     const tf::placement_options& options,
                                                      std::string& reason);
 
-[[nodiscard]] json turn_entry(const turn_settings& settings, const tf::turn_result& found);
-[[nodiscard]] json mating_entry(const mating& found);
+[[nodiscard]] json turn_entry(const turn_settings& settings, const tf::placement& found);
+[[nodiscard]] json mating_entry(const mating& features, const tf::placement& at);
 
 }  // namespace tools

@@ -36,23 +36,17 @@ enum class align_method : std::uint8_t {
     plane_to_plane,
 };
 
-/// How much a pair of points counts.
-enum class align_weights : std::uint8_t {
-    equal,
-    /// Less the further apart: exp(-d^2 / 2 v^2). From 3 medians of the distances at the start, v
-    /// is halved down to where a third of the points is within 2 v; at the end it is 4.5 medians of
-    /// what is near. Up to half of the points may have no partner, and nobody needs to say how
-    /// many.
-    welsch,
-};
-
 /// How to align.
 struct align_options {
     align_method method = align_method::automatic;
     /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share, the
     /// nearest ones, and ignores the rest.
     double overlap = 1.0;
-    align_weights weights = align_weights::welsch;
+    /// Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
+    /// medians of the distances at the start, v is halved down to where a third of the points is
+    /// within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
+    /// no partner, and nobody needs to say how many. Otherwise all count alike.
+    bool robust = true;
     /// Ignore partners further apart. Not squared, not negative.
     double max_distance = std::numeric_limits<double>::infinity();
     /// Find a uniform scale, too: from that of the start and from the one that makes both sides as

@@ -81,12 +81,6 @@ struct part_options {
 /// before of each face that stays; empty where all do.
 TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
-struct join_options {
-    /// Also LAS files of different reference systems, or whose GPS time is counted in different
-    /// ways; what the first one says of it is written.
-    bool mixed = false;
-};
-
 /// One file with the points and faces of all `files`, one after the other, in the format of the
 /// first.
 ///
@@ -98,37 +92,28 @@ struct join_options {
 /// Columns of points that formats call by different names get that of the first file's format
 /// (`normal_x` of PCD, `nx` of PLY). The header of LAS is that of the first file. Where scales or
 /// offsets differ, it gets the finest of the scales that holds the points of all, as their headers
-/// say where these are; extra bytes are described as in the first file that has them.
+/// say where these are; extra bytes are described as in the first file that has them. LAS files of
+/// different reference systems, or whose GPS time is counted in different ways, are joined only if
+/// `mixed`: what the first one says of it is written.
 ///
-/// \throws std::invalid_argument for LAS files that `options.mixed` is about, when a column holds
+/// \throws std::invalid_argument for such LAS files unless `mixed`, when a column holds
 ///         lists in one file and single values in another, when no type holds all values, or when
 ///         there is not one name for each file; std::length_error for more points or triangles than
 ///         32 bits can number
 /// \cost   O(size of all files)
 [[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
-                                          std::span<const std::string> names,
-                                          const join_options& options = {});
+                                          std::span<const std::string> names, bool mixed = false);
 
-/// Of a scene: a file, and what it is called.
-struct scene_member {
-    const mesh_file* file = nullptr;
-    std::string name{};   ///< of its faces in the scene, where the file has a single part
-    std::string label{};  ///< in warnings
-};
-
-/// All members in one file, with their parts, texture coordinates, normals, materials and textures.
-/// Other properties are left out. `warnings` says what could not be kept of textures. The format,
-/// and the type of its numbers, are those of the first member.
+/// All files in one, with their parts, texture coordinates, normals, materials and textures. Other
+/// properties are left out. `warnings` says what could not be kept of textures. The format, and the
+/// type of its numbers, are those of the first. `names` are those of the faces of files that have a
+/// single part; `labels` are for warnings.
 ///
-/// \pre  there is a member
+/// \pre  there is a file, and as many names and labels as files
 /// \cost O(size of all files)
-[[nodiscard]] TREEFORM_API mesh_file scene_of(std::span<const scene_member> members);
-
-/// Several meshes as one.
-struct joined_meshes {
-    treeform::mesh mesh{};                    ///< points with equal coordinates joined
-    std::vector<std::uint32_t> mesh_of_face;  ///< [F] which of the meshes each face is of
-};
+[[nodiscard]] TREEFORM_API mesh_file scene_of(std::span<const mesh_file* const> files,
+                                              std::span<const std::string> names,
+                                              std::span<const std::string> labels);
 
 /// The faces of `meshes` one after the other. A point that is not finite becomes 0.
 ///
@@ -136,33 +121,6 @@ struct joined_meshes {
 /// \throws std::invalid_argument as `join_equal_points`
 /// \cost   O(V + F)
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API joined_meshes join_meshes(std::span<const mesh_view> meshes);
-
-struct equal_points {
-    std::vector<std::uint32_t> new_of_old;    ///< [V] number of the distinct point each one is
-    std::vector<std::uint32_t> first_of_new;  ///< [U] lowest-numbered point of each, ascending
-};
-
-/// Finds the points whose coordinates are equal as doubles (-0 equals +0).
-///
-/// Distinct points are numbered in the order in which they first appear. Points that differ in one
-/// bit stay distinct, however close they are (only -0 and +0 are equal). An infinity equals itself.
-/// A point with a NaN coordinate equals no other, not even a copy of itself.
-///
-/// \throws std::invalid_argument for more than 2^32 - 1 points
-/// \cost   O(V) expected time, also when all points are equal; about 12 bytes a point besides the
-///         result's `first_of_new`
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API equal_points find_equal_points(points_view points);
-
-/// `mesh` with equal points joined. Points are in the order in which they first appear, with the
-/// coordinates of the first, bit for bit. Nothing is dropped: faces keep their order, even those
-/// that now repeat a corner, and points that no face uses stay.
-///
-/// \throws std::invalid_argument for more than 2^32 - 1 points, or naming the lowest face with a
-///         corner out of range
-/// \cost   as `find_equal_points`, and O(F)
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh join_equal_points(mesh_view mesh);
+[[nodiscard]] TREEFORM_API mesh join_meshes(std::span<const mesh_view> meshes);
 
 }  // namespace treeform

@@ -46,15 +46,6 @@ struct carry_source {
     TREEFORM_API void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const;
 };
 
-/// The source of each face and vertex of the result, as in `boolean_result`.
-struct carried_elements {
-    std::span<const operand_element> face_source;           ///< [F]
-    std::span<const operand_element> vertex_source;         ///< [V]
-    std::span<const operand_element> face_of_cut_vertex{};  ///< [V] or empty
-    /// [3 F] or empty: of a single input, as in `simplify_result`
-    std::span<const std::uint32_t> corner_source{};
-};
-
 /// The inputs of an operation, whose attributes its result gets. Files are not copied: they must
 /// live as long.
 class carry_sources {
@@ -77,9 +68,11 @@ class carry_sources {
     ///
     /// \pre  sources are in range
     /// \cost O(V + F) for each column
-    TREEFORM_API void carry(mesh_file& file, const carried_elements& made) const;
+    TREEFORM_API void carry(mesh_file& file, std::span<const operand_element> face_source,
+                            std::span<const operand_element> vertex_source,
+                            std::span<const operand_element> face_of_cut_vertex = {}) const;
 
-    /// The same for what was made of a single input, with sources as in `resolve_result`:
+    /// The same for what was made of a single input, with sources as in `repair_result`:
     /// `operand_element::none` stands for no source.
     ///
     /// With those of `simplify_result`, faces may reach beyond their sources. Values of corners are
@@ -136,14 +129,14 @@ TREEFORM_API void set_source_columns(mesh_file& file, const std::string& name,
 
 /// A part of a scene as a file of its own.
 struct file_part {
-    std::string name{};                        ///< as `scene_part::name`
+    std::string name{};                        ///< "object", "object/group", "group" or empty
     mesh_file file{};                          ///< with the attributes of its faces and points
     std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the whole file
 };
 
-/// The parts of a file (`scene_parts`), each with the points and faces that are its own, and with
-/// their attributes (`carry_sources`). Parts whose open edges coincide are patches of one surface,
-/// and one part; solids that touch are not.
+/// The parts of a file by its objects, groups or nodes, each with the points and faces that are its
+/// own, and with their attributes (`carry_sources`). Parts whose open edges coincide are patches of
+/// one surface, and one part; solids that touch are not.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V log V + F log F), and O(V + F) for each part and column
@@ -158,7 +151,7 @@ enum class repair_scope : std::uint8_t {
 
 /// A part of a file, mended.
 struct repaired_part {
-    std::string name{};            ///< as `scene_part::name`
+    std::string name{};            ///< "object", "object/group", "group" or empty
     std::uint32_t first_face = 0;  ///< in the mended mesh; its faces follow one another
     std::uint32_t faces = 0;
     treeform::certificate certificate{};  ///< with numbers of the mended mesh and the input file
@@ -180,9 +173,9 @@ struct repaired_file {
 
 /// `repair` of a file's mesh, or of each of its parts.
 ///
-/// Parts are those of `scene_parts` with the vertices as the file numbers them; those whose open
-/// edges coincide are patches of one surface, and one part. What `repair_options` says of the mesh,
-/// such as `max_loss`, then holds of each part. Cuts are kept where merging would mix values
+/// Parts are the objects, groups or nodes, with the vertices as the file numbers them; those whose
+/// open edges coincide are patches of one surface, and one part. What `repair_options` says of the
+/// mesh, such as `max_loss`, then holds of each part. Cuts are kept where merging would mix values
 /// (`carry_sources::merging_mixes_values`), of faces within a part.
 ///
 /// \throws std::invalid_argument as `repair`

@@ -114,31 +114,6 @@ class TREEFORM_API not_certified_error : public std::runtime_error {
 /// its range.
 [[nodiscard]] TREEFORM_API std::vector<point3> rounded(points_view points, precision to);
 
-/// What rounding has broken.
-struct rounding_defects {
-    std::uint64_t collapsed = 0;  ///< faces that have lost their area
-    /// Pairs of faces that meet now, and did not before: all kinds except touching and degenerate.
-    std::uint64_t meeting = 0;
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
-};
-
-/// What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved and
-/// turned, too: distances are not compared, only how faces lie to each other.
-///
-/// \throws std::invalid_argument as `self_intersections` for either, or for another number of
-///         points
-/// \cost   `self_intersections` of the mesh at the new points, and at the old ones only if any meet
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API rounding_defects
-find_rounding_defects(mesh_view mesh, points_view placed, const progress_callback& progress = {});
-
-/// Which rounding to look at.
-struct rounding_options {
-    precision before = precision::float64;  ///< of the points before the move
-    precision after = precision::float64;   ///< of what is written
-    progress_callback progress{};
-};
-
 /// How far rounding moved points, and what it has broken.
 struct rounding_effects {
     double max_displacement = 0.0;  ///< largest change of a coordinate, apart from the move
@@ -154,6 +129,17 @@ struct rounding_effects {
     TREEFORM_API rounding_effects& operator+=(const rounding_effects& other);
 };
 
+/// What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved and
+/// turned, too: distances are not compared, only how faces lie to each other: `collapsed`
+/// and `meeting` are found, the latter of all kinds except touching and degenerate.
+///
+/// \throws std::invalid_argument as `self_intersections` for either, or for another number of
+///         points
+/// \cost   `self_intersections` of the mesh at the new points, and at the old ones only if any meet
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API rounding_effects
+find_rounding_defects(mesh_view mesh, points_view placed, const progress_callback& progress = {});
+
 /// Compares `placed` with the points of `moving` moved by `by`. Where coordinates are coarser than
 /// before, it also compares the faces (`find_rounding_defects`).
 ///
@@ -162,6 +148,7 @@ struct rounding_effects {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API rounding_effects
 effects_of_rounding(const mesh_ref& moving, const transform<3>& by, points_view placed,
-                    const rounding_options& options = {});
+                    precision before = precision::float64, precision after = precision::float64,
+                    const progress_callback& progress = {});
 
 }  // namespace treeform

@@ -27,13 +27,14 @@ namespace treeform {
 /// Numbers of two parts.
 using part_pair = std::array<std::uint32_t, 2>;
 
-/// How to look for clashes.
+/// How to look for clashes. `volumes` to `limit` are of `clash` alone.
 struct clash_options {
     double clearance = 0.0;                ///< parts that are nearer than this are too close
     bool volumes = true;                   ///< of what two closed parts have in common
     bool depths = true;                    ///< of penetrating parts
     std::uint64_t effort = 0;              ///< for each depth, as in `depth_options`
     std::size_t limit = 1000;              ///< faces listed for each region and part
+    bool first_only = false;               ///< `check_poses`: only the first clash of each pose
     std::span<const part_pair> ignored{};  ///< pairs that are not looked at, in any order
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
@@ -113,22 +114,12 @@ struct clash_result {
 [[nodiscard]] TREEFORM_API std::vector<bool> intersects(const mesh_ref& a, const mesh_ref& b,
                                                         std::span<const mesh_positions> positions);
 
-/// [P] `distance` for many positions, in parallel; infinite beyond `radius`.
+/// [P] `distance` for many positions, in parallel; infinite beyond the radius of each.
 ///
 /// \throws std::invalid_argument as `distance`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::vector<double> distance(
-    const mesh_ref& a, const mesh_ref& b, std::span<const mesh_positions> positions,
-    double radius = std::numeric_limits<double>::infinity());
-
-/// How to check poses.
-struct pose_options {
-    double clearance = 0.0;                ///< parts that are nearer than this are too close
-    bool first_only = false;               ///< name only the first clash of each pose
-    std::span<const part_pair> ignored{};  ///< pairs that are not looked at, in any order
-    vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
-    progress_callback progress{};
-};
+[[nodiscard]] TREEFORM_API std::vector<double> distance(const mesh_ref& a, const mesh_ref& b,
+                                                        std::span<const mesh_positions> positions);
 
 /// Two parts that are not clear of each other in a pose.
 struct pose_clash {
@@ -165,6 +156,6 @@ struct pose_result {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API pose_result check_poses(const mesh_refs& parts,
                                                    std::span<const transform<3>> poses,
-                                                   const pose_options& options = {});
+                                                   const clash_options& options = {});
 
 }  // namespace treeform

@@ -133,24 +133,20 @@ struct mesh_part {
     double area = 0.0;                         ///< as `surface_area`
 };
 
-struct components_options {
-    /// Parts with less are left out, in cubic units. Not negative.
-    double min_volume = 0.0;
-    /// So many parts of the greatest volume are kept; of equal ones, those of the greatest area.
-    std::size_t largest = std::numeric_limits<std::size_t>::max();
-};
-
 /// The faces that corners link, as meshes, in the order of their lowest faces. Corners with equal
 /// coordinates are one. A closed part that is inside out is a cavity, and goes with the smallest
 /// closed part that it is in, if any. Volumes count without their sign, those of open parts as 0.
+/// Parts with less than `min_volume`, in cubic units, are left out; `largest` parts of the greatest
+/// volume are kept, of equal ones those of the greatest area; 0: all.
 ///
 /// \pre    every coordinate of a corner is finite
 /// \throws std::invalid_argument naming the lowest face with a corner out of range, and for a
 ///         `min_volume` that is negative or NaN
 /// \cost   O(V + F); for cavities, as `contains`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::vector<mesh_part> components(
-    const mesh_ref& mesh, const components_options& options = {});
+[[nodiscard]] TREEFORM_API std::vector<mesh_part> components(const mesh_ref& mesh,
+                                                             double min_volume = 0.0,
+                                                             std::size_t largest = 0);
 
 /// The faces of these numbers, in this order, and the points that they use, in the order of `mesh`.
 ///

@@ -6,6 +6,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/aabb.hpp>
+#include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>
 
 #include <cstddef>
@@ -18,10 +19,10 @@
 namespace treeform {
 
 /// Where each of two meshes is, and how far apart they may be.
-struct distance_options {
+struct mesh_positions {
     transform<3> move_a{};  ///< applied to the corners first; the moved ones are rounded to double
     transform<3> move_b{};
-    /// Ignore everything further apart than this; inclusive.
+    /// Of distances: ignore everything further apart than this; inclusive.
     double radius = std::numeric_limits<double>::infinity();
 };
 
@@ -55,11 +56,11 @@ struct closest_points_result {
 ///         faces are skipped by the direction between the nearest points so far
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
-    const mesh_ref& a, const mesh_ref& b, const distance_options& options = {});
+    const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions = {});
 
 /// The distance of the surfaces `a` and `b`; infinite when `closest_points` finds none.
 [[nodiscard]] TREEFORM_API double distance(const mesh_ref& a, const mesh_ref& b,
-                                           const distance_options& options = {});
+                                           const mesh_positions& positions = {});
 
 /// The point of a mesh that is nearest to a query.
 struct closest_point_result {
@@ -102,12 +103,6 @@ struct mesh_hit {
     friend bool operator==(const mesh_hit&, const mesh_hit&) = default;
 };
 
-/// The hits of many rays: those of ray i are hits[begin[i]] ... hits[begin[i + 1] - 1].
-struct mesh_hits {
-    std::vector<std::size_t> begin;  ///< [R + 1]
-    std::vector<mesh_hit> hits;
-};
-
 /// The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
 /// lowest number.
 ///
@@ -129,7 +124,8 @@ struct mesh_hits {
                                                                         std::span<const ray3> rays);
 
 /// All faces that each ray hits, in the exact order along the ray, then by number.
-[[nodiscard]] TREEFORM_API mesh_hits raycast_all(const mesh_ref& mesh, std::span<const ray3> rays);
+[[nodiscard]] TREEFORM_API answer_lists<mesh_hit> raycast_all(const mesh_ref& mesh,
+                                                              std::span<const ray3> rays);
 
 /// [R] 1 when a ray hits any face, else 0.
 [[nodiscard]] TREEFORM_API std::vector<std::uint8_t> raycast_any(const mesh_ref& mesh,

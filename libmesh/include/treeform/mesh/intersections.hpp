@@ -5,6 +5,7 @@
 /// of curves.
 
 #include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -19,35 +20,10 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace treeform {
-
-/// Which pairs of faces to look for, and where the meshes are.
-struct mesh_intersection_options {
-    /// Applied to each mesh first. A moved corner is what `transform::operator()` gives, rounded to
-    /// double; the answer is exact for these coordinates. A prepared mesh itself is not changed.
-    transform<3> move_a{};
-    transform<3> move_b{};
-    /// Stop at the first pair found: the same pair on any number of threads.
-    bool first_only = false;
-    /// Kinds to look for; the others are neither counted nor listed.
-    pair_kinds kinds = pair_kinds::all;
-    /// List at most this many pairs, those of the lowest face numbers. All are counted.
-    std::size_t limit = static_cast<std::size_t>(-1);
-    progress_callback progress{};
-};
-
-struct mesh_intersection_result {
-    std::vector<face_pair> pairs;  ///< face `a` of the first mesh, `b` of the second; ascending
-    std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
-    /// Pairs of faces whose boxes overlap, as moved; of prepared meshes, under a move both ways.
-    std::uint64_t box_pairs = 0;
-    std::uint64_t exact_pairs = 0;    ///< of these, undecided by the filter
-    predicate_counters predicates{};  ///< what the undecided pairs cost
-    search_statistics searched{};     ///< what was looked at; the rest of both meshes was skipped
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`
-};
 
 /// All pairs of a face of `a` and a face of `b` that have a common point.
 ///
@@ -63,14 +39,8 @@ struct mesh_intersection_result {
 ///         overlap and the nodes above them. Of prepared meshes up to twice as fast
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
-[[nodiscard]] TREEFORM_API mesh_intersection_result mesh_intersections(
-    const mesh_ref& a, const mesh_ref& b, const mesh_intersection_options& options = {});
-
-/// Where each mesh is; see `mesh_intersection_options`.
-struct mesh_positions {
-    transform<3> move_a{};
-    transform<3> move_b{};
-};
+[[nodiscard]] TREEFORM_API intersection_result
+mesh_intersections(const mesh_ref& a, const mesh_ref& b, const intersection_options& options = {});
 
 /// Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns as
 /// soon as one pair is found. Of meshes that are not prepared, only faces that reach, as moved,
@@ -115,14 +85,13 @@ struct curve_segment {
 [[nodiscard]] TREEFORM_API std::vector<curve_segment> intersection_curves(
     mesh_view mesh, std::span<const face_pair> pairs);
 
-/// A point of a curve, named by the lowest-numbered corners, edges or faces that meet there.
+/// A point of a curve, named by the lowest-numbered corners, edges or faces that meet there: a
+/// point of the mesh, which `edge` and `by` hold twice; two edges that cross, `edge` and `by`, each
+/// by its points, ascending; or `edge` that meets the inside of face `by[0]`, and `by[1]` is
+/// `none`.
 struct curve_point {
-    enum class origin : std::uint8_t {
-        corner,    ///< a point of the mesh: `edge` holds it twice, and `by` too
-        edges,     ///< two edges cross: `edge` and `by`, each by its points, ascending
-        edge_face  ///< `edge` meets the inside of face `by[0]`
-    };
-    origin kind = origin::corner;
+    static constexpr std::uint32_t none = operand_element::none;
+
     std::array<std::uint32_t, 2> edge{};
     std::array<std::uint32_t, 2> by{};
     point3 position{};  ///< the exact point rounded to nearest
@@ -157,14 +126,12 @@ struct curve_network {
 [[nodiscard]] TREEFORM_API curve_network intersection_paths(mesh_view mesh,
                                                             std::span<const face_pair> pairs);
 
-/// A whole number of each pair, for the segments of a PLY.
-struct pair_numbers {
-    std::string name{};
-    std::vector<std::uint32_t> of_pair{};  ///< [P]
-};
+/// A name, and a whole number for each pair [P].
+using pair_column = std::pair<std::string, std::vector<std::uint32_t>>;
 
 /// Writes the paths of `intersection_paths` as lines: OBJ `v` and `l`, or a text PLY with an
-/// element `edge`, whose segments have `numbers`. Faces without area have no paths, but segments of
+/// element `edge`, whose segments have `numbers`: columns of
+/// these names, a value for each pair. Faces without area have no paths, but segments of
 /// their own (`intersection_curves`). The format, `obj` or `ply`, is that of the extension where
 /// none is given. "-" is standard output.
 ///
@@ -174,7 +141,7 @@ struct pair_numbers {
 /// \same   bytes on any number of threads
 TREEFORM_API void write_curves(const std::filesystem::path& path, mesh_view mesh,
                                std::span<const face_pair> pairs,
-                               std::span<const pair_numbers> numbers = {},
+                               std::span<const pair_column> numbers = {},
                                const std::string& format = {});
 
 }  // namespace treeform

@@ -27,7 +27,9 @@ enum class mesh_relation : std::uint8_t {
     clear  ///< separate, by the clearance or more
 };
 
-struct relation_options {
+/// How to look.
+struct measure_options {
+    double radius = std::numeric_limits<double>::infinity();  ///< of `measure`; inclusive
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
     vertex_identity vertices = vertex_identity::by_coordinates;
     progress_callback progress{};
@@ -73,7 +75,7 @@ struct mesh_relation_result {
 ///         for each component, or for each corner when the meshes touch
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API mesh_relation_result relation(const mesh_ref& a, const mesh_ref& b,
-                                                         const relation_options& options = {});
+                                                         const measure_options& options = {});
 
 /// The components of a closed mesh that are inside out, their volumes negative, and that are in no
 /// other one, as cavities are. Components are what edges link, with corners of equal coordinates
@@ -94,13 +96,6 @@ struct surface_point {
     /// rounded. For a face without area, weights of two corners.
     std::array<double, 3> barycentric{1.0, 0.0, 0.0};
     friend bool operator==(const surface_point&, const surface_point&) = default;
-};
-
-/// How far to look.
-struct measure_options {
-    double radius = std::numeric_limits<double>::infinity();     ///< inclusive
-    vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
-    progress_callback progress{};
 };
 
 /// How two meshes lie to each other.
@@ -177,12 +172,6 @@ enum class thickness_by : std::uint8_t {
     sphere  ///< the diameter of the largest ball within that touches its center
 };
 
-/// How to measure thickness.
-struct thickness_options {
-    thickness_by by = thickness_by::ray;
-    progress_callback progress{};
-};
-
 /// The thickness at each face, and the least.
 struct thickness_result {
     /// [F] Infinite where nothing is behind a face, or it has no area.
@@ -202,7 +191,8 @@ struct thickness_result {
 /// \source Ma, Bae and Choi, 3D Medial Axis Point Approximation Using Nearest Neighbors and the
 ///         Normal Field, The Visual Computer 28 (2012)
 [[nodiscard]] TREEFORM_API thickness_result wall_thickness(const mesh_ref& mesh,
-                                                           const thickness_options& options = {});
+                                                           thickness_by by = thickness_by::ray,
+                                                           const progress_callback& progress = {});
 
 /// How many points are inside a solid, on a surface, outside of all.
 struct side_counts {

@@ -33,6 +33,14 @@ class TREEFORM_API io_error : public std::runtime_error {
           reason_(reason),
           path_size_(path.size()) {}
 
+    /// What is no file of points, or not one that can be read in blocks: `read` takes all of it.
+    [[nodiscard]] static io_error of_blocks(const std::string& text) {
+        io_error error(text);
+        error.needs_all_ = true;
+        return error;
+    }
+    [[nodiscard]] bool needs_all() const { return needs_all_; }
+
     /// Of the system; none where the reason is in the file.
     [[nodiscard]] std::error_code reason() const { return reason_; }
     /// Of the file, where there is a `reason`; else empty.
@@ -41,6 +49,7 @@ class TREEFORM_API io_error : public std::runtime_error {
   private:
     std::error_code reason_{};
     std::size_t path_size_ = 0;
+    bool needs_all_ = false;
 };
 
 /// Something that a person should know about a file that was read or written.
@@ -156,29 +165,6 @@ struct mesh_file {
 
 /// Whether float32 holds every coordinate exactly, or it is NaN or infinite.
 [[nodiscard]] TREEFORM_API bool fits_single(std::span<const point3> points);
-
-/// Faces of a mesh that form a body.
-struct scene_part {
-    std::string name{};                  ///< "object", "object/group", "group" or empty
-    std::vector<std::uint32_t> faces{};  ///< ascending
-    std::optional<box3> box{};           ///< of their corners that are finite
-};
-
-/// The parts of `mesh`, in the order of their first faces. Each face is in exactly one part.
-///
-/// Faces with the same object and group are one part, whatever their material. Parts with a point
-/// in common are patches of one surface, and so are one part, with the name of the first. Nodes of
-/// a scene are parts; `read` has already applied their transforms.
-///
-/// `number` is [F], the file's number of each face, ascending; or empty when that is its number in
-/// `mesh`. Faces before the first of `names` have no name.
-///
-/// \pre    equal corners have been joined; otherwise parts that touch stay separate
-/// \throws std::invalid_argument for a `number` of another length, or naming the lowest face with a
-///         corner out of range
-/// \cost   O(F + P log P) for P of `names`
-[[nodiscard]] TREEFORM_API std::vector<scene_part> scene_parts(
-    mesh_view mesh, std::span<const part> names, std::span<const std::uint32_t> number = {});
 
 /// The ranks of a work that processes share, in a folder that all see. All call the same with
 /// the same options; outputs are those of rank 0, and where one fails, `exchange` must throw.

@@ -20,7 +20,7 @@
 
 namespace treeform {
 
-/// How to make a surface at a distance.
+/// How to make a surface at a distance. What an operation has no use for, it ignores.
 struct offset_options {
     /// Edge of the cells that the surface is made in, in the mesh's length unit: at most half of
     /// the distance. Every point of space whose distance differs from the one asked for by more
@@ -29,6 +29,9 @@ struct offset_options {
     /// that would make more than some 2^16 cells at the surface (170,000 faces), cells are larger,
     /// up to half of the distance. `offset_statistics` has the value used, and the error reached.
     std::optional<double> resolution{};
+    /// `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. Not given: a
+    /// thirtieth of the size.
+    std::optional<double> offset{};
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     progress_callback progress{};
@@ -36,16 +39,21 @@ struct offset_options {
 
 /// What it took, and what was measured.
 struct offset_statistics {
-    double distance = 0.0;    ///< that was asked for, without its sign
-    double resolution = 0.0;  ///< that was used
+    double distance =
+        0.0;  ///< that was asked for, without its sign; of `wrap`, how far its vertices are
+    double resolution = 0.0;  ///< that was used; of `wrap`, its size
     /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
     /// that it is the offset of: all are in [least, greatest]. Found by branch and bound; each is
-    /// within a sixteenth of the resolution of what is there. 0 where there is no surface.
+    /// within a sixteenth of the resolution of what is there. 0 where there is no surface, and of
+    /// `wrap`.
     double least = 0.0;
     double greatest = 0.0;
     std::uint64_t cells = 0;  ///< that the surface may pass through
     /// Of `hollow`: cavities that nothing leads out of, those of the input, too.
     std::uint64_t sealed_cavities = 0;
+    std::uint64_t points = 0;      ///< of `wrap`: of the tetrahedra that were made
+    std::uint64_t tetrahedra = 0;  ///< of `wrap`: at the end
+    std::uint64_t filled = 0;      ///< of `wrap`: tetrahedra filled so that it is a manifold
 };
 
 /// The mesh, and what was checked.
@@ -122,41 +130,6 @@ enum class thick_side : std::uint8_t { both, front, back };
                                                  thick_side side = thick_side::both,
                                                  const offset_options& options = {});
 
-/// How to wrap.
-struct wrap_options {
-    /// How far the vertices of the wrap are from the mesh, in its length unit; where it is not
-    /// given, a thirtieth of the size.
-    std::optional<double> offset{};
-    /// Precision of the coordinates returned. float32 values are stored as doubles.
-    treeform::precision precision = treeform::precision::float64;
-    progress_callback progress{};
-};
-
-/// What it took, for reports.
-struct wrap_statistics {
-    double size = 0.0;
-    double offset = 0.0;
-    double area = 0.0;             ///< of the mesh that was wrapped
-    std::uint64_t points = 0;      ///< of the tetrahedra that were made
-    std::uint64_t tetrahedra = 0;  ///< at the end
-    std::uint64_t filled = 0;      ///< of them, filled so that the wrap is a manifold
-};
-
-/// The wrap, and what was checked.
-struct TREEFORM_API wrap_result {
-    treeform::mesh mesh;
-    /// Status ok says, checked on the coordinates above: a closed manifold, outward, no two faces
-    /// of which meet beyond common corners and edges.
-    treeform::certificate certificate{};
-    wrap_statistics statistics{};
-
-    /// The mesh.
-    ///
-    /// \throws not_certified_error unless the certificate's status is ok
-    [[nodiscard]] const treeform::mesh& value() const&;
-    [[nodiscard]] treeform::mesh value() &&;
-};
-
 /// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
 /// no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters no
 /// hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills cavities
@@ -177,7 +150,7 @@ struct TREEFORM_API wrap_result {
 /// \source Portaneri, Rouxel-Labbe, Hemmer, Cohen-Steiner and Alliez, Alpha Wrapping with an
 ///         Offset, ACM TOG 41 (2022). Tetrahedra are cut out by their circumspheres only where that
 ///         keeps all of them oriented (`orient3d`), so that rounded circumspheres do no harm.
-[[nodiscard]] TREEFORM_API wrap_result wrap(const mesh_ref& mesh, double size,
-                                            const wrap_options& options = {});
+[[nodiscard]] TREEFORM_API offset_result wrap(const mesh_ref& mesh, double size,
+                                              const offset_options& options = {});
 
 }  // namespace treeform

@@ -59,6 +59,7 @@ struct placement_statistics {
     unsigned backed_off = 0;          ///< steps back, where rounding made the mesh penetrate
     std::uint64_t fixed_culled = 0;   ///< fixed meshes skipped because of their box
     std::uint64_t pairs_tested = 0;   ///< pairs of faces, in motion
+    std::uint64_t steps = 0;          ///< of `turn`
     predicate_counters predicates{};  ///< used for these
 };
 
@@ -72,8 +73,8 @@ struct placement {
     treeform::certificate certificate{};
     placement_end end = placement_end::stays;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written
-    /// new = M * old: a translation. `points` are moved by it and rounded once, except for those
-    /// that are set on the bed.
+    /// new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points` are moved
+    /// by it and rounded once, except for those that are set on the bed.
     transform<3> matrix{};
     point3 direction{};           ///< of the travel, of length 1; 0 when there is none
     double travel = 0.0;          ///< a length; for `too_far` the one that would be needed
@@ -90,6 +91,11 @@ struct placement {
     /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way may
     /// exist; without a place, one that was not found.
     search_effort effort{};
+    double angle = 0.0;      ///< of `turn` and `mate_features`: in degrees, of the turn
+    double tolerance = 0.0;  ///< of `turn`: the gap, beyond the clearance, that counts as contact
+    /// Of `mate_features`: how far the center of the moving feature ended from that of the fixed
+    /// one, along the direction of the fixed one. Of planes: their distance.
+    double offset = 0.0;
     placement_statistics statistics{};
 
     explicit operator bool() const { return static_cast<bool>(certificate); }
@@ -101,21 +107,6 @@ struct placement {
     [[nodiscard]] TREEFORM_API std::string relation_in_words(const body_set& moving,
                                                              const body_set& fixed) const;
 };
-
-struct measure_among_options {
-    double clearance = 0.0;    ///< smaller distances are `closer_than_clearance`
-    std::size_t limit = 1000;  ///< contacts listed for each fixed mesh
-    vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
-    progress_callback progress{};
-};
-
-/// How `moving` lies to all of `fixed` where it is. Moves nothing.
-///
-/// \throws std::invalid_argument as `slide`
-/// \cost   `measure` for the fixed meshes that may be the nearest, and the pairs of faces that meet
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
-                                                   const measure_among_options& options = {});
 
 /// How a face lies to the other meshes.
 enum class contact_class : std::uint8_t {
@@ -208,7 +199,8 @@ struct TREEFORM_API body_set {
     ///
     /// \cost O(V + F)
     body_file& add(mesh_file file, std::string label = {}, std::string name = {});
-    /// The same with a body for each part of the file (see `scene_parts`) where it has several.
+    /// The same with a body for each part of the file (as `split_parts` has them) where it has
+    /// several.
     body_file& add_parts(mesh_file file, std::string label = {}, std::string name = {});
     /// The same with a body for each part that has a name of its own (OBJ o and g, nodes of a
     /// scene), or one body where there are no names. Unlike `add_parts`, parts that have points in

@@ -82,22 +82,16 @@ struct point_location {
 /// An edge of a curve, from one point to another. The inside of a simple curve is on its left.
 using curve_edge = std::array<std::uint32_t, 2>;
 
-/// Curves in the plane, as a view of the caller's arrays.
-struct curve_view {
-    std::span<const point2> points;     ///< [V]
-    std::span<const curve_edge> edges;  ///< [E]
-};
-
 /// Locates points with respect to closed curves in the plane: any number of curves, even crossing
 /// or repeated ones. Exact as `locate` is.
 class TREEFORM_API curve_locator {
   public:
-    /// The arrays of `curves` must outlive the locator.
+    /// Curves of `points` [V] and `edges` [E]; both must outlive the locator.
     ///
     /// \throws std::invalid_argument naming the lowest point where a curve is open (more edges lead
     ///         to it than from it, or fewer), or an edge with an end out of range or not finite
     /// \cost   a tree over the edges
-    explicit curve_locator(curve_view curves);
+    curve_locator(std::span<const point2> points, std::span<const curve_edge> edges);
 
     /// \throws std::invalid_argument when a coordinate is not finite; likewise below
     /// \cost   O(log E + B) for the B edges whose boxes meet the ray from the point along +x
@@ -108,7 +102,8 @@ class TREEFORM_API curve_locator {
     [[nodiscard]] std::vector<point_location> locate(std::span<const point2> points) const;
 
   private:
-    curve_view curves_;
+    std::span<const point2> points_;
+    std::span<const curve_edge> edges_;
     tree<2> tree_;
 };
 

@@ -20,18 +20,13 @@
 
 namespace treeform {
 
-/// Of a file that is read whole, by `read`, and not in blocks: it has no points, or other things
-/// that blocks have not.
-class TREEFORM_API whole_file_error : public io_error {
-  public:
-    using io_error::io_error;
-};
-
 /// Consecutive points with their properties, as `mesh_file` has them for a whole file.
 struct point_block {
     std::vector<point3> points{};
     element properties{.name = "vertex"};  ///< a row a point
 };
+
+namespace detail::io {
 
 /// Consecutive rows of an element behind the points, such as faces.
 struct row_block {
@@ -41,6 +36,8 @@ struct row_block {
     /// Faces of fewer than three corners that were among these: the header counts them.
     std::uint64_t left_out = 0;
 };
+
+}  // namespace detail::io
 
 /// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
 /// together are what `read` gives for the whole file.
@@ -57,10 +54,10 @@ class TREEFORM_API point_reader {
     /// many rows there are. They can be read next. The facets of an STL have the column
     /// "stl_attribute" also where all of it is zero.
     ///
-    /// \throws whole_file_error for a format without points, for a file with faces or other
-    ///         elements that have rows; with `with_rows` for what is ahead of the points, for
-    ///         strips of triangles, and for faces with texture coordinates of corners; io_error as
-    ///         `read`
+    /// \throws io_error, whose `needs_all()` is true, for a format without points, for a file with
+    ///         faces or other elements that have rows; with `with_rows` for what is ahead of the
+    ///         points, for strips of triangles, and for faces with texture coordinates of corners;
+    ///         io_error as `read`
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {},
                           std::uint64_t first = 0, bool with_rows = false,
                           const read_options& options = {});
@@ -84,12 +81,33 @@ class TREEFORM_API point_reader {
     /// over points that have not been read.
     ///
     /// \throws io_error as `read`
-    bool read(row_block& block, std::size_t most);
+    bool read(detail::io::row_block& block, std::size_t most);
 
   private:
     struct state;
     std::unique_ptr<state> state_;
 };
+
+namespace detail::io {
+
+/// A place that all parts see, as large as all values together. Parts put the values of their
+/// points there, field by field, and later get the bytes that they pack.
+struct shared_values {
+    std::uint64_t first_point = 0;  ///< of the part, by number in the whole
+    std::size_t part = 0;
+    std::size_t parts = 1;
+    std::function<void(std::uint64_t at, std::span<const std::byte> bytes)> put{};
+    std::function<void(std::uint64_t at, std::span<std::byte> bytes)> get{};
+};
+
+/// The bytes of a part of a file.
+struct written_part {
+    std::uint64_t head = 0;    ///< bytes ahead of its points
+    std::uint64_t points = 0;  ///< bytes of its points
+    std::uint64_t rows = 0;    ///< bytes of rows that came after `end_part`
+};
+
+}  // namespace detail::io
 
 /// Writes the same file as `write` would for all blocks together. A compressed PCD (the input was
 /// one) is put together in an unnamed file in /var/tmp, or by parts where they say.
@@ -116,29 +134,20 @@ class TREEFORM_API point_writer {
     void write(const point_block& block);
     /// Rows of the other elements, behind all points, in the order of the header.
     /// \throws io_error, std::invalid_argument for other columns or more rows than the header's
-    void write(const row_block& block);
+    void write(const detail::io::row_block& block);
     /// Finishes the file. Without this call, no file stays.
     /// \throws io_error, also when fewer than `count` points, or other rows, were written
     write_result commit();
 
     /// Whether others can write the rest of the points.
     [[nodiscard]] bool has_parts() const;
-    /// A place that all parts see, as large as all values together. Parts put the values of their
-    /// points there, field by field, and later get the bytes that they pack.
-    struct shared_values {
-        std::uint64_t first_point = 0;  ///< of the part, by number in the whole
-        std::size_t part = 0;
-        std::size_t parts = 1;
-        std::function<void(std::uint64_t at, std::span<const std::byte> bytes)> put{};
-        std::function<void(std::uint64_t at, std::span<std::byte> bytes)> get{};
-    };
     /// Whether parts need such a place: those of a compressed PCD, whose values stand field by
     /// field.
     [[nodiscard]] bool has_shared_values() const;
     /// Names it, before the first point. When all parts have their points, and not before,
     /// `commit_part` gets a share of the bytes of all and packs them.
     /// \throws std::logic_error where there is no such place, or points were written
-    void share_values(const shared_values& place);
+    void share_values(const detail::io::shared_values& place);
     /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else
     /// 1.
     [[nodiscard]] std::uint64_t points_together() const;
@@ -149,11 +158,6 @@ class TREEFORM_API point_writer {
     /// \pre    a regular file, and `end_part` was called
     /// \throws io_error
     void leave_room(std::uint64_t bytes);
-    struct part {
-        std::uint64_t head = 0;    ///< bytes ahead of its points
-        std::uint64_t points = 0;  ///< bytes of its points
-        std::uint64_t rows = 0;    ///< bytes of rows that came after `end_part`
-    };
     /// What must be known of a part to finish others; call it when all of its points are there.
     [[nodiscard]] std::string tell_part();
     /// Finishes a file that has only some of the points. The joined head, the points of all parts,
@@ -161,7 +165,8 @@ class TREEFORM_API point_writer {
     /// have written.
     /// `told` is what `tell_part` gave for each part, in their order; LAZ needs it.
     /// \throws io_error, std::logic_error where it has no parts
-    part commit_part(write_result& result, const std::vector<std::string>& told = {});
+    detail::io::written_part commit_part(write_result& result,
+                                         const std::vector<std::string>& told = {});
     /// The head of the whole from those of all parts that have points; if none has, from one.
     [[nodiscard]] static std::string join_heads(const std::vector<std::string>& heads);
 
@@ -184,14 +189,15 @@ struct cloud_inputs {
     std::string format{};                 ///< as for `read`
     std::vector<named_column> columns{};  ///< as in `read_options`
     std::vector<std::string> names{};     ///< for warnings; empty: the paths
-    bool mixed = false;                   ///< as in `join_options`
+    bool mixed = false;                   ///< as in `join`
 
     /// What is in the files, before their points are read.
     /// One file alone may be a mesh, as `point_reader` reads it with rows. Text is read once,
     /// shared by the ranks; every rank must call this.
     ///
-    /// \throws whole_file_error for what is no file of points, as `point_reader`, io_error for what
-    ///         cannot be read; std::invalid_argument for columns that `join` cannot unite
+    /// \throws io_error, whose `needs_all()` is true, for what is no file of points, as
+    ///         `point_reader`, io_error for what cannot be read; std::invalid_argument for columns
+    ///         that `join` cannot unite
     [[nodiscard]] TREEFORM_API cloud_outline outline(const communicator& ranks = {}) const;
 };
 

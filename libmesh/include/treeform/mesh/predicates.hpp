@@ -75,14 +75,6 @@ namespace treeform {
                                                 const point3& d,
                                                 predicate_counters* counters = nullptr);
 
-/// A plane through a point along two vectors, each the difference of two points. Its normal is
-/// (u_to - u_from) x (v_to - v_from).
-struct cutting_plane {
-    point3 at;
-    point3 u_from, u_to;
-    point3 v_from, v_to;
-};
-
 using triangle3 = std::array<point3, 3>;
 
 /// A part of a triangle. Edge `e0` runs from v0 to v1, `e1` from v1 to v2, `e2` from v2 to v0;
@@ -134,53 +126,5 @@ struct triangle_contact {
 
 /// The points origin + t direction, t_min <= t <= t_max, with nothing rounded: t is a real number.
 using ray3 = ray<double, 3>;
-
-/// The first point of a ray in a triangle.
-struct ray_contact {
-    /// Part of the triangle that the first common point lies on: `interior`, an edge or a corner.
-    feature at = feature::interior;
-    /// The ray runs in the plane of the triangle, or the triangle has no area. Otherwise there is
-    /// exactly one common point.
-    bool coplanar = false;
-    /// Parameter of that point, with a relative error below 2^-40; within [t_min, t_max].
-    double t = 0.0;
-    /// Parameter of the last common point, with the same error; equal to t when there is only one.
-    double t_end = 0.0;
-    /// Only when coplanar: t is t_min, and the line of the ray is in the triangle just before and
-    /// just after it. Then `entry` is not set.
-    bool from_start = false;
-    /// A plane that meets the ray in that point only: t as an exact number, for `compare`.
-    cutting_plane entry{};
-};
-
-/// The first point of the ray in the closed triangle; none when they miss each other.
-///
-/// Exact on the coordinates as given, and watertight: a ray that hits the common edge or corner of
-/// two triangles hits both, and names the edge or corner, because the edge alone decides on which
-/// side of it a line passes. So no ray slips into a closed surface. A triangle without area is the
-/// segment or point that its corners span, named as by the `intersect` of triangles. Neither the
-/// order of the corners nor the length of the direction matters (features are renamed, t is scaled
-/// accordingly).
-///
-/// \pre    every coordinate is finite, the direction is not zero, no parameter is NaN
-/// \cost   O(1), no allocation; 3 `direction_side` for a miss, at most, and a `cut_parameter` for a
-///         hit in the usual case
-/// \source the three signs: Segura and Feito, Algorithms to Test Ray-Triangle Intersection, WSCG
-///         2001
-[[nodiscard]] TREEFORM_API std::optional<ray_contact> intersect(
-    const ray3& ray, const triangle3& triangle, predicate_counters* counters = nullptr);
-
-/// The first time at which two triangles have a common point.
-struct sweep_contact {
-    /// Features that meet at that time: a corner and any feature, or two edges. There may be
-    /// others.
-    contact at{feature::v0, feature::v0};
-    /// With a relative error below 2^-40; 0 if and only if the exact time is 0.
-    double time = 0.0;
-    /// The time as an exact number, for `compare`: when the point `from` of the moving triangle,
-    /// carried along, gets to the plane `until`.
-    point3 from{};
-    cutting_plane until{};
-};
 
 }  // namespace treeform

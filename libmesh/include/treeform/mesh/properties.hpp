@@ -127,15 +127,12 @@ struct mass_properties {
 [[nodiscard]] TREEFORM_API std::optional<mass_properties> find_mass_properties(
     const mesh_ref& mesh);
 
-/// Whether faces are compared in their order, each from its first corner on.
-enum class face_order : std::uint8_t { kept, any };
-
 /// Whether two meshes have the same faces, by the coordinates of their corners (-0 equals +0, NaN
-/// equals nothing), turned the same way.
+/// equals nothing), turned the same way; in their order, each from its first corner on, or in any.
 ///
 /// \pre  every corner is a point
 /// \cost O(F), and O(F log F) in any order
-[[nodiscard]] TREEFORM_API bool same_triangles(mesh_view a, mesh_view b, face_order order);
+[[nodiscard]] TREEFORM_API bool same_triangles(mesh_view a, mesh_view b, bool any_order);
 
 /// What kind of region.
 enum class feature_kind : std::uint8_t { plane, axis };

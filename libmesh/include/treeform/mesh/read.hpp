@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -132,12 +133,6 @@ struct robot_parts {
     std::vector<std::array<std::uint32_t, 2>> adjacent{};  ///< `urdf_robot::adjacent`, by parts
 };
 
-/// The value of a joint: an angle in radians, or a length.
-struct joint_value {
-    std::string joint{};
-    double value = 0.0;
-};
-
 /// A robot.
 struct urdf_robot {
     std::string name{};
@@ -158,12 +153,12 @@ struct urdf_robot {
 
     /// [L] Where each link is: from its own frame to that of the robot. Joints without a value are
     /// at 0, fixed ones stay, and those that mimic another follow it unless they have a value of
-    /// their own. Limits are not looked at.
+    /// their own. `values` are angles in radians, or lengths, by joint. Limits are not looked at.
     ///
     /// \throws std::invalid_argument for a joint that is not there or fixed, or a value that is not
     ///         finite
     [[nodiscard]] TREEFORM_API std::vector<transform<3>> link_transforms(
-        std::span<const joint_value> values) const;
+        const std::map<std::string, double>& values) const;
 };
 
 /// How to read a robot.

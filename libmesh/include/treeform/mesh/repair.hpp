@@ -42,63 +42,6 @@ struct resolve_options {
     progress_callback progress{};
 };
 
-/// Counts of what was done, for reports.
-struct resolve_statistics {
-    std::uint64_t removed = 0;  ///< input faces of which no part is left
-    /// For `split`: input faces that lie entirely on faces of lower numbers. One piece stands for
-    /// all of them, so they are not counted as removed.
-    std::uint64_t covered = 0;
-    std::uint64_t filled = 0;          ///< faces that fill holes
-    std::uint64_t left_open = 0;       ///< for `remove`: edges that lost their second face
-    std::uint64_t exact_faces = 0;     ///< for `split` and `outer`, as in `boolean_statistics`
-    std::uint64_t split_vertices = 0;  ///< for `outer`, as in `boolean_statistics`
-};
-
-/// The mesh without self-intersections, where its parts came from, and what was checked.
-struct TREEFORM_API resolve_result {
-    /// Instead of a source: the face fills a hole, or the vertex is new.
-    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-    treeform::mesh mesh;                       ///< faces in the order of their sources
-    std::vector<std::uint32_t> face_source;    ///< [F'] input face, lowest of those merged, or none
-    std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
-    /// Status ok says, checked on the coordinates above: no face is degenerate, and any two faces
-    /// have a corner, an edge or nothing in common. For `outer` also: the mesh is a closed
-    /// manifold, and the inside is behind every face. For `remove`: closed parts are still closed;
-    /// faces that touched before may still touch (`resolve_options::touching`).
-    treeform::certificate certificate{};
-    std::uint64_t vanished_components = 0;  ///< components, by vertices, that have no face left
-    resolve_statistics statistics{};
-
-    /// The mesh.
-    /// \throws not_certified_error unless the certificate's status is ok
-    [[nodiscard]] const treeform::mesh& value() const&;
-    [[nodiscard]] treeform::mesh value() &&;
-};
-
-/// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
-///
-/// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
-/// Then they round the points on cuts. Faces that meet nothing stay as they are.
-///
-/// `remove` is for surfaces that bound no solid. It works locally. It
-/// deletes the faces that meet or are degenerate. It closes each hole by triangles of the least
-/// total area between the vertices of its rim, but not beyond where the mesh ended. Where the new
-/// triangles meet other faces, the hole is made wider. A part is a set of faces linked by edges:
-/// - In a part that has a border, a hole stays open (`left_open`) where widening does not help, or
-///   where the hole would surround the border. Then of each pair only one face is deleted.
-/// - A closed part stays as it is where a part with a border passes through it.
-/// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
-///
-/// \throws std::invalid_argument as `boolean`; for `remove`, a coordinate may be beyond 2^1000
-/// \cost   as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
-///         where a component is inward; for `remove`, one `self_intersections` a round, and for a
-///         hole of n vertices O(n^3) when n <= 200, else O(n^2)
-/// \same   on any number of threads
-[[nodiscard]] TREEFORM_API resolve_result
-resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mode::outer,
-                           const resolve_options& options = {});
-
 /// What is inside, for `repair`.
 enum class repair_rule : std::uint8_t {
     automatic,  ///< `positive` where each shell is outward after `orient`, else `nonzero` or labels
@@ -140,31 +83,38 @@ struct repair_options {
 
 /// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
 struct repair_statistics {
-    std::uint64_t tetrahedra = 0;      ///< tetrahedra that the faces were; their boundary was kept
-    std::uint64_t degenerate = 0;      ///< faces without area, dropped; with such, slivers
-    std::uint64_t repeated = 0;        ///< faces on others, dropped
-    std::uint64_t closed_edges = 0;    ///< pairs of border edges that became one
-    std::uint64_t split_edges = 0;     ///< border edges split at vertices that lie on them
-    double gap = 0.0;                  ///< widest crack that was looked for
-    double widest = 0.0;               ///< widest crack that was closed
-    std::uint64_t flipped = 0;         ///< faces turned to agree with their neighbors
-    std::uint64_t turned = 0;          ///< components turned outward
-    std::uint64_t strays = 0;          ///< faces of loose and of inner pieces, dropped
-    std::uint64_t holes = 0;           ///< holes filled
-    std::uint64_t hole_edges = 0;      ///< edges around them
-    std::uint64_t filled = 0;          ///< faces that fill them
-    std::uint64_t sheets = 0;          ///< rims not filled, since they end sheets
-    std::uint64_t open_edges = 0;      ///< left after these steps
-    bool resolved = false;             ///< faces met and were cut
-    std::uint64_t pairs = 0;           ///< pairs of faces that met
-    std::uint64_t labeled_cells = 0;   ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area = 0.0;         ///< area of faces with one label on both sides
-    double turned_area = 0.0;          ///< area of faces that their labels turned over
-    std::uint64_t removed = 0;         ///< faces that resolving left nothing of
+    std::uint64_t tetrahedra = 0;     ///< tetrahedra that the faces were; their boundary was kept
+    std::uint64_t degenerate = 0;     ///< faces without area, dropped; with such, slivers
+    std::uint64_t repeated = 0;       ///< faces on others, dropped
+    std::uint64_t closed_edges = 0;   ///< pairs of border edges that became one
+    std::uint64_t split_edges = 0;    ///< border edges split at vertices that lie on them
+    double gap = 0.0;                 ///< widest crack that was looked for
+    double widest = 0.0;              ///< widest crack that was closed
+    std::uint64_t flipped = 0;        ///< faces turned to agree with their neighbors
+    std::uint64_t turned = 0;         ///< components turned outward
+    std::uint64_t strays = 0;         ///< faces of loose and of inner pieces, dropped
+    std::uint64_t holes = 0;          ///< holes filled
+    std::uint64_t hole_edges = 0;     ///< edges around them
+    std::uint64_t filled = 0;         ///< faces that fill them
+    std::uint64_t sheets = 0;         ///< rims not filled, since they end sheets
+    std::uint64_t open_edges = 0;     ///< left after these steps
+    bool resolved = false;            ///< faces met and were cut
+    std::uint64_t pairs = 0;          ///< pairs of faces that met
+    std::uint64_t labeled_cells = 0;  ///< cells labeled inside or outside, since faces disagreed
+    double dropped_area = 0.0;        ///< area of faces with one label on both sides
+    double turned_area = 0.0;         ///< area of faces that their labels turned over
+    std::uint64_t removed = 0;        ///< faces that resolving left nothing of
+    /// Of `resolve_self_intersections` by `split`: input faces that lie entirely on faces of lower
+    /// numbers. One piece stands for all of them, so they are not counted as removed.
+    std::uint64_t covered = 0;
+    std::uint64_t left_open = 0;       ///< of it by `remove`: edges that lost their second face
+    std::uint64_t exact_faces = 0;     ///< of it, as in `boolean_statistics`
     std::uint64_t split_vertices = 0;  ///< vertices split where parts of the solid touch
     std::uint64_t detached = 0;        ///< vertices moved apart
     std::uint64_t touching = 0;        ///< vertices that still have a twin at their place
-    std::uint64_t vanished_components = 0;  ///< larger than `repair_options::strays`
+    /// Components, by vertices, that have no face left; of `repair`, larger than
+    /// `repair_options::strays`.
+    std::uint64_t vanished_components = 0;
     std::uint64_t dropped_shells = 0;  ///< closed, within the solid; `odd` makes cavities of them
     double volume_before = 0.0;        ///< after `join`, `orient`, `fill`; 0 where it is no solid
     double volume_after = 0.0;
@@ -175,7 +125,8 @@ struct repair_statistics {
 
 /// The mended mesh, where its parts came from, and what was checked.
 struct TREEFORM_API repair_result {
-    static constexpr std::uint32_t none = resolve_result::none;
+    /// Instead of a source: the face fills a hole, or the vertex is new.
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     treeform::mesh mesh;
     std::vector<std::uint32_t> face_source;    ///< [F'] input face, lowest of those merged, or none
@@ -183,7 +134,9 @@ struct TREEFORM_API repair_result {
     std::vector<std::uint8_t> is_left{};       ///< [F] 1 where something is left of an input face
     /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind every
     /// face, and any two faces have a corner, an edge or nothing in common. Status sheet says the
-    /// same of a surface with a border.
+    /// same of a surface with a border. Of `resolve_self_intersections` by `split` and `remove`:
+    /// only the latter, and that no face is degenerate; with `remove`, closed parts are still
+    /// closed, and faces that touched before may still touch (`resolve_options::touching`).
     treeform::certificate certificate{};
     repair_statistics statistics{};
 
@@ -193,6 +146,29 @@ struct TREEFORM_API repair_result {
     [[nodiscard]] const treeform::mesh& value() const&;
     [[nodiscard]] treeform::mesh value() &&;
 };
+
+/// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
+///
+/// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
+/// Then they round the points on cuts. Faces that meet nothing stay as they are.
+///
+/// `remove` is for surfaces that bound no solid. It works locally. It
+/// deletes the faces that meet or are degenerate. It closes each hole by triangles of the least
+/// total area between the vertices of its rim, but not beyond where the mesh ended. Where the new
+/// triangles meet other faces, the hole is made wider. A part is a set of faces linked by edges:
+/// - In a part that has a border, a hole stays open (`left_open`) where widening does not help, or
+///   where the hole would surround the border. Then of each pair only one face is deleted.
+/// - A closed part stays as it is where a part with a border passes through it.
+/// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
+///
+/// \throws std::invalid_argument as `boolean`; for `remove`, a coordinate may be beyond 2^1000
+/// \cost   as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
+///         where a component is inward; for `remove`, one `self_intersections` a round, and for a
+///         hole of n vertices O(n^3) when n <= 200, else O(n^2)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API repair_result
+resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mode::outer,
+                           const resolve_options& options = {});
 
 /// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look at
 /// the certificate: it says whether this was possible, and where not.

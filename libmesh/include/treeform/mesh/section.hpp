@@ -97,10 +97,6 @@ struct section_result {
     [[nodiscard]] TREEFORM_API point3 in_space(const section_layer& layer, const point2& p) const;
 };
 
-struct section_options {
-    progress_callback progress{};
-};
-
 /// Sections of a mesh by the planes at `heights` above `plane` (`oriented_plane::parallel`).
 ///
 /// Which side of a plane a vertex is on, which segments make a loop, and which loop lies in which
@@ -129,12 +125,12 @@ struct section_options {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API section_result section(const mesh_ref& mesh, const oriented_plane& plane,
                                                   std::span<const double> heights,
-                                                  const section_options& options = {});
+                                                  const progress_callback& progress = {});
 
 /// The section by `plane` itself.
 [[nodiscard]] inline section_result section(const mesh_ref& mesh, const oriented_plane& plane,
-                                            const section_options& options = {}) {
-    return section(mesh, plane, std::array{0.0}, options);
+                                            const progress_callback& progress = {}) {
+    return section(mesh, plane, std::array{0.0}, progress);
 }
 
 /// A line on a mesh along which a value has a level.
@@ -171,7 +167,7 @@ struct isolines_result {
 [[nodiscard]] TREEFORM_API isolines_result isolines(const mesh_ref& mesh,
                                                     std::span<const double> values,
                                                     std::span<const double> levels,
-                                                    const section_options& options = {});
+                                                    const progress_callback& progress = {});
 
 /// Writes sections as `svg`, `dxf`, `obj` or `json`, by the extension where no format is given:
 /// loops in the frame (SVG: a group a layer, y up; DXF: polylines at the height as z; JSON: all

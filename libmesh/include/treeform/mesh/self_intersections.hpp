@@ -77,38 +77,39 @@ struct face_pair {
     friend auto operator<=>(const face_pair&, const face_pair&) = default;
 };
 
-/// Which pairs to look for.
-struct self_intersection_options {
-    /// Which corners two faces share: those with equal coordinates, or with the same number.
+/// Which pairs to look for, and where meshes are. What an operation has no use for, it ignores.
+struct intersection_options {
+    /// `self_intersections`: which corners two faces share.
     vertex_identity vertices = vertex_identity::by_coordinates;
-    /// Stop at the first pair found: the same pair on any number of threads.
-    bool first_only = false;
-    /// Kinds to look for; the others are neither counted nor listed.
-    pair_kinds kinds = pair_kinds::all;
-    /// [F] component of each face, for `between` and `within`; or empty.
+    /// `mesh_intersections`: applied to each mesh first. The answer is exact for moved corners as
+    /// `transform::operator()` gives them, rounded to double. A prepared mesh is not changed.
+    transform<3> move_a{};
+    transform<3> move_b{};
+    bool first_only = false;  ///< stop at the first pair: the same on any number of threads
+    pair_kinds kinds = pair_kinds::all;  ///< the others are neither counted nor listed
+    /// `self_intersections`: [F] component of each face, for `between` and `within`; or empty.
     std::span<const std::uint32_t> component_of_face{};
     bool between = false;  ///< only pairs of faces of different components
     bool within = false;   ///< only pairs of faces of one component
-    /// List at most this many pairs, those of the lowest face numbers. All are counted.
-    std::size_t limit = static_cast<std::size_t>(-1);
+    std::size_t limit = static_cast<std::size_t>(-1);  ///< lowest pairs listed; all are counted
     progress_callback progress{};
 };
 
 /// Pairs of faces that meet.
-struct self_intersection_result {
-    std::vector<face_pair> pairs;                         ///< ascending by (a, b)
+struct intersection_result {
+    std::vector<face_pair> pairs;  ///< ascending by (a, b); of two meshes, `a` is of the first
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
-    std::uint64_t box_pairs = 0;                          ///< pairs of faces whose boxes overlap
-    std::uint64_t exact_pairs = 0;                        ///< of these, undecided by the filter
-    predicate_counters predicates{};                      ///< what the undecided pairs cost
-    double tree_seconds = 0.0;                            ///< time to build the tree
-    double pair_seconds = 0.0;                            ///< time to find and decide pairs
-    treeform::status status = treeform::status::ok;       ///< or `cancelled`
+    std::uint64_t box_pairs = 0;      ///< pairs of faces whose boxes overlap, as moved
+    std::uint64_t exact_pairs = 0;    ///< of these, undecided by the filter
+    predicate_counters predicates{};  ///< what the undecided pairs cost
+    double tree_seconds = 0.0;        ///< of one mesh: to build the tree
+    double pair_seconds = 0.0;        ///< to find and decide pairs
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`
 };
 
 /// All pairs of faces that meet where they should not: in a point that is neither a shared corner
 /// nor on a shared edge. A mesh that repeats its vertices, as an STL does, gives the same pairs as
-/// one that does not (`self_intersection_options::vertices`).
+/// one that does not (`intersection_options::vertices`).
 ///
 /// Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
 /// segment or point that it is; its pairs have a kind of their own.
@@ -119,8 +120,8 @@ struct self_intersection_result {
 /// \cost   O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
-[[nodiscard]] TREEFORM_API self_intersection_result
-self_intersections(const mesh_ref& mesh, const self_intersection_options& options = {});
+[[nodiscard]] TREEFORM_API intersection_result
+self_intersections(const mesh_ref& mesh, const intersection_options& options = {});
 
 /// Faces that meet, in one place of the mesh.
 struct intersection_region {
@@ -129,8 +130,7 @@ struct intersection_region {
     point3 max;
     std::uint64_t pairs = 0;  ///< pairs in this region
 
-    /// The point half-way between the corners of the box.
-    [[nodiscard]] point3 center() const {
+    [[nodiscard]] point3 center() const {  ///< half-way between the corners of the box
         return {0.5 * min.x + 0.5 * max.x, 0.5 * min.y + 0.5 * max.y, 0.5 * min.z + 0.5 * max.z};
     }
     friend bool operator==(const intersection_region&, const intersection_region&) = default;
@@ -178,7 +178,7 @@ struct stream_search_result {
     /// are those of all faces.
     usable_mesh part{};
     /// Pairs of faces of `part`. Its counters are sums over the tiles.
-    self_intersection_result found{};
+    intersection_result found{};
     std::uint64_t stored_faces = 0;  ///< faces of the file
     std::uint64_t triangles = 0;     ///< that they are cut into
     std::uint64_t searched = 0;      ///< triangles that are finite, and meet the box

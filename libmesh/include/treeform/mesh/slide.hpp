@@ -15,17 +15,30 @@
 
 namespace treeform {
 
-/// How to slide.
-struct slide_options {
+/// How a mesh is placed. What an operation has no use for, it ignores.
+struct placement_options {
     double clearance = 0.0;              ///< the gap to leave, a distance; 0: until contact
     std::optional<double> max_travel{};  ///< a length; whatever is further along is ignored
+    /// `mate_features`: planes look the same way rather than at each other; axes are turned around.
+    bool flip = false;
+    double max_angle = 360.0;  ///< `turn`: in degrees; greater than 0, up to 360
+    /// `turn`: the gap, beyond the clearance, that counts as contact; greater than 0. Default:
+    /// 2^-32 of the largest distance of a point from the axis.
+    std::optional<double> tolerance{};
+    std::size_t max_steps = 20'000;                                ///< `turn`
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
-    /// z of a bed, which also stops the mesh. Points that rest on it have exactly its z (with
-    /// float32, the least one not below it), and no point is below.
+    /// `slide` and `drop`: z of a bed, which also stops the mesh. Points that rest on it have
+    /// exactly its z (with float32, the least one not below it), and no point is below. `drop`
+    /// without fixed meshes has one at 0.
     std::optional<double> bed{};
-    /// Close a gap that rounding leaves at a contact, by units in the last place.
+    /// `slide`: close a gap that rounding leaves at a contact, by units in the last place.
     bool close_in = true;
-    std::size_t limit = 1000;                                    ///< contacts listed
+    std::size_t normals = 24;     ///< `separate`: try at most this many normals of faces
+    std::size_t face_pairs = 64;  ///< take them from this many pairs of faces for each mesh
+    /// `separate`: pairs of faces that the search may look at, a pair in motion counting as two; 0:
+    /// 20 million and 200 for each face. Distances for a clearance do not count.
+    std::uint64_t effort = 0;
+    std::size_t limit = 1000;  ///< contacts listed; of `separate`, of each fixed mesh
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
 };
@@ -50,20 +63,7 @@ struct slide_options {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API placement slide(const mesh_ref& moving, const mesh_refs& fixed,
                                            const point3& direction,
-                                           const slide_options& options = {});
-
-/// How to drop.
-struct drop_options {
-    double clearance = 0.0;
-    std::optional<double> max_travel{};
-    treeform::precision precision = treeform::precision::float64;
-    /// z of the bed. Default: 0 without fixed meshes, no bed with them.
-    std::optional<double> bed{};
-    point3 direction{0.0, 0.0, -1.0};  ///< has to lead down
-    std::size_t limit = 1000;
-    vertex_identity vertices = vertex_identity::by_coordinates;
-    progress_callback progress{};
-};
+                                           const placement_options& options = {});
 
 /// Moves `moving` down until it rests on the bed. From below the bed it goes up, back along the
 /// direction.
@@ -71,22 +71,15 @@ struct drop_options {
 /// \throws std::invalid_argument as `slide`, and for a direction that does not lead down
 /// \cost   O(V)
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API placement drop(const mesh_ref& moving, const drop_options& options = {});
+[[nodiscard]] TREEFORM_API placement drop(const mesh_ref& moving,
+                                          const placement_options& options = {},
+                                          const point3& direction = {0.0, 0.0, -1.0});
 
 /// Moves `moving` down until it rests on one of `fixed`, or on the bed if there is one, as `slide`
 /// does. A mesh that reaches below the bed has no place.
 [[nodiscard]] TREEFORM_API placement drop(const mesh_ref& moving, const mesh_refs& fixed,
-                                          const drop_options& options = {});
-
-/// How to mate.
-struct mate_options {
-    double clearance = 0.0;              ///< the gap to leave, a distance; 0: until contact
-    std::optional<double> max_travel{};  ///< a length
-    treeform::precision precision = treeform::precision::float64;  ///< of the points returned
-    std::size_t limit = 1000;                                      ///< contacts listed
-    vertex_identity vertices = vertex_identity::by_coordinates;    ///< as in `relation`
-    progress_callback progress{};
-};
+                                          const placement_options& options = {},
+                                          const point3& direction = {0.0, 0.0, -1.0});
 
 /// Translates `moving` so that its nearest points to `fixed` come together, or to the clearance.
 /// Coordinates are checked as in `slide`. A mesh that touches stays; one that penetrates has no
@@ -96,22 +89,7 @@ struct mate_options {
 /// \cost   `measure` for the fixed meshes that may be the nearest, and a `slide`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API placement mate(const mesh_ref& moving, const mesh_refs& fixed,
-                                          const mate_options& options = {});
-
-/// How to separate.
-struct separate_options {
-    double clearance = 0.0;              ///< the least distance wanted; 0: only not to penetrate
-    std::optional<double> max_travel{};  ///< a length
-    treeform::precision precision = treeform::precision::float64;  ///< of the points returned
-    std::size_t normals = 24;     ///< try at most this many normals of faces as directions
-    std::size_t face_pairs = 64;  ///< take them from this many pairs of faces for each mesh
-    /// Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20 million
-    /// and 200 for each face. Distances for a clearance do not count.
-    std::uint64_t effort = 0;
-    std::size_t limit = 1000;  ///< contacts listed of each fixed mesh
-    vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
-    progress_callback progress{};
-};
+                                          const placement_options& options = {});
 
 /// Translates `moving` to where it penetrates none of `fixed` and keeps the clearance. It stays
 /// when it already does.
@@ -129,29 +107,16 @@ struct separate_options {
 /// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
 ///         Computing the Intersection-Depth of Polyhedra, Algorithmica 9 (1993)
 [[nodiscard]] TREEFORM_API placement separate(const mesh_ref& moving, const mesh_refs& fixed,
-                                              const separate_options& options = {});
+                                              const placement_options& options = {});
 
-struct feature_mate_options {
-    double clearance = 0.0;  ///< the gap to leave, a distance; 0: until contact
-    /// Planes look the same way rather than at each other; axes are turned around.
-    bool flip = false;
-    treeform::precision precision = treeform::precision::float64;  ///< of the points returned
-    std::size_t limit = 1000;                                      ///< contacts listed
-    vertex_identity vertices = vertex_identity::by_coordinates;    ///< as in `relation`
-    progress_callback progress{};
-};
-
-/// Two meshes brought together.
-struct feature_mating {
-    /// `travel` is 0; `matrix` is a turn and a translation.
-    placement at{};
-    double turn_angle = 0.0;  ///< in degrees, of the turn that makes the directions agree
-    /// How far the center of the moving feature ended from that of the fixed one, along the
-    /// direction of the fixed one. Of planes: their distance.
-    double offset = 0.0;
-
-    explicit operator bool() const { return static_cast<bool>(at); }
-};
+/// How `moving` lies to all of `fixed` where it is. Moves nothing: distances below the
+/// clearance are `closer_than_clearance`.
+///
+/// \throws std::invalid_argument as `slide`
+/// \cost   `measure` for the fixed meshes that may be the nearest, and the pairs of faces that meet
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
+                                                   const placement_options& options = {});
 
 /// Turns `moving` by the least angle that makes the two features' directions opposite (planes) or
 /// parallel (axes), puts center above center, and slides it from outside along the direction of the
@@ -161,16 +126,15 @@ struct feature_mating {
 ///
 /// A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
 /// that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
-/// coordinates returned.
+/// coordinates returned. `travel` is 0.
 ///
 /// \throws std::invalid_argument for features of two kinds, or with a direction that is not of
 ///         length 1 or an origin that is not finite, and as `slide`
 /// \cost   that of `slide`, and two trees over `moving`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API feature_mating mate_features(const mesh_ref& moving,
-                                                        const mesh_refs& fixed,
-                                                        const mesh_feature& of_moving,
-                                                        const mesh_feature& of_fixed,
-                                                        const feature_mate_options& options = {});
+[[nodiscard]] TREEFORM_API placement mate_features(const mesh_ref& moving, const mesh_refs& fixed,
+                                                   const mesh_feature& of_moving,
+                                                   const mesh_feature& of_fixed,
+                                                   const placement_options& options = {});
 
 }  // namespace treeform

@@ -5,8 +5,8 @@
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
-#include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -34,13 +34,6 @@ struct impact_options {
     progress_callback progress{};
 };
 
-/// How a motion ends.
-enum class motion_end : std::uint8_t {
-    free,      ///< the meshes do not meet
-    contact,   ///< they meet at a time greater than 0
-    at_start,  ///< they have a common point where they are
-};
-
 /// A pair of faces that meet when the meshes first do.
 struct face_contact {
     std::uint32_t face_a = 0;
@@ -52,12 +45,13 @@ struct face_contact {
 
 /// The first contact of two meshes.
 struct impact {
-    motion_end end = motion_end::free;
+    /// `contact`: they meet at a time greater than 0; `starts_touching`: they have a common point
+    /// where they are; `nothing_met`.
+    placement_end end = placement_end::nothing_met;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by
-    /// `time` times the motion has not passed it. 0 when `end` is at_start.
+    /// `time` times the motion has not passed it. 0 when they meet at the start.
     double time = 0.0;
-    sweep_contact exact{};                 ///< the exact time; that of the first of `contacts`
-    std::vector<face_contact> contacts{};  ///< pairs that meet at t, ascending; empty when at_start
+    std::vector<face_contact> contacts{};  ///< pairs that meet at t, ascending; empty at the start
     std::uint64_t contact_count = 0;       ///< all pairs that meet at t, listed or not
     std::uint64_t pairs_tested = 0;        ///< pairs of faces looked at; the rest was skipped
     predicate_counters predicates{};       ///< used for these and for the order of their times
@@ -81,27 +75,6 @@ struct impact {
                                                  const point3& motion,
                                                  const impact_options& options = {});
 
-/// How far to look.
-struct approach_options {
-    double latest = std::numeric_limits<double>::infinity();  ///< as for `time_of_impact`
-    std::size_t limit = 1000;
-    progress_callback progress{};
-};
-
-/// When two meshes come within a distance of each other.
-struct approach {
-    /// contact: the meshes are nearer than the distance right after `time`. at_start: they are
-    /// nearer where they are.
-    motion_end end = motion_end::free;
-    double time = 0.0;
-    /// The pairs of faces at the distance at `time`, as computed; ascending. Their points are on
-    /// `b`; their features mean nothing.
-    std::vector<face_contact> contacts{};
-    std::uint64_t contact_count = 0;
-    std::uint64_t pairs_tested = 0;
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
-};
-
 /// The first time t >= 0 after which `a`, moved by t times `motion`, is nearer to `b` than
 /// `distance` (not squared).
 ///
@@ -109,6 +82,10 @@ struct approach {
 /// coordinate, so a mesh that slides along a wall at just the distance moves on. The time has
 /// rounding errors of that size along the motion, and larger ones where the motion nearly grazes.
 /// `slide` checks the place itself. For the distance 0, use `time_of_impact`, which is exact.
+///
+/// The impact is a contact if they are nearer right after its time, and at the start if they are
+/// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on
+/// `b`, their features mean nothing.
 ///
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.
@@ -119,42 +96,14 @@ struct approach {
 /// \same   on every machine
 /// \source convex distance in motion: Cameron, Enhancing GJK, ICRA 1997, and Mirtich's conservative
 ///         advancement, here for pairs of faces
-[[nodiscard]] TREEFORM_API approach time_to_distance(const mesh_ref& a, const mesh_ref& b,
-                                                     const point3& motion, double distance,
-                                                     const approach_options& options = {});
+[[nodiscard]] TREEFORM_API impact time_to_distance(const mesh_ref& a, const mesh_ref& b,
+                                                   const point3& motion, double distance,
+                                                   const impact_options& options = {});
 
 /// A line to turn about, to the right (counter-clockwise, seen against `direction`).
 struct turn_axis {
     point3 origin{};                  ///< any point of the line
     point3 direction{0.0, 0.0, 1.0};  ///< of any length but 0
-};
-
-/// How to turn.
-struct turn_options {
-    double clearance = 0.0;    ///< the gap to leave, a distance; 0: until contact
-    double max_angle = 360.0;  ///< in degrees; greater than 0, up to 360
-    /// The gap, beyond the clearance, that counts as contact; greater than 0. Default: 2^-32 of the
-    /// largest distance of a point from the axis.
-    std::optional<double> tolerance{};
-    std::size_t max_steps = 20'000;
-    treeform::precision precision = treeform::precision::float64;  ///< of the points returned
-    std::size_t limit = 1000;                                      ///< contacts listed
-    vertex_identity vertices = vertex_identity::by_coordinates;    ///< as in `relation`
-    progress_callback progress{};
-};
-
-/// Where a turn ended.
-struct turn_result {
-    /// `travel` is 0, `matrix` a turn about the axis, from which `points` differ by a few units in
-    /// the last place of the largest coordinate. `contacts` are the pairs of faces within the
-    /// tolerance, beyond the clearance. `mesh_relation` at the place is exact: separate, in
-    /// general, by no more than the tolerance.
-    placement at{};
-    double angle = 0.0;      ///< of the turn, in degrees
-    double tolerance = 0.0;  ///< that was used
-    std::uint64_t steps = 0;
-
-    explicit operator bool() const { return static_cast<bool>(at); }
 };
 
 /// Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or of
@@ -168,6 +117,10 @@ struct turn_result {
 /// `nothing_met`, all of `max_angle` is free. With `too_many_steps` it was not found out: something
 /// is passed at a distance that is very small against the size, over a long way.
 ///
+/// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
+/// coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
+/// `at_place` is exact: separate, in general, by no more than the tolerance.
+///
 /// Points that no face uses turn along and are otherwise ignored. Clouds are
 /// `prepared_mesh::cloud`.
 ///
@@ -179,8 +132,8 @@ struct turn_result {
 /// \same   on any number of threads
 /// \source the idea of steps by a bound of the motion: Mirtich, Impulse-based Dynamic Simulation of
 ///         Rigid Body Systems (1996), conservative advancement
-[[nodiscard]] TREEFORM_API turn_result turn(const mesh_ref& moving, const mesh_refs& fixed,
-                                            const turn_axis& axis,
-                                            const turn_options& options = {});
+[[nodiscard]] TREEFORM_API placement turn(const mesh_ref& moving, const mesh_refs& fixed,
+                                          const turn_axis& axis,
+                                          const placement_options& options = {});
 
 }  // namespace treeform

@@ -33,6 +33,28 @@ struct point_groups {
     [[nodiscard]] TREEFORM_API mesh joined(mesh_view mesh) const;
 };
 
+/// Finds the points whose coordinates are equal as doubles (-0 equals +0).
+///
+/// Distinct points are numbered in the order in which they first appear. Points that differ in one
+/// bit stay distinct, however close they are (only -0 and +0 are equal). An infinity equals itself.
+/// A point with a NaN coordinate equals no other, not even a copy of itself.
+///
+/// \throws std::invalid_argument for more than 2^32 - 1 points
+/// \cost   O(V) expected time, also when all points are equal; about 12 bytes a point besides the
+///         result's `first_of_group`
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API point_groups find_equal_points(points_view points);
+
+/// `mesh` with equal points joined. Points are in the order in which they first appear, with the
+/// coordinates of the first, bit for bit. Nothing is dropped: faces keep their order, even those
+/// that now repeat a corner, and points that no face uses stay.
+///
+/// \throws std::invalid_argument for more than 2^32 - 1 points, or naming the lowest face with a
+///         corner out of range
+/// \cost   as `find_equal_points`, and O(F)
+/// \same   on any number of threads
+[[nodiscard]] TREEFORM_API mesh join_equal_points(mesh_view mesh);
+
 /// What welding has done to points and faces.
 struct weld_statistics {
     std::uint64_t groups = 0;      ///< groups of two points or more
@@ -150,7 +172,7 @@ struct file_weld_result {
     const mesh_file& welded, const weld_options& options, precision written_as);
 
 /// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, rule,
-/// search, label, may_merge and progress.
+/// label, may_merge and progress.
 ///
 /// \throws std::invalid_argument as `weld`
 /// \cost   as `weld`

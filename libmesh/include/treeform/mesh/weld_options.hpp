@@ -27,16 +27,6 @@ enum class weld_rule : std::uint8_t {
     chain
 };
 
-/// How neighbors are found. The groups are the same with each. Where a point has many others within
-/// the tolerance, all ways take a short cut: kept points are looked up by cube, and chains join
-/// whole cubes.
-enum class neighbor_search : std::uint8_t {
-    automatic,  ///< chosen from a sample of the points
-    window,     ///< points sorted along a line in general position, and a window sliding over them
-    cells,      ///< points sorted by cubes as wide as the tolerance
-    tree        ///< self-search of a `treeform::tree`
-};
-
 /// Which point of a group is kept, with its coordinates and properties.
 enum class weld_keep : std::uint8_t {
     first,   ///< the lowest-numbered; kept points do not move
@@ -68,7 +58,6 @@ struct weld_condition {
 struct weld_options {
     double tolerance = 0.0;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
     weld_rule rule = weld_rule::first;
-    neighbor_search search = neighbor_search::automatic;
     /// [V] or empty: points with different labels are never merged.
     std::span<const std::uint32_t> label{};
     /// Whether two points may be merged; or empty. It is asked about pairs within the tolerance
@@ -104,19 +93,19 @@ struct weld_options {
 /// `weld_options` names a property that the vertices do not have, or not in a usable form.
 class TREEFORM_API weld_property_error : public std::invalid_argument {
   public:
-    enum class option : std::uint8_t { same, across, keep_by, order_by };
-    enum class fault : std::uint8_t { missing, is_list, is_several };
+    /// `option` is the member of `weld_options`; `reason` half a sentence, empty for a property
+    /// that is missing.
+    weld_property_error(std::string option, std::string name, std::string reason);
 
-    weld_property_error(option where, fault what, std::string name);
-
-    [[nodiscard]] option where() const { return where_; }
-    [[nodiscard]] fault what_is_wrong() const { return fault_; }
+    [[nodiscard]] const std::string& option() const { return option_; }
     [[nodiscard]] const std::string& name() const { return name_; }
+    /// "has lists of values", "is more than one property"; empty: there is none of that name.
+    [[nodiscard]] const std::string& reason() const { return reason_; }
 
   private:
-    option where_;
-    fault fault_;
+    std::string option_;
     std::string name_;
+    std::string reason_;
 };
 
 }  // namespace treeform

@@ -28,6 +28,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -119,12 +120,10 @@ struct weld_stream_counts {
 
 /// What to write; each part may be left out.
 struct weld_stream_outputs {
-    struct file {
-        std::filesystem::path path{};
-        write_options options{};
-    };
-    std::optional<file> welded{};
-    std::optional<file> removed{};  ///< the dropped points
+    /// The path, and how to write it.
+    std::optional<std::pair<std::filesystem::path, write_options>> welded{};
+    /// The same for the dropped points.
+    std::optional<std::pair<std::filesystem::path, write_options>> removed{};
     /// If set, `welded` gets all points, with the group of each in a uint32 property of this name.
     std::string label{};
     bool withhold = false;  ///< `welded` gets all points, those not kept "withheld" as in LAS

@@ -89,10 +89,10 @@ struct write_result {
 ///   are, others as floats from 0 to 1; nx, ny and nz NORMAL, with length 1; s and t, u and v or
 ///   texture_u and texture_v TEXCOORD_0, with v = 1 - t. Those of corners go ahead of these, and a
 ///   point gets a copy for each that it has.
-/// - 3MF: an object and an item of the build for each of `scene_parts`, with its name; materials of
-///   parts with the colors of their faces; else colors of faces, else of points; the line "unit
-///   ..." of `obj_info`, else millimeters. Polygons are written as triangles. A number in text is
-///   that of the double, so that readers of floats and of doubles get the same.
+/// - 3MF: an object and an item of the build for each part, as `split_parts` has them, with its
+///   name; materials of parts with the colors of their faces; else colors of faces, else of points;
+///   the line "unit ..." of `obj_info`, else millimeters. Polygons are written as triangles. A
+///   number in text is that of the double, so that readers of floats and of doubles get the same.
 ///
 /// Columns of points that several formats know have the names and types of the format that is
 /// written (`libmesh/attributes/known_columns.cpp` is the table): colors are red, green and blue of
@@ -125,7 +125,7 @@ TREEFORM_API double round_to_las(mesh_file& file, const write_options& options =
 TREEFORM_API write_result write(const std::filesystem::path& path, mesh surface,
                                 const write_options& options = {});
 
-/// A result with a certificate, such as `boolean_result` and `resolve_result`.
+/// A result with a certificate, such as `boolean_result` and `repair_result`.
 template <class Result>
 concept certified_result = requires(const Result& result) {
     { result.value() } -> std::convertible_to<const mesh&>;

@@ -81,14 +81,14 @@ struct neighbor {
 };
 
 /// A list of answers for each of Q queries, all in one array.
-template <class Neighbor>
-struct neighbor_lists {
+template <class Answer>
+struct answer_lists {
     std::vector<std::size_t> begin;  ///< [Q + 1] where each list starts, and the end
-    std::vector<Neighbor> neighbors;
+    std::vector<Answer> answers;
 
     [[nodiscard]] std::size_t size() const { return begin.empty() ? 0 : begin.size() - 1; }
-    [[nodiscard]] std::span<const Neighbor> operator[](std::size_t query) const {
-        return std::span(neighbors).subspan(begin[query], begin[query + 1] - begin[query]);
+    [[nodiscard]] std::span<const Answer> operator[](std::size_t query) const {
+        return std::span(answers).subspan(begin[query], begin[query + 1] - begin[query]);
     }
 };
 

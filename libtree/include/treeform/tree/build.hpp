@@ -9,7 +9,6 @@
 #include <treeform/tree/detail/frame.hpp>
 #include <treeform/tree/detail/round_boxes.hpp>
 #include <treeform/tree/parallel.hpp>
-#include <treeform/tree/strategy.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
@@ -35,7 +34,6 @@ concept partition_strategy = requires(int* first, int* nth, int* last,
                                       bool (*less)(const int&, const int&)) {
     S::partition(first, nth, last, less);
 };
-static_assert(partition_strategy<strategy::nth_element>);
 
 /// Makes the box of an element: returns a `treeform::aabb<T, D>` of float or double, D = 2 or 3.
 template <class F, class Element>
@@ -50,7 +48,7 @@ template <std::size_t D>
 class builder {
   public:
     /// Replaces `tree` by the tree over `range`. See `build`.
-    template <class Strategy = strategy::bracketed_select, std::ranges::input_range Range,
+    template <class Strategy = detail::bracketed_select, std::ranges::input_range Range,
               class MakeBox>
     void rebuild(tree<D>& tree, Range&& range, const MakeBox& make_aabb);
 
@@ -81,8 +79,7 @@ class builder {
 ///         `make_aabb` is called up to twice for each element, by several threads at once. Any
 ///         other range is read once, in order
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 1; the selection after Floyd and Rivest
-template <class Strategy = strategy::bracketed_select, std::ranges::input_range Range,
-          class MakeBox>
+template <class Strategy = detail::bracketed_select, std::ranges::input_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<Range>>
 [[nodiscard]] auto build(Range&& range, const MakeBox& make_aabb) {
     using box = std::remove_cvref_t<decltype(make_aabb(*std::ranges::begin(range)))>;
@@ -92,7 +89,7 @@ requires box_maker<MakeBox, std::ranges::range_reference_t<Range>>
     return result;
 }
 
-/// The same with the strategy as a value: `build(treeform::strategy::nth_element{}, ...)`.
+/// The same with the strategy as a value: `build(my_selection{}, ...)`.
 template <class Strategy, std::ranges::input_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<Range>>
 [[nodiscard]] auto build(Strategy, Range&& range, const MakeBox& make_aabb) {
@@ -102,7 +99,7 @@ requires box_maker<MakeBox, std::ranges::range_reference_t<Range>>
 template <std::size_t D>
 template <class Strategy, std::ranges::input_range Range, class MakeBox>
 void builder<D>::rebuild(tree<D>& tree, Range&& range, const MakeBox& make_aabb) {
-    if constexpr (std::is_same_v<Strategy, strategy::bracketed_select>) {
+    if constexpr (std::is_same_v<Strategy, detail::bracketed_select>) {
         run(tree, range, make_aabb, nullptr);
     } else {
         static_assert(partition_strategy<Strategy>);

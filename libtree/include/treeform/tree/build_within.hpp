@@ -24,14 +24,6 @@
 
 namespace treeform {
 
-/// A tree over some of the elements of a range.
-template <std::size_t D>
-struct partial_tree {
-    tree<D> boxes;           ///< its `ids()` are positions in the whole range
-    std::size_t considered;  ///< elements of the range
-    [[nodiscard]] std::size_t skipped() const { return considered - boxes.size(); }
-};
-
 namespace detail {
 
 inline constexpr std::size_t elements_per_chunk = std::size_t{1} << 13;
@@ -140,12 +132,10 @@ template <std::size_t D, class Range, class MakeBox>
 
 /// The tree over some elements of a range of `size`.
 template <std::size_t D, class Range, class MakeBox>
-[[nodiscard]] partial_tree<D> tree_over(const std::vector<std::uint32_t>& kept, const Range& range,
-                                        const MakeBox& make_aabb) {
-    partial_tree<D> result{
-        build(kept, [&](std::uint32_t id) { return make_aabb(at_place(range, id)); }),
-        static_cast<std::size_t>(std::ranges::size(range))};
-    std::uint32_t* const places = result.boxes.ids_data();
+[[nodiscard]] tree<D> tree_over(const std::vector<std::uint32_t>& kept, const Range& range,
+                                const MakeBox& make_aabb) {
+    tree<D> result = build(kept, [&](std::uint32_t id) { return make_aabb(at_place(range, id)); });
+    std::uint32_t* const places = result.ids_data();
     for_chunks(kept.size(), elements_per_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i) places[i] = kept[places[i]];
@@ -163,8 +153,9 @@ void refuse_too_many(const char* function, const Range& range) {
 
 }  // namespace detail
 
-/// The tree over the elements of `range` whose boxes meet `within` (touching counts), and how many
-/// were left out. A search for anything inside that box finds the same as in a tree over all.
+/// The tree over the elements of `range` whose boxes meet `within` (touching counts). Its `ids()`
+/// are positions in the whole range. A search for anything inside that box finds the same as in a
+/// tree over all.
 ///
 /// An empty box keeps nothing, an infinite box everything.
 ///
@@ -175,8 +166,8 @@ void refuse_too_many(const char* function, const Range& range) {
 template <std::ranges::random_access_range Range, class MakeBox, std::floating_point T,
           std::size_t D>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
-[[nodiscard]] partial_tree<D> build_within(const Range& range, const MakeBox& make_aabb,
-                                           const aabb<T, D>& within) {
+[[nodiscard]] tree<D> build_within(const Range& range, const MakeBox& make_aabb,
+                                   const aabb<T, D>& within) {
     for (std::size_t k = 0; k < D; ++k)
         if (within.min[k] != within.min[k] || within.max[k] != within.max[k])
             throw std::invalid_argument(

@@ -101,7 +101,7 @@ class lazy_tree {
   private:
     using box = aabb<double, D>;
     struct block {
-        once split;
+        detail::once split;
         tree<D> boxes;
     };
 

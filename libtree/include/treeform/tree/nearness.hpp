@@ -9,7 +9,6 @@
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/detail/nearest_k.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
-#include <treeform/tree/strategy.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <algorithm>
@@ -20,20 +19,21 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace treeform {
 
 /// The order in which nodes are opened. Answers are the same for each, times are not.
-using nearness_strategy =
-    std::variant<strategy::depth_first, strategy::top_k_sorted, strategy::priority_queue>;
+enum class node_order : std::uint8_t {
+    depth_first,  ///< the children of one node by distance
+    best_first    ///< the nearest of all that are not opened yet: opens the fewest nodes
+};
 
 struct nearness_options {
     /// Largest distance of an answer, not squared: the root of its squared distance is at most
     /// this.
     double radius = std::numeric_limits<double>::infinity();
-    nearness_strategy strategy{};
+    node_order order = node_order::depth_first;
 };
 
 /// What a search measures from: a box `treeform::aabb<T, D>`, or a point, which is anything else
@@ -52,14 +52,13 @@ namespace detail {
 /// Calls `visit` as `visit_near` does, from the bound `squared` on.
 template <std::size_t D>
 TREEFORM_API void walk_near(const tree<D>& tree, const aabb<double, D>& query, double squared,
-                            const nearness_strategy& strategy,
-                            function_ref<double(std::uint32_t)> visit);
+                            node_order order, function_ref<double(std::uint32_t)> visit);
 
 template <tree_of_trees Trees, class Visit>
 void walk_near(const Trees& trees, const aabb<double, Trees::dimensions>& query, double squared,
-               const nearness_strategy& strategy, const Visit& visit) {
-    walk_near(trees.top(), query, squared, strategy, [&](std::uint32_t part) {
-        walk_near(trees.part(part), query, squared, strategy, [&](std::uint32_t id) {
+               node_order order, const Visit& visit) {
+    walk_near(trees.top(), query, squared, order, [&](std::uint32_t part) {
+        walk_near(trees.part(part), query, squared, order, [&](std::uint32_t id) {
             if (id != no_primitive) squared = visit(id);
             return squared;
         });
@@ -113,9 +112,9 @@ class nearest_one {
 /// \throws std::invalid_argument for a query that is not finite or an empty box, or a radius that
 ///         is negative or NaN
 /// \cost   O(log N + nodes within the final bound) for most queries; serial; no allocation with the
-///         default strategy. Boxes are compared as floats: a query further off than some 1e5
+///         default order. Boxes are compared as floats: a query further off than some 1e5
 ///         times the extent of the tree cannot tell them apart, and visits many
-/// \same   the primitives visited depend on the strategy and the processor, those within the bound
+/// \same   the primitives visited depend on the order and the processor, those within the bound
 ///         are always among them
 /// \source Sajovic, Knez and Korez, tf::tree, section III-D; eight boxes at a time
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class Visit>
@@ -123,8 +122,8 @@ requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
 void visit_near(const Tree& tree, const Query& query, const Visit& visit,
                 const nearness_options& options = {}) {
     detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query),
-                      detail::squared_radius("treeform::visit_near", options.radius),
-                      options.strategy, visit);
+                      detail::squared_radius("treeform::visit_near", options.radius), options.order,
+                      visit);
 }
 
 /// The nearest primitive, of equally near ones that of the lowest number; none when the tree is
@@ -137,14 +136,14 @@ void visit_near(const Tree& tree, const Query& query, const Visit& visit,
 ///
 /// \throws std::invalid_argument as `visit_near`
 /// \cost   as `visit_near`
-/// \same   as a loop over all primitives, whatever the strategy
+/// \same   as a loop over all primitives, whatever the order
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto nearest(const Tree& tree, const Query& query, const DistanceOf& distance_of,
                            const nearness_options& options = {}) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     detail::nearest_one<answer> one(detail::squared_radius("treeform::nearest", options.radius));
     detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), one.bound(),
-                      options.strategy, [&](std::uint32_t id) {
+                      options.order, [&](std::uint32_t id) {
                           one.offer(id, distance_of);
                           return one.bound();
                       });
@@ -156,7 +155,7 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
 ///
 /// \throws std::invalid_argument as `visit_near`
 /// \cost   as `visit_near`, O(log k) more for each primitive that is among the k nearest so far
-/// \same   as sorting all primitives, whatever the strategy
+/// \same   as sorting all primitives, whatever the order
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto k_nearest(const Tree& tree, const Query& query, std::size_t k,
                              const DistanceOf& distance_of, const nearness_options& options = {}) {
@@ -164,7 +163,7 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
     detail::nearest_k<neighbor<answer>> found(
         std::min(k, tree.size()), detail::squared_radius("treeform::k_nearest", options.radius));
     detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), found.bound(),
-                      options.strategy, [&](std::uint32_t id) {
+                      options.order, [&](std::uint32_t id) {
                           found.offer({id, distance_of(id)});
                           return found.bound();
                       });
@@ -176,15 +175,15 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
 ///
 /// \throws std::invalid_argument as `visit_near`
 /// \cost   as `visit_near`, and O(A log A) for A answers
-/// \same   as a loop over all primitives, whatever the strategy
+/// \same   as a loop over all primitives, whatever the order
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto all_within(const Tree& tree, const Query& query, double radius,
                               const DistanceOf& distance_of,
-                              const nearness_strategy& strategy = {}) {
+                              node_order order = node_order::depth_first) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     const double bound = detail::squared_radius("treeform::all_within", radius);
     std::vector<neighbor<answer>> found;
-    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), bound, strategy,
+    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), bound, order,
                       [&](std::uint32_t id) {
                           neighbor<answer> one{id, distance_of(id)};
                           if (one.squared_distance() <= bound) found.push_back(std::move(one));

@@ -54,14 +54,14 @@ template <std::size_t D, class Queries, class Search>
                [&](std::size_t begin, std::size_t end, std::size_t) {
                    for (std::size_t i = begin; i < end; ++i) found[order[i]] = search(order[i]);
                });
-    neighbor_lists<typename list::value_type> lists;
+    answer_lists<typename list::value_type> lists;
     lists.begin.resize(found.size() + 1);
     for (std::size_t i = 0; i < found.size(); ++i)
         lists.begin[i + 1] = lists.begin[i] + found[i].size();
-    lists.neighbors.reserve(lists.begin.back());
+    lists.answers.reserve(lists.begin.back());
     for (list& one : found)
-        lists.neighbors.insert(lists.neighbors.end(), std::move_iterator(one.begin()),
-                               std::move_iterator(one.end()));
+        lists.answers.insert(lists.answers.end(), std::move_iterator(one.begin()),
+                             std::move_iterator(one.end()));
     return lists;
 }
 
@@ -92,7 +92,7 @@ template <any_tree Tree, std::ranges::random_access_range Queries, class Distanc
             if (before) one.offer(*before, from_query);
             detail::walk_near(
                 tree, detail::box_of_query<Tree::dimensions>(detail::element(queries, query)),
-                one.bound(), options.strategy, [&](std::uint32_t id) {
+                one.bound(), options.order, [&](std::uint32_t id) {
                     if (id != before) one.offer(id, from_query);
                     return one.bound();
                 });

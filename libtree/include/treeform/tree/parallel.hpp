@@ -35,6 +35,8 @@ inline constexpr std::size_t light_grain = std::size_t{1} << 12;
     return count / grain + (count % grain != 0 ? 1 : 0);
 }
 
+namespace detail {
+
 /// Work that many threads may ask for, but that is done only once, such as an index that is built
 /// on first use.
 class TREEFORM_API once {
@@ -56,6 +58,8 @@ class TREEFORM_API once {
     struct state;
     std::unique_ptr<state> state_;
 };
+
+}  // namespace detail
 
 /// Number of threads that a loop may use now.
 [[nodiscard]] TREEFORM_API unsigned thread_count();

@@ -86,11 +86,10 @@ class TREEFORM_API point_search {
 
     /// The same for many queries in parallel; answers in the order of the queries, and the same as
     /// those of single searches.
-    [[nodiscard]] neighbor_lists<near_point> k_nearest(std::span<const point> queries,
-                                                       std::size_t k,
-                                                       double radius = any_distance) const;
-    [[nodiscard]] neighbor_lists<near_point> all_within(std::span<const point> queries,
-                                                        double radius) const;
+    [[nodiscard]] answer_lists<near_point> k_nearest(std::span<const point> queries, std::size_t k,
+                                                     double radius = any_distance) const;
+    [[nodiscard]] answer_lists<near_point> all_within(std::span<const point> queries,
+                                                      double radius) const;
 
     /// All pairs of points within `radius` of each other, ascending, each once with the lower
     /// number first. None when `progress` asked to stop; it gets 0, as it is not known how much is

@@ -88,6 +88,8 @@ template <any_tree Tree, tree_query<Tree::dimensions> Query>
     return search_all(tree, query, [](std::uint32_t) { return true; });
 }
 
+namespace detail {
+
 /// Nodes of a tree, marked.
 template <std::size_t D>
 class node_marks {
@@ -108,6 +110,8 @@ class node_marks {
     std::vector<std::vector<std::uint8_t>> marks_;  ///< [levels][nodes]
 };
 
+}  // namespace detail
+
 /// The search of a tree by itself, cut into chunks that depend on the tree alone.
 ///
 /// The caller runs the chunks, as a rule with `for_chunks(search.chunks(), 1, ...)`, and keeps a
@@ -123,7 +127,8 @@ class TREEFORM_API self_search {
 
     /// Without the pairs among the primitives below a marked node.
     /// \pre so do `settled`
-    self_search(const tree<D>& tree, const node_marks<D>& settled) : self_search(tree, &settled) {}
+    self_search(const tree<D>& tree, const detail::node_marks<D>& settled)
+        : self_search(tree, &settled) {}
 
     [[nodiscard]] std::size_t chunks() const;
 
@@ -136,10 +141,10 @@ class TREEFORM_API self_search {
                             detail::function_ref<bool(const candidate_block&)> visit) const;
 
   private:
-    self_search(const tree<D>& tree, const node_marks<D>* settled);
+    self_search(const tree<D>& tree, const detail::node_marks<D>* settled);
 
     const tree<D>* tree_;
-    const node_marks<D>* settled_;
+    const detail::node_marks<D>* settled_;
     unsigned level_ = 0;  ///< of the nodes that the items pair
     std::vector<detail::node_pair> items_;
 };

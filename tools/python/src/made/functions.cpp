@@ -15,7 +15,7 @@ py::object section(const held_mesh& mesh, const array_of<double>& normal,
                    const array_of<double>& at, const array_of<double>& heights) {
     return as_python(run([&](const tf::progress_callback& report) {
         return tf::section(mesh.ref(), {point_of(at), point_of(normal)}, rows_of<double>(heights),
-                           {report});
+                           report);
     }));
 }
 
@@ -57,10 +57,11 @@ py::object thicken(const held_mesh& mesh, double thickness, const std::string& s
     }));
 }
 
-py::object wall_thickness(const held_mesh& mesh, tf::thickness_options options) {
+py::object wall_thickness(const held_mesh& mesh, const std::string& by) {
     return as_python(run([&](const tf::progress_callback& report) {
-        options.progress = report;
-        return tf::wall_thickness(mesh.ref(), options);
+        return tf::wall_thickness(
+            mesh.ref(), choice<tf::thickness_by>("by", words_of<tf::thickness_by>::all, by),
+            report);
     }));
 }
 
@@ -72,11 +73,11 @@ py::object oriented_box(const points_array& points) {
 py::object isolines(const held_mesh& mesh, const array_of<double>& values,
                     const array_of<double>& levels) {
     return as_python(run([&](const tf::progress_callback& report) {
-        return tf::isolines(mesh.ref(), rows_of<double>(values), rows_of<double>(levels), {report});
+        return tf::isolines(mesh.ref(), rows_of<double>(values), rows_of<double>(levels), report);
     }));
 }
 
-py::object wrap(const held_mesh& mesh, double size, tf::wrap_options options) {
+py::object wrap(const held_mesh& mesh, double size, tf::offset_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::wrap(mesh.ref(), size, options);
@@ -156,7 +157,7 @@ py::object find_solid_defects(const held_mesh& mesh) {
     }));
 }
 
-py::object self_intersections(const held_mesh& mesh, tf::self_intersection_options options) {
+py::object self_intersections(const held_mesh& mesh, tf::intersection_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::self_intersections(mesh.ref(), options);
@@ -164,7 +165,7 @@ py::object self_intersections(const held_mesh& mesh, tf::self_intersection_optio
 }
 
 py::object mesh_intersections(const held_mesh& a, const held_mesh& b,
-                              tf::mesh_intersection_options options) {
+                              tf::intersection_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::mesh_intersections(a.ref(), b.ref(), options);
@@ -276,7 +277,7 @@ py::object clash_parts(const held_meshes& parts, tf::clash_options options,
 }
 
 py::object clash_in_poses(const held_meshes& parts, const array_of<double>& poses,
-                          tf::pose_options options, const ids_array& ignored) {
+                          tf::clash_options options, const ids_array& ignored) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return (options.ignored = rows_of<tf::part_pair>(ignored),

@@ -77,12 +77,12 @@ py::object cut_along(const held_mesh& mesh, const array_of<double>& values,
                      attributes);
 }
 
-py::object components(const held_mesh& mesh, tf::components_options options) {
+py::object components(const held_mesh& mesh, double min_volume, std::size_t largest) {
     carrying attributes({&mesh});
-    attributes.keep_apart(options);
-    return as_python(
-        run([&](const tf::progress_callback&) { return tf::components(mesh.ref(), options); }),
-        attributes);
+    return as_python(run([&](const tf::progress_callback&) {
+                         return tf::components(mesh.ref(), min_volume, largest);
+                     }),
+                     attributes);
 }
 
 py::object submesh(const held_mesh& mesh, const ids_array& faces) {
@@ -130,7 +130,7 @@ py::object repair(const held_mesh& mesh, tf::repair_options options) {
 }
 
 py::object slide(const held_mesh& moving, const held_meshes& onto,
-                 const array_of<double>& direction, tf::slide_options options) {
+                 const array_of<double>& direction, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::slide(moving.ref(), refs_of(onto), point_of(direction),
@@ -139,16 +139,18 @@ py::object slide(const held_mesh& moving, const held_meshes& onto,
                      moving);
 }
 
-py::object drop(const held_mesh& moving, const held_meshes& onto, tf::drop_options options) {
+py::object drop(const held_mesh& moving, const held_meshes& onto, const array_of<double>& direction,
+                tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return onto.empty() ? tf::drop(moving.ref(), options)
-                                             : tf::drop(moving.ref(), refs_of(onto), options);
+                         return onto.empty() ? tf::drop(moving.ref(), options, point_of(direction))
+                                             : tf::drop(moving.ref(), refs_of(onto), options,
+                                                        point_of(direction));
                      }),
                      moving);
 }
 
-py::object mate(const held_mesh& moving, const held_meshes& onto, tf::mate_options options) {
+py::object mate(const held_mesh& moving, const held_meshes& onto, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::mate(moving.ref(), refs_of(onto), options);
@@ -157,7 +159,7 @@ py::object mate(const held_mesh& moving, const held_meshes& onto, tf::mate_optio
 }
 
 py::object separate(const held_mesh& moving, const held_meshes& fixed,
-                    tf::separate_options options) {
+                    tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::separate(moving.ref(), refs_of(fixed), options);
@@ -166,7 +168,7 @@ py::object separate(const held_mesh& moving, const held_meshes& fixed,
 }
 
 py::object turn(const held_mesh& moving, const held_meshes& fixed, const array_of<double>& axis,
-                const array_of<double>& origin, tf::turn_options options) {
+                const array_of<double>& origin, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::turn(moving.ref(), refs_of(fixed),
@@ -193,7 +195,7 @@ py::object align(const held_mesh& moving, const held_mesh& onto, tf::align_optio
 
 py::object mate_features(const held_mesh& moving, const held_meshes& onto,
                          const tf::mesh_feature& of_moving, const tf::mesh_feature& of_fixed,
-                         tf::feature_mate_options options) {
+                         tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
                          return tf::mate_features(moving.ref(), refs_of(onto), of_moving, of_fixed,

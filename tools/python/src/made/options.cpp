@@ -48,12 +48,6 @@ void each_field(tf::cut_options& how, const Visit& visit) {
 }
 
 template <class Visit>
-void each_field(tf::components_options& how, const Visit& visit) {
-    visit("min_volume", how.min_volume);
-    visit("largest", how.largest);
-}
-
-template <class Visit>
 void each_field(tf::resolve_options& how, const Visit& visit) {
     visit("inside", how.inside);
     visit("precision", how.precision);
@@ -82,14 +76,9 @@ void each_field(tf::repair_options& how, const Visit& visit) {
 }
 
 template <class Visit>
-void each_field(tf::wrap_options& how, const Visit& visit) {
-    visit("offset", how.offset);
-    visit("precision", how.precision);
-}
-
-template <class Visit>
 void each_field(tf::offset_options& how, const Visit& visit) {
     visit("resolution", how.resolution);
+    visit("offset", how.offset);
     visit("precision", how.precision);
 }
 
@@ -101,11 +90,6 @@ void each_field(tf::simplify_options& how, const Visit& visit) {
 }
 
 template <class Visit>
-void each_field(tf::thickness_options& how, const Visit& visit) {
-    visit("by", how.by);
-}
-
-template <class Visit>
 void each_field(tf::feature_options& how, const Visit& visit) {
     visit("tolerance", how.tolerance);
     visit("plane_angle", how.plane_angle);
@@ -114,15 +98,8 @@ void each_field(tf::feature_options& how, const Visit& visit) {
 }
 
 template <class Visit>
-void each_field(tf::self_intersection_options& how, const Visit& visit) {
+void each_field(tf::intersection_options& how, const Visit& visit) {
     visit("vertices", how.vertices);
-    visit("first_only", how.first_only);
-    visit("kinds", how.kinds);
-    visit("limit", how.limit);
-}
-
-template <class Visit>
-void each_field(tf::mesh_intersection_options& how, const Visit& visit) {
     visit("move_a", how.move_a);
     visit("move_b", how.move_b);
     visit("first_only", how.first_only);
@@ -176,50 +153,15 @@ void each_field(tf::weld_stream_options& how, const Visit& visit) {
 }
 
 template <class Visit>
-void each_field(tf::slide_options& how, const Visit& visit) {
+void each_field(tf::placement_options& how, const Visit& visit) {
     visit("clearance", how.clearance);
     visit("max_travel", how.max_travel);
-    visit("precision", how.precision);
-    visit("bed", how.bed);
-}
-
-template <class Visit>
-void each_field(tf::drop_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
-    visit("max_travel", how.max_travel);
-    visit("precision", how.precision);
-    visit("bed", how.bed);
-    visit("direction", how.direction);
-}
-
-template <class Visit>
-void each_field(tf::mate_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
-    visit("max_travel", how.max_travel);
-    visit("precision", how.precision);
-}
-
-template <class Visit>
-void each_field(tf::separate_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
-    visit("max_travel", how.max_travel);
-    visit("precision", how.precision);
-    visit("effort", how.effort);
-}
-
-template <class Visit>
-void each_field(tf::turn_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
+    visit("flip", how.flip);
     visit("max_angle", how.max_angle);
     visit("tolerance", how.tolerance);
     visit("precision", how.precision);
-}
-
-template <class Visit>
-void each_field(tf::feature_mate_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
-    visit("flip", how.flip);
-    visit("precision", how.precision);
+    visit("bed", how.bed);
+    visit("effort", how.effort);
 }
 
 template <class Visit>
@@ -256,7 +198,7 @@ template <class Visit>
 void each_field(tf::align_options& how, const Visit& visit) {
     visit("method", how.method);
     visit("overlap", how.overlap);
-    visit("weights", how.weights);
+    visit("robust", how.robust);
     visit("max_distance", how.max_distance);
     visit("scale", how.scale);
     visit("least_scale", how.least_scale);
@@ -297,12 +239,6 @@ void each_field(tf::clash_options& how, const Visit& visit) {
     visit("volumes", how.volumes);
     visit("depths", how.depths);
     visit("limit", how.limit);
-    visit("vertices", how.vertices);
-}
-
-template <class Visit>
-void each_field(tf::pose_options& how, const Visit& visit) {
-    visit("clearance", how.clearance);
     visit("first_only", how.first_only);
     visit("vertices", how.vertices);
 }
@@ -313,25 +249,16 @@ void add_options(py::module_& module) {
     add_options_of<tf::write_options>(module, "WriteOptions");
     add_options_of<tf::boolean_options>(module, "BooleanOptions");
     add_options_of<tf::cut_options>(module, "CutOptions");
-    add_options_of<tf::components_options>(module, "ComponentsOptions");
     add_options_of<tf::resolve_options>(module, "ResolveOptions");
     add_options_of<tf::repair_options>(module, "RepairOptions");
-    add_options_of<tf::wrap_options>(module, "WrapOptions");
     add_options_of<tf::offset_options>(module, "OffsetOptions");
     add_options_of<tf::simplify_options>(module, "SimplifyOptions");
-    add_options_of<tf::thickness_options>(module, "ThicknessOptions");
     add_options_of<tf::feature_options>(module, "FeatureOptions");
-    add_options_of<tf::self_intersection_options>(module, "SelfIntersectionOptions");
-    add_options_of<tf::mesh_intersection_options>(module, "MeshIntersectionOptions");
+    add_options_of<tf::intersection_options>(module, "IntersectionOptions");
     add_options_of<tf::stream_search_options>(module, "StreamSearchOptions");
     add_options_of<tf::weld_options>(module, "WeldOptions");
     add_options_of<tf::weld_stream_options>(module, "WeldStreamOptions");
-    add_options_of<tf::slide_options>(module, "SlideOptions");
-    add_options_of<tf::drop_options>(module, "DropOptions");
-    add_options_of<tf::mate_options>(module, "MateOptions");
-    add_options_of<tf::separate_options>(module, "SeparateOptions");
-    add_options_of<tf::turn_options>(module, "TurnOptions");
-    add_options_of<tf::feature_mate_options>(module, "FeatureMateOptions");
+    add_options_of<tf::placement_options>(module, "PlacementOptions");
     add_options_of<tf::measure_options>(module, "MeasureOptions");
     add_options_of<tf::depth_options>(module, "DepthOptions");
     add_options_of<tf::impact_options>(module, "ImpactOptions");
@@ -340,7 +267,6 @@ void add_options(py::module_& module) {
     add_options_of<tf::pack_options>(module, "PackOptions");
     add_options_of<tf::deviation_options>(module, "DeviationOptions");
     add_options_of<tf::clash_options>(module, "ClashOptions");
-    add_options_of<tf::pose_options>(module, "PoseOptions");
 }
 
 }  // namespace binding

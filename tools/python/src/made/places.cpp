@@ -113,10 +113,10 @@ py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
     made["contacts"] = as_python(std::move(from.contacts));
     made["contact_count"] = as_python(std::move(from.contact_count));
     made["effort"] = as_python(std::move(from.effort));
+    made["angle"] = as_python(std::move(from.angle));
+    made["tolerance"] = as_python(std::move(from.tolerance));
+    made["offset"] = as_python(std::move(from.offset));
     made["message"] = py::cast(from.message());
-    made["angle"] = py::cast(0.0);
-    made["tolerance"] = py::cast(0.0);
-    made["offset"] = py::cast(0.0);
     return object_of("treeform._placement", "Placement", made);
 }
 

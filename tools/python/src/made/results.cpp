@@ -166,19 +166,6 @@ py::object object(of_result, tf::isolines_result&& from) {
     return object_of("treeform._shapes", "Isolines", made);
 }
 
-py::object object(of_result, tf::resolve_result&& from, const carrying& attributes) {
-    const py::object certificate = as_python(tf::certificate(from.certificate));
-    const py::object data = data_of(from, attributes);
-    py::dict made;
-    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
-    made["face_source"] = as_python(std::move(from.face_source));
-    made["vertex_source"] = as_python(std::move(from.vertex_source));
-    made["certificate"] = certificate;
-    made["statistics"] =
-        with(counters(from.statistics), "vanished_components", from.vanished_components);
-    return object_of("treeform._repair", "ResolveResult", made);
-}
-
 py::object object(of_result, tf::repair_result&& from, const carrying& attributes) {
     const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = data_of(from, attributes);
@@ -190,16 +177,6 @@ py::object object(of_result, tf::repair_result&& from, const carrying& attribute
     made["certificate"] = certificate;
     made["steps"] = counters(from.statistics);
     return object_of("treeform._repair", "RepairResult", made);
-}
-
-py::object object(of_result, tf::wrap_result&& from) {
-    const py::object certificate = as_python(tf::certificate(from.certificate));
-    const py::object data = py::none();
-    py::dict made;
-    made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
-    made["certificate"] = certificate;
-    made["statistics"] = counters(from.statistics);
-    return object_of("treeform._repair", "WrapResult", made);
 }
 
 py::object object(of_result, tf::convex_hull_result&& from) {
@@ -270,15 +247,7 @@ py::object object(of_result, tf::mesh_feature&& from) {
     return object_of("treeform._properties", "Feature", made);
 }
 
-py::object object(of_result, tf::self_intersection_result&& from) {
-    py::dict made;
-    made["pairs"] = column(from.pairs, [](const auto& one) { return std::array{one.a, one.b}; });
-    made["kinds"] = column(from.pairs, [](const auto& one) { return one.kind; });
-    made["counts"] = counts_of<tf::pair_kind>(from.counts);
-    return object_of("treeform._intersections", "FacePairs", made);
-}
-
-py::object object(of_result, tf::mesh_intersection_result&& from) {
+py::object object(of_result, tf::intersection_result&& from) {
     py::dict made;
     made["pairs"] = column(from.pairs, [](const auto& one) { return std::array{one.a, one.b}; });
     made["kinds"] = column(from.pairs, [](const auto& one) { return one.kind; });
@@ -386,17 +355,6 @@ py::dict counters(const tf::boolean_statistics& from) {
     return made;
 }
 
-py::dict counters(const tf::resolve_statistics& from) {
-    py::dict made;
-    made["removed"] = from.removed;
-    made["covered"] = from.covered;
-    made["filled"] = from.filled;
-    made["left_open"] = from.left_open;
-    made["exact_faces"] = from.exact_faces;
-    made["split_vertices"] = from.split_vertices;
-    return made;
-}
-
 py::dict counters(const tf::repair_statistics& from) {
     py::dict made;
     made["tetrahedra"] = from.tetrahedra;
@@ -420,6 +378,9 @@ py::dict counters(const tf::repair_statistics& from) {
     made["dropped_area"] = from.dropped_area;
     made["turned_area"] = from.turned_area;
     made["removed"] = from.removed;
+    made["covered"] = from.covered;
+    made["left_open"] = from.left_open;
+    made["exact_faces"] = from.exact_faces;
     made["split_vertices"] = from.split_vertices;
     made["detached"] = from.detached;
     made["touching"] = from.touching;
@@ -433,17 +394,6 @@ py::dict counters(const tf::repair_statistics& from) {
     return made;
 }
 
-py::dict counters(const tf::wrap_statistics& from) {
-    py::dict made;
-    made["size"] = from.size;
-    made["offset"] = from.offset;
-    made["area"] = from.area;
-    made["points"] = from.points;
-    made["tetrahedra"] = from.tetrahedra;
-    made["filled"] = from.filled;
-    return made;
-}
-
 py::dict counters(const tf::offset_statistics& from) {
     py::dict made;
     made["distance"] = from.distance;
@@ -452,6 +402,9 @@ py::dict counters(const tf::offset_statistics& from) {
     made["greatest"] = from.greatest;
     made["cells"] = from.cells;
     made["sealed_cavities"] = from.sealed_cavities;
+    made["points"] = from.points;
+    made["tetrahedra"] = from.tetrahedra;
+    made["filled"] = from.filled;
     return made;
 }
 

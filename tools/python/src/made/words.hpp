@@ -16,20 +16,12 @@ struct words_of<tf::align_method> {
                                   "plane_to_plane"};
 };
 template <>
-struct words_of<tf::align_weights> {
-    static constexpr words<2> all{"equal", "welsch"};
-};
-template <>
 struct words_of<tf::column_role> {
     static constexpr words<6> all{"data", "x", "y", "z", "corners", "texture"};
 };
 template <>
 struct words_of<tf::contact_class> {
     static constexpr words<4> all{"none", "penetrating", "touching", "near"};
-};
-template <>
-struct words_of<tf::face_order> {
-    static constexpr words<2> all{"kept", "any"};
 };
 template <>
 struct words_of<tf::feature> {
@@ -65,12 +57,8 @@ struct words_of<tf::mesh_relation> {
                                   "clear"};
 };
 template <>
-struct words_of<tf::motion_end> {
-    static constexpr words<3> all{"free", "contact", "at_start"};
-};
-template <>
-struct words_of<tf::neighbor_search> {
-    static constexpr words<4> all{"automatic", "window", "cells", "tree"};
+struct words_of<tf::node_order> {
+    static constexpr words<2> all{"depth_first", "best_first"};
 };
 template <>
 struct words_of<tf::overlap> {

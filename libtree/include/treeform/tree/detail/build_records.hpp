@@ -14,6 +14,10 @@
 
 namespace treeform::detail {
 
+/// Names the built-in selection of `build` (libtree/build/split.cpp). It works on packed records
+/// with a scratch array, so it has no `partition` over arbitrary iterators.
+struct bracketed_select {};
+
 /// How far a primitive's box reaches from the center in its record, in eight bytes, since gathering
 /// them by primitive is a random access: D floats of 21 bits each, without a sign and rounded up,
 /// the last axis in the lowest bits.

@@ -34,7 +34,7 @@ typedef struct treeform_bodies {
 
 // made of the headers of C++:
 //   bodies_of() put_back() clash_options contact_region part_clash clash_result clash()
-//   pairs_named() pose_options pose_clash
+//   pairs_named() pose_clash
 /// The bodies of `files` [count], which are called `labels` [count]: for `treeform_clash` and all
 /// placements. Files are copied.
 TREEFORM_C_API treeform_code treeform_bodies_of(const treeform_file* const* files,
@@ -49,20 +49,21 @@ TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t b
                                                const double* matrix, treeform_precision written_as,
                                                treeform_file** file);
 
-/// How to look for clashes.
+/// How to look for clashes. `volumes` to `limit` are of `treeform_clash` alone.
 typedef struct treeform_clash_options {
     size_t size;
-    double clearance;  ///< parts that are nearer than this are too close
-    int32_t volumes;   ///< of what two closed parts have in common; default 1
-    int32_t depths;    ///< of penetrating parts; default 1
-    uint64_t effort;   ///< for each depth, as in `treeform_depth_options`
-    uint64_t limit;    ///< faces listed for each region and part; default 1000
+    double clearance;    ///< parts that are nearer than this are too close
+    int32_t first_only;  ///< `treeform_check_poses`: only the first clash of each pose
     /// [ignored_count][2] pairs that are not looked at, in any order; or null
     const uint32_t* ignored;
     size_t ignored_count;
     treeform_vertices vertices;  ///< as in `treeform_relation`
     treeform_progress progress;
     void* progress_data;
+    int32_t volumes;  ///< of what two closed parts have in common; default 1
+    int32_t depths;   ///< of penetrating parts; default 1
+    uint64_t effort;  ///< for each depth, as in `treeform_depth_options`
+    uint64_t limit;   ///< faces listed for each region and part; default 1000
 } treeform_clash_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_clash_options_init(treeform_clash_options* options, size_t size);
@@ -133,21 +134,6 @@ TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size
                                                   const char* first, const char* second,
                                                   treeform_indices** indices);
 
-/// How to check poses.
-typedef struct treeform_poses_options {
-    size_t size;
-    double clearance;    ///< parts that are nearer than this are too close
-    int32_t first_only;  ///< name only the first clash of each pose
-    /// [ignored_count][2] pairs that are not looked at, in any order; or null
-    const uint32_t* ignored;
-    size_t ignored_count;
-    treeform_vertices vertices;  ///< as in `treeform_relation`
-    treeform_progress progress;
-    void* progress_data;
-} treeform_poses_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_poses_options_init(treeform_poses_options* options, size_t size);
-
 /// Two parts that are not clear of each other in a pose.
 typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
@@ -174,6 +160,6 @@ typedef struct treeform_poses_result {
 /// pose after pose. Exact, for the corners as moved.
 TREEFORM_C_API treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t count,
                                                   const double* poses, size_t pose_count,
-                                                  const treeform_poses_options* options,
+                                                  const treeform_clash_options* options,
                                                   treeform_poses_result** result);
 // end

@@ -26,7 +26,7 @@ TREEFORM_C_API treeform_code treeform_carry(treeform_file* file,
                                             const treeform_element* face_of_cut_vertex);
 
 /// The same for what was made of one input: `face_source` [F] and `vertex_source` [V] are those of
-/// a `treeform_resolve_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
+/// a `treeform_repair_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
 /// `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
 TREEFORM_C_API treeform_code treeform_carry_one(treeform_file* file,
                                                 const treeform_carry_source* input,

@@ -32,12 +32,12 @@ enum {
 #define TREEFORM_ALL_KINDS 127u
 
 // made of the headers of C++:
-//   face_pair self_intersection_result self_intersection_options self_intersections()
-//   intersection_region intersection_regions group_pairs() mesh_intersection_options
-//   intersections=mesh_intersections() intersects() intersects_poses() faces_in_box()
-//   curve_segment segments intersection_curves() curve_path curve_network intersection_paths()
-//   write_curves() color_pairs() stream_search_options stream_search_result
-//   self_intersections_of_file() is_searched_in_tiles()
+//   face_pair intersection_result intersection_options self_intersections()
+//   intersection_region intersection_regions group_pairs() intersections=mesh_intersections()
+//   intersects() intersects_poses() faces_in_box() curve_segment segments
+//   intersection_curves() curve_path curve_network intersection_paths() write_curves()
+//   color_pairs() stream_search_options stream_search_result self_intersections_of_file()
+//   is_searched_in_tiles()
 /// Two faces that meet.
 typedef struct treeform_face_pair {
     uint32_t a;  ///< the lower face number
@@ -48,38 +48,41 @@ typedef struct treeform_face_pair {
 /// Pairs of faces that meet.
 typedef struct treeform_pairs {
     void* owner;
-    const treeform_face_pair* pairs;  ///< [count] ascending by (a, b)
+    /// [count] ascending by (a, b); of two meshes, `a` is of the first
+    const treeform_face_pair* pairs;
     size_t count;
     uint64_t counts[7];  ///< by kind
-    uint64_t box_pairs;  ///< pairs of faces whose boxes overlap
+    uint64_t box_pairs;  ///< pairs of faces whose boxes overlap, as moved
 } treeform_pairs;
 
-/// Which pairs to look for.
-typedef struct treeform_self_intersections_options {
+/// Which pairs to look for, and where meshes are. What an operation has no use for, it ignores.
+typedef struct treeform_intersections_options {
     size_t size;
-    /// Which corners two faces share: those with equal coordinates, or with the same number.
-    treeform_vertices vertices;
-    /// Stop at the first pair found: the same pair on any number of threads.
-    int32_t first_only;
-    uint32_t kinds;   ///< Kinds to look for; the others are neither counted nor listed.
-    int32_t between;  ///< only pairs of faces of different components
-    int32_t within;   ///< only pairs of faces of one component
-    const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
-    /// List at most this many pairs, those of the lowest face numbers. All are counted; default
-    /// all
-    uint64_t limit;
+    /// [12] `mesh_intersections`: applied to each mesh first. The answer is exact for moved
+    /// corners as `transform::operator()` gives them, rounded to double. A prepared mesh is not
+    /// changed; or null
+    const double* move_a;
+    const double* move_b;  ///< [12] ; or null
+    int32_t first_only;    ///< stop at the first pair: the same on any number of threads
+    uint32_t kinds;        ///< the others are neither counted nor listed
+    uint64_t limit;        ///< lowest pairs listed; all are counted; default all
     treeform_progress progress;
     void* progress_data;
-} treeform_self_intersections_options;
+    /// `treeform_self_intersections`: which corners two faces share.
+    treeform_vertices vertices;
+    const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
+    int32_t between;                    ///< only pairs of faces of different components
+    int32_t within;                     ///< only pairs of faces of one component
+} treeform_intersections_options;
 /// Sets the defaults.
-TREEFORM_C_API void treeform_self_intersections_options_init(
-    treeform_self_intersections_options* options, size_t size);
+TREEFORM_C_API void treeform_intersections_options_init(treeform_intersections_options* options,
+                                                        size_t size);
 
 /// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
 /// Exact on the coordinates as given.
-TREEFORM_C_API treeform_code treeform_self_intersections(
-    const treeform_mesh* mesh, const treeform_self_intersections_options* options,
-    treeform_pairs** pairs);
+TREEFORM_C_API treeform_code
+treeform_self_intersections(const treeform_mesh* mesh,
+                            const treeform_intersections_options* options, treeform_pairs** pairs);
 
 /// Faces that meet, in one place of the mesh.
 typedef struct treeform_region {
@@ -104,27 +107,6 @@ typedef struct treeform_regions {
 TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
                                                   const treeform_face_pair* pairs, size_t count,
                                                   treeform_regions** regions);
-
-/// Which pairs of faces to look for, and where the meshes are.
-typedef struct treeform_intersections_options {
-    size_t size;
-    /// [12] Applied to each mesh first. A moved corner is what `transform::operator()` gives,
-    /// rounded to double; the answer is exact for these coordinates. A prepared mesh itself is not
-    /// changed; or null
-    const double* move_a;
-    const double* move_b;  ///< [12] ; or null
-    /// Stop at the first pair found: the same pair on any number of threads.
-    int32_t first_only;
-    uint32_t kinds;  ///< Kinds to look for; the others are neither counted nor listed.
-    /// List at most this many pairs, those of the lowest face numbers. All are counted; default
-    /// all
-    uint64_t limit;
-    treeform_progress progress;
-    void* progress_data;
-} treeform_intersections_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_intersections_options_init(treeform_intersections_options* options,
-                                                        size_t size);
 
 /// All pairs of a face of `a` and a face of `b` that have a common point.
 ///

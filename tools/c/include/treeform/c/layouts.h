@@ -6,8 +6,8 @@
 
 // made of the headers of C++:
 //   lay_choice lay_flat_options side_stability laid_flat lay_flat() plate_turns pack_options
-//   packed_part packing pack() align_method align_weights align_options align_freedom
-//   align_end align_result align()
+//   packed_part packing pack() align_method align_options align_freedom align_end align_result
+//   align()
 /// Which side of the convex hull goes down.
 typedef int32_t treeform_lay_choice;
 enum {
@@ -224,17 +224,6 @@ enum {
     TREEFORM_PLANE_TO_PLANE = 3
 };
 
-/// How much a pair of points counts.
-typedef int32_t treeform_align_weights;
-enum {
-    TREEFORM_WEIGHTS_EQUAL = 0,
-    /// Less the further apart: exp(-d^2 / 2 v^2). From 3 medians of the distances at the start, v
-    /// is halved down to where a third of the points is within 2 v; at the end it is 4.5 medians
-    /// of what is near. Up to half of the points may have no partner, and nobody needs to say how
-    /// many.
-    TREEFORM_WEIGHTS_WELSCH = 1
-};
-
 /// How to align.
 typedef struct treeform_align_options {
     size_t size;
@@ -242,7 +231,6 @@ typedef struct treeform_align_options {
     /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share, the
     /// nearest ones, and ignores the rest; default 1.0
     double overlap;
-    treeform_align_weights weights;  ///< default welsch
     /// Ignore partners further apart. Not squared, not negative; default infinite
     double max_distance;
     /// Find a uniform scale, too: from that of the start and from the one that makes both sides as
@@ -273,6 +261,11 @@ typedef struct treeform_align_options {
     /// start beyond them begins at the nearest. Equal ones are the scale, as known.
     double least_scale;
     double most_scale;  ///< default infinite
+    /// Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
+    /// medians of the distances at the start, v is halved down to where a third of the points is
+    /// within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
+    /// no partner, and nobody needs to say how many. Otherwise all count alike; default 1
+    int32_t robust;
 } treeform_align_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_align_options_init(treeform_align_options* options, size_t size);

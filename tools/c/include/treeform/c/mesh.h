@@ -82,7 +82,7 @@ typedef struct treeform_made_mesh {
 
 // made of the headers of C++:
 //   join_equal_points() join_meshes() select_faces() round() coordinate_step()
-//   rounding_options rounding_effects rounding_effects()
+//   rounding_effects rounding_effects()
 /// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they
 /// first appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
 TREEFORM_C_API treeform_code treeform_join_equal_points(const treeform_mesh* mesh,
@@ -107,18 +107,6 @@ TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_
 TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
                                                       treeform_precision of, double* result);
 
-/// Which rounding to look at.
-typedef struct treeform_rounding_options {
-    size_t size;
-    treeform_precision before;  ///< of the points before the move; default float64
-    treeform_precision after;   ///< of what is written; default float64
-    int32_t always_compare;     ///< also compare where the step is too small to be noticed
-    treeform_progress progress;
-    void* progress_data;
-} treeform_rounding_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_rounding_options_init(treeform_rounding_options* options, size_t size);
-
 /// How far rounding moved points, and what it has broken.
 typedef struct treeform_rounding {
     void* owner;
@@ -131,10 +119,12 @@ typedef struct treeform_rounding {
     uint64_t meeting;    ///< pairs of faces that meet now, and did not before
 } treeform_rounding;
 
-/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved).
-/// Exact: faces that meet now, and did not, are found by `treeform_self_intersections`.
-TREEFORM_C_API treeform_code treeform_rounding_effects(const treeform_mesh* mesh,
-                                                       const double* matrix, const double* placed,
-                                                       const treeform_rounding_options* options,
-                                                       treeform_rounding** rounding);
+/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved),
+/// of precision `before` and written as `after`; with `always_compare`, faces too where the step
+/// is too small to be noticed. Exact: faces that meet now, and did not, are found by
+/// `treeform_self_intersections`.
+TREEFORM_C_API treeform_code treeform_rounding_effects(
+    const treeform_mesh* mesh, const double* matrix, const double* placed,
+    treeform_precision before, treeform_precision after, int32_t always_compare,
+    treeform_progress progress, void* progress_data, treeform_rounding** rounding);
 // end

@@ -163,11 +163,12 @@ typedef struct treeform_relation {
     double barycentric_b[3];  ///< of it in that face
 } treeform_relation;
 
-/// How far to look.
+/// How to look.
 typedef struct treeform_measure_options {
     size_t size;
-    double radius;               ///< inclusive; default infinite
-    treeform_vertices vertices;  ///< as in `treeform_relation`
+    double radius;  ///< of `treeform_measure`; inclusive; default infinite
+    /// Only closed meshes have an inside; this decides whether a mesh is closed.
+    treeform_vertices vertices;
     treeform_progress progress;
     void* progress_data;
 } treeform_measure_options;

@@ -12,8 +12,8 @@
 #include <treeform/c/properties.h>
 
 // made of the headers of C++:
-//   placement_end placement_contact placement place_options slide() drop() mate() separate()
-//   turn() mate_features() measure_among()
+//   placement_end placement_contact placement placement_options slide() drop() mate()
+//   separate() turn() mate_features() measure_among()
 /// Why a placement ended where it did.
 typedef int32_t treeform_placement_end;
 enum {
@@ -68,8 +68,8 @@ typedef struct treeform_placement {
     const char* message;   ///< half a sentence for people
     const double* points;  ///< [V] at the place, as they are to be written
     size_t point_count;
-    /// new = M * old: a translation. `points` are moved by it and rounded once, except for those
-    /// that are set on the bed.
+    /// new = M * old: a translation; of `treeform_turn` and `treeform_mate_features` a turn, too.
+    /// `points` are moved by it and rounded once, except for those that are set on the bed.
     double matrix[12];
     double direction[3];              ///< of the travel, of length 1; 0 when there is none
     double travel;                    ///< a length; for `too_far` the one that would be needed
@@ -88,43 +88,51 @@ typedef struct treeform_placement {
     uint32_t backed_off;     ///< steps back, where rounding made the mesh penetrate
     uint64_t fixed_culled;   ///< fixed meshes skipped because of their box
     uint64_t pairs_tested;   ///< pairs of faces, in motion
-    /// of `treeform_turn` and `treeform_mate_features`, in degrees; else 0
+    /// of `treeform_turn` and `treeform_mate_features`: in degrees, of the turn
     double angle;
-    double tolerance;  ///< of `treeform_turn`
-    uint64_t steps;    ///< of `treeform_turn`
-    double offset;     ///< of `treeform_mate_features`: distance of the features' centers
+    /// of `treeform_turn`: the gap, beyond the clearance, that counts as contact
+    double tolerance;
+    uint64_t steps;  ///< of `treeform_turn`
+    /// Of `treeform_mate_features`: how far the center of the moving feature ended from that of
+    /// the fixed one, along the direction of the fixed one. Of planes: their distance.
+    double offset;
     /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way
     /// may exist; without a place, one that was not found.
     treeform_search_effort effort;
 } treeform_placement;
 
-/// How to slide, mate, separate, turn. What an operation does not use is ignored.
+/// How a mesh is placed. What an operation has no use for, it ignores.
 typedef struct treeform_place_options {
     size_t size;
     double clearance;  ///< the gap to leave, a distance; 0: until contact
     /// a length; whatever is further along is ignored; NaN: not given
     double max_travel;
     treeform_precision precision;  ///< of the points returned; default float64
-    /// z of a bed, which also stops the mesh. Points that rest on it have exactly its z (with
-    /// float32, the least one not below it), and no point is below; NaN: not given
+    /// `treeform_slide` and `treeform_drop`: z of a bed, which also stops the mesh. Points that
+    /// rest on it have exactly its z (with float32, the least one not below it), and no point is
+    /// below. `treeform_drop` without fixed meshes has one at 0; NaN: not given
     double bed;
-    /// Close a gap that rounding leaves at a contact, by units in the last place; default 1
+    /// `treeform_slide`: close a gap that rounding leaves at a contact, by units in the last
+    /// place; default 1
     int32_t close_in;
-    uint64_t limit;              ///< contacts listed; default 1000
+    /// contacts listed; of `separate`, of each fixed mesh; default 1000
+    uint64_t limit;
     treeform_vertices vertices;  ///< as in `treeform_relation`
-    /// try at most this many normals of faces as directions; default 24
+    /// `separate`: try at most this many normals of faces; default 24
     uint64_t normals;
     /// take them from this many pairs of faces for each mesh; default 64
     uint64_t face_pairs;
-    /// Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20 million
-    /// and 200 for each face. Distances for a clearance do not count.
+    /// `separate`: pairs of faces that the search may look at, a pair in motion counting as two;
+    /// 0: 20 million and 200 for each face. Distances for a clearance do not count.
     uint64_t effort;
-    double max_angle;  ///< in degrees; greater than 0, up to 360; default 360.0
-    /// The gap, beyond the clearance, that counts as contact; greater than 0. Default: 2^-32 of
-    /// the largest distance of a point from the axis; NaN: not given
+    /// `treeform_turn`: in degrees; greater than 0, up to 360; default 360.0
+    double max_angle;
+    /// `treeform_turn`: the gap, beyond the clearance, that counts as contact; greater than 0.
+    /// Default: 2^-32 of the largest distance of a point from the axis; NaN: not given
     double tolerance;
-    uint64_t max_steps;  ///< default 20000
-    /// Planes look the same way rather than at each other; axes are turned around.
+    uint64_t max_steps;  ///< `treeform_turn`; default 20000
+    /// `treeform_mate_features`: planes look the same way rather than at each other; axes are
+    /// turned around.
     int32_t flip;
     treeform_progress progress;
     void* progress_data;
@@ -195,7 +203,8 @@ TREEFORM_C_API treeform_code treeform_mate_features(const treeform_mesh* moving,
                                                     const treeform_place_options* options,
                                                     treeform_placement** placement);
 
-/// How `moving` lies to all of `fixed` where it is. Moves nothing.
+/// How `moving` lies to all of `fixed` where it is. Moves nothing: distances below the clearance
+/// are `closer_than_clearance`.
 TREEFORM_C_API treeform_code treeform_measure_among(const treeform_mesh* moving,
                                                     const treeform_mesh* const* fixed, size_t count,
                                                     const treeform_place_options* options,
@@ -232,11 +241,13 @@ typedef struct treeform_impact_contact {
 /// The first contact of two meshes.
 typedef struct treeform_impact {
     void* owner;
-    int32_t end;
+    /// `contact`: they meet at a time greater than 0; `starts_touching`: they have a common point
+    /// where they are; `nothing_met`.
+    treeform_placement_end end;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by `time`
-    /// times the motion has not passed it. 0 when `end` is at_start.
+    /// times the motion has not passed it. 0 when they meet at the start.
     double time;
-    /// [contact_listed] pairs that meet at t, ascending; empty when at_start
+    /// [contact_listed] pairs that meet at t, ascending; empty at the start
     const treeform_impact_contact* contacts;
     size_t contact_listed;
     uint64_t contact_count;  ///< all pairs that meet at t, listed or not
@@ -271,8 +282,21 @@ TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, con
                                                      const treeform_impact_options* options,
                                                      treeform_impact** impact);
 
-/// The first time after which it is nearer to `b` than `distance`, which is greater than 0;
-/// rounded.
+/// The first time t >= 0 after which `a`, moved by t times `motion`, is nearer to `b` than
+/// `distance` (not squared).
+///
+/// Not exact: whether a pair comes nearer than the distance is decided to 2^-48 of the largest
+/// coordinate, so a mesh that slides along a wall at just the distance moves on. The time has
+/// rounding errors of that size along the motion, and larger ones where the motion nearly grazes.
+/// `treeform_slide` checks the place itself. For the distance 0, use `treeform_time_of_impact`,
+/// which is exact.
+///
+/// The impact is a contact if they are nearer right after its time, and at the start if they are
+/// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on
+/// `b`, their features mean nothing.
+///
+/// The distance of two triangles is a convex function of t. So tangents from the left never pass
+/// the time at which it falls to a value, and Newton's method finds that time from below.
 TREEFORM_C_API treeform_code treeform_time_to_distance(const treeform_mesh* a,
                                                        const treeform_mesh* b,
                                                        const double motion[3], double distance,

@@ -107,8 +107,8 @@ TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mes
                                                         const double* tolerances, size_t count,
                                                         size_t* result);
 
-/// Whether two meshes have the same faces, by coordinates, turned the same way; with `any_order`
-/// wherever they stand in their lists.
+/// Whether two meshes have the same faces, by the coordinates of their corners (-0 equals +0, NaN
+/// equals nothing), turned the same way; in their order, each from its first corner on, or in any.
 TREEFORM_C_API treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
                                                      int32_t any_order, int32_t* result);
 

@@ -7,10 +7,10 @@
 #include <treeform/c/mesh.h>
 
 // made of the headers of C++:
-//   thick_side drain offset_options offset_result offset() hollow() thicken() simplify_options
-//   simplify_result simplify() thickness_by thickness_options thickness_result
-//   wall_thickness() oriented_box find_oriented_box() isoline isolines_result isolines()
-//   write_isolines() cut_along()
+//   thick_side drain offset_options offset_result wrap() offset() hollow() thicken()
+//   simplify_options simplify_result simplify() thickness_by thickness_result wall_thickness()
+//   oriented_box find_oriented_box() isoline isolines_result isolines() write_isolines()
+//   cut_along()
 /// Where a thickness goes; the front is where faces are counter-clockwise.
 typedef int32_t treeform_thick_side;
 enum { TREEFORM_THICK_BOTH = 0, TREEFORM_THICK_FRONT = 1, TREEFORM_THICK_BACK = 2 };
@@ -21,7 +21,7 @@ typedef struct treeform_drain {
     double diameter;  ///< a regular prism of 32 sides, whose corners are on this circle
 } treeform_drain;
 
-/// How to make a surface at a distance.
+/// How to make a surface at a distance. What an operation has no use for, it ignores.
 typedef struct treeform_offset_options {
     size_t size;
     /// Edge of the cells that the surface is made in, in the mesh's length unit: at most half of
@@ -37,6 +37,9 @@ typedef struct treeform_offset_options {
     treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
+    /// `treeform_wrap`: how far the vertices of the wrap are from the mesh, in its length unit.
+    /// Not given: a thirtieth of the size; NaN: not given
+    double offset;
 } treeform_offset_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_offset_options_init(treeform_offset_options* options, size_t size);
@@ -50,11 +53,13 @@ typedef struct treeform_offset_result {
     /// says where. `vanished`: nothing is left, as the solid is nowhere that thick, or by less
     /// than a cell.
     const treeform_certificate* certificate;
-    double distance;    ///< that was asked for, without its sign
-    double resolution;  ///< that was used
+    /// that was asked for, without its sign; of `treeform_wrap`, how far its vertices are
+    double distance;
+    double resolution;  ///< that was used; of `treeform_wrap`, its size
     /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
     /// that it is the offset of: all are in [least, greatest]. Found by branch and bound; each is
-    /// within a sixteenth of the resolution of what is there. 0 where there is no surface.
+    /// within a sixteenth of the resolution of what is there. 0 where there is no surface, and of
+    /// `treeform_wrap`.
     double least;
     double greatest;
     uint64_t cells;  ///< that the surface may pass through
@@ -64,7 +69,23 @@ typedef struct treeform_offset_result {
     /// outside into a cavity: an end of their axis is neither there nor there.
     const uint32_t* blind_drains;
     size_t blind_drain_count;
+    uint64_t points;      ///< of `treeform_wrap`: of the tetrahedra that were made
+    uint64_t tetrahedra;  ///< of `treeform_wrap`: at the end
+    /// of `treeform_wrap`: tetrahedra filled so that it is a manifold
+    uint64_t filled;
 } treeform_offset_result;
+
+/// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
+/// no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters
+/// no hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills
+/// cavities that nothing leads to. A smaller size follows the mesh more closely, with more faces,
+/// some area / `size`^2 of them.
+///
+/// No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
+/// coordinates of both. The distance of its vertices is met as far as rounding allows.
+TREEFORM_C_API treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
+                                           const treeform_offset_options* options,
+                                           treeform_offset_result** result);
 
 /// The solid grown by `distance`, or shrunk where it is negative: all points inside or no further
 /// from the surface than that; all points inside and no less far.
@@ -175,17 +196,6 @@ enum {
     TREEFORM_THICKNESS_BY_SPHERE = 1
 };
 
-/// How to measure thickness.
-typedef struct treeform_thickness_options {
-    size_t size;
-    treeform_thickness_by by;
-    treeform_progress progress;
-    void* progress_data;
-} treeform_thickness_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_thickness_options_init(treeform_thickness_options* options,
-                                                    size_t size);
-
 /// The thickness at each face, and the least.
 typedef struct treeform_thickness_result {
     void* owner;
@@ -199,7 +209,9 @@ typedef struct treeform_thickness_result {
 /// the center and normal as rounded; lengths are rounded. A ball is found to 2^-20 of its
 /// diameter. Near a sharp edge balls are small: there, they measure the edge.
 TREEFORM_C_API treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
-                                                     const treeform_thickness_options* options,
+                                                     treeform_thickness_by by,
+                                                     treeform_progress progress,
+                                                     void* progress_data,
                                                      treeform_thickness_result** result);
 
 /// A box turned in any way.

@@ -10,10 +10,9 @@
 // made of the headers of C++:
 //   fill_rule boolean_options operand_volumes boolean_result boolean() boolean_named()
 //   names_in() unite() subtract() intersection() symmetric_difference() unite_all() clip()
-//   split() resolve_mode resolve_options resolve_result resolve_self_intersections()
-//   repair_rule repair_options repair_statistics repair_result repair() repair_scope
-//   repair_file() solid_defects find_solid_defects() find_solid_defects_of_file() wrap_options
-//   wrap_result wrap()
+//   split() resolve_mode resolve_options repair_statistics repair_result
+//   resolve_self_intersections() repair_rule repair_options repair() repair_scope
+//   repair_file() solid_defects find_solid_defects() find_solid_defects_of_file()
 /// Which points are inside an operand, by how often its surface winds around them.
 typedef int32_t treeform_fill_rule;
 enum {
@@ -221,27 +220,66 @@ typedef struct treeform_resolve_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* options, size_t size);
 
-/// The mesh without self-intersections, where its parts came from, and what was checked.
-typedef struct treeform_resolve_result {
+/// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
+typedef struct treeform_repair_statistics {
+    uint64_t tetrahedra;      ///< tetrahedra that the faces were; their boundary was kept
+    uint64_t degenerate;      ///< faces without area, dropped; with such, slivers
+    uint64_t repeated;        ///< faces on others, dropped
+    uint64_t closed_edges;    ///< pairs of border edges that became one
+    uint64_t split_edges;     ///< border edges split at vertices that lie on them
+    double gap;               ///< widest crack that was looked for
+    double widest;            ///< widest crack that was closed
+    uint64_t flipped;         ///< faces turned to agree with their neighbors
+    uint64_t turned;          ///< components turned outward
+    uint64_t strays;          ///< faces of loose and of inner pieces, dropped
+    uint64_t holes;           ///< holes filled
+    uint64_t hole_edges;      ///< edges around them
+    uint64_t filled;          ///< faces that fill them
+    uint64_t sheets;          ///< rims not filled, since they end sheets
+    uint64_t open_edges;      ///< left after these steps
+    int32_t resolved;         ///< faces met and were cut
+    uint64_t pairs;           ///< pairs of faces that met
+    uint64_t labeled_cells;   ///< cells labeled inside or outside, since faces disagreed
+    double dropped_area;      ///< area of faces with one label on both sides
+    double turned_area;       ///< area of faces that their labels turned over
+    uint64_t removed;         ///< faces that resolving left nothing of
+    uint64_t split_vertices;  ///< vertices split where parts of the solid touch
+    uint64_t detached;        ///< vertices moved apart
+    uint64_t touching;        ///< vertices that still have a twin at their place
+    /// Components, by vertices, that have no face left; of `treeform_repair`, larger than
+    /// `repair_options::strays`.
+    uint64_t vanished_components;
+    /// closed, within the solid; `odd` makes cavities of them
+    uint64_t dropped_shells;
+    double volume_before;  ///< after `join`, `orient`, `fill`; 0 where it is no solid
+    double volume_after;
+    double area_before;
+    double area_after;
+    double area_lost;  ///< as `repair_options::max_loss` counts it
+    /// Of `treeform_resolve_self_intersections` by `split`: input faces that lie entirely on faces
+    /// of lower numbers. One piece stands for all of them, so they are not counted as removed.
+    uint64_t covered;
+    uint64_t left_open;    ///< of it by `remove`: edges that lost their second face
+    uint64_t exact_faces;  ///< of it, as in `boolean_statistics`
+} treeform_repair_statistics;
+
+/// The mended mesh, where its parts came from, and what was checked.
+typedef struct treeform_repair_result {
     void* owner;
-    treeform_arrays mesh;           ///< faces in the order of their sources
+    treeform_arrays mesh;
     const uint32_t* face_source;    ///< [F'] input face, lowest of those merged, or none
     const uint32_t* vertex_source;  ///< [V'] input vertex that each is, or none
-    /// Status ok says, checked on the coordinates above: no face is degenerate, and any two faces
-    /// have a corner, an edge or nothing in common. For `outer` also: the mesh is a closed
-    /// manifold, and the inside is behind every face. For `remove`: closed parts are still closed;
-    /// faces that touched before may still touch (`resolve_options::touching`).
+    /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind
+    /// every face, and any two faces have a corner, an edge or nothing in common. Status sheet
+    /// says the same of a surface with a border. Of `treeform_resolve_self_intersections` by
+    /// `split` and `remove`: only the latter, and that no face is degenerate; with `remove`,
+    /// closed parts are still closed, and faces that touched before may still touch
+    /// (`resolve_options::touching`).
     const treeform_certificate* certificate;
-    uint64_t vanished_components;  ///< components, by vertices, that have no face left
-    uint64_t removed;              ///< input faces of which no part is left
-    /// For `split`: input faces that lie entirely on faces of lower numbers. One piece stands for
-    /// all of them, so they are not counted as removed.
-    uint64_t covered;
-    uint64_t filled;          ///< faces that fill holes
-    uint64_t left_open;       ///< for `remove`: edges that lost their second face
-    uint64_t exact_faces;     ///< for `split` and `outer`, as in `boolean_statistics`
-    uint64_t split_vertices;  ///< for `outer`, as in `boolean_statistics`
-} treeform_resolve_result;
+    const treeform_repair_statistics* statistics;
+    const treeform_file* file;  ///< of a file, with its attributes; else null
+    const uint8_t* is_left;     ///< [F] 1 where something is left of an input face
+} treeform_repair_result;
 
 /// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
 ///
@@ -261,7 +299,7 @@ typedef struct treeform_resolve_result {
 /// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
 TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
     const treeform_mesh* mesh, treeform_resolve_mode mode, const treeform_resolve_options* options,
-    treeform_resolve_result** result);
+    treeform_repair_result** result);
 
 /// What is inside, for `treeform_repair`.
 typedef int32_t treeform_repair_rule;
@@ -309,57 +347,6 @@ typedef struct treeform_repair_options {
 } treeform_repair_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);
-
-/// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
-typedef struct treeform_repair_statistics {
-    uint64_t tetrahedra;           ///< tetrahedra that the faces were; their boundary was kept
-    uint64_t degenerate;           ///< faces without area, dropped; with such, slivers
-    uint64_t repeated;             ///< faces on others, dropped
-    uint64_t closed_edges;         ///< pairs of border edges that became one
-    uint64_t split_edges;          ///< border edges split at vertices that lie on them
-    double gap;                    ///< widest crack that was looked for
-    double widest;                 ///< widest crack that was closed
-    uint64_t flipped;              ///< faces turned to agree with their neighbors
-    uint64_t turned;               ///< components turned outward
-    uint64_t strays;               ///< faces of loose and of inner pieces, dropped
-    uint64_t holes;                ///< holes filled
-    uint64_t hole_edges;           ///< edges around them
-    uint64_t filled;               ///< faces that fill them
-    uint64_t sheets;               ///< rims not filled, since they end sheets
-    uint64_t open_edges;           ///< left after these steps
-    int32_t resolved;              ///< faces met and were cut
-    uint64_t pairs;                ///< pairs of faces that met
-    uint64_t labeled_cells;        ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area;           ///< area of faces with one label on both sides
-    double turned_area;            ///< area of faces that their labels turned over
-    uint64_t removed;              ///< faces that resolving left nothing of
-    uint64_t split_vertices;       ///< vertices split where parts of the solid touch
-    uint64_t detached;             ///< vertices moved apart
-    uint64_t touching;             ///< vertices that still have a twin at their place
-    uint64_t vanished_components;  ///< larger than `repair_options::strays`
-    /// closed, within the solid; `odd` makes cavities of them
-    uint64_t dropped_shells;
-    double volume_before;  ///< after `join`, `orient`, `fill`; 0 where it is no solid
-    double volume_after;
-    double area_before;
-    double area_after;
-    double area_lost;  ///< as `repair_options::max_loss` counts it
-} treeform_repair_statistics;
-
-/// The mended mesh, where its parts came from, and what was checked.
-typedef struct treeform_repair_result {
-    void* owner;
-    treeform_arrays mesh;
-    const uint32_t* face_source;    ///< [F'] input face, lowest of those merged, or none
-    const uint32_t* vertex_source;  ///< [V'] input vertex that each is, or none
-    /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind
-    /// every face, and any two faces have a corner, an edge or nothing in common. Status sheet
-    /// says the same of a surface with a border.
-    const treeform_certificate* certificate;
-    const treeform_repair_statistics* statistics;
-    const treeform_file* file;  ///< of a file, with its attributes; else null
-    const uint8_t* is_left;     ///< [F] 1 where something is left of an input face
-} treeform_repair_result;
 
 /// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
 /// at the certificate: it says whether this was possible, and where not.
@@ -431,46 +418,4 @@ TREEFORM_C_API treeform_code treeform_find_solid_defects_of_file(const treeform_
                                                                  treeform_progress progress,
                                                                  void* progress_data,
                                                                  treeform_solid_defects** defects);
-
-/// How to wrap.
-typedef struct treeform_wrap_options {
-    size_t size;
-    /// How far the vertices of the wrap are from the mesh, in its length unit; where it is not
-    /// given, a thirtieth of the size; NaN: not given
-    double offset;
-    /// Precision of the coordinates returned. float32 values are stored as doubles; default
-    /// float64
-    treeform_precision precision;
-    treeform_progress progress;
-    void* progress_data;
-} treeform_wrap_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_wrap_options_init(treeform_wrap_options* options, size_t size);
-
-/// The wrap, and what was checked.
-typedef struct treeform_wrap_result {
-    void* owner;
-    treeform_arrays mesh;
-    /// Status ok says, checked on the coordinates above: a closed manifold, outward, no two faces
-    /// of which meet beyond common corners and edges.
-    const treeform_certificate* certificate;
-    double size;
-    double offset;
-    double area;          ///< of the mesh that was wrapped
-    uint64_t points;      ///< of the tetrahedra that were made
-    uint64_t tetrahedra;  ///< at the end
-    uint64_t filled;      ///< of them, filled so that the wrap is a manifold
-} treeform_wrap_result;
-
-/// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
-/// no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters
-/// no hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills
-/// cavities that nothing leads to. A smaller size follows the mesh more closely, with more faces,
-/// some area / `size`^2 of them.
-///
-/// No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
-/// coordinates of both. The distance of its vertices is met as far as rounding allows.
-TREEFORM_C_API treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
-                                           const treeform_wrap_options* options,
-                                           treeform_wrap_result** result);
 // end

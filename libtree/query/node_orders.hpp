@@ -1,0 +1,80 @@
+#pragma once
+/// \file
+/// Orders in which a nearness search opens nodes.
+///
+/// An order has a frontier, which holds entries with a lower bound `lower` each. A search opens the
+/// entry that `pop` hands out, `push`es its children between `open` and `close`, and ends when
+/// `pop` returns false: then no entry is left whose bound is not above `bound`. Answers do not
+/// depend on the order.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace treeform::strategy {
+
+/// Depth first, the children of one node by distance: entries never move once their node is
+/// closed.
+struct depth_first {
+    template <class Entry, std::size_t Capacity>
+    class frontier {
+      public:
+        explicit frontier(const depth_first& = {}) {}
+
+        void open() { bottom_ = size_; }
+        void push(const Entry& entry) {
+            std::size_t at = size_++;
+            for (; at > bottom_ && stack_[at - 1].lower < entry.lower; --at)
+                stack_[at] = stack_[at - 1];
+            stack_[at] = entry;
+        }
+        void close(std::size_t) {}
+
+        template <class Bound>
+        bool pop(Entry& entry, const Bound& bound) {
+            while (size_ != 0) {
+                entry = stack_[--size_];
+                if (entry.lower <= bound) return true;
+            }
+            return false;
+        }
+
+      private:
+        std::array<Entry, Capacity> stack_;
+        std::size_t size_ = 0;
+        std::size_t bottom_ = 0;
+    };
+};
+
+/// Best first, by a binary heap: opens the fewest nodes.
+/// \source Roussopoulos, Kelley and Vincent, Nearest Neighbor Queries, SIGMOD 1995
+struct priority_queue {
+    template <class Entry, std::size_t>
+    class frontier {
+      public:
+        explicit frontier(const priority_queue& = {}) { heap_.reserve(256); }
+
+        void open() {}
+        void push(const Entry& entry) {
+            heap_.push_back(entry);
+            std::push_heap(heap_.begin(), heap_.end(), further);
+        }
+        void close(std::size_t) {}
+
+        template <class Bound>
+        bool pop(Entry& entry, const Bound& bound) {
+            if (heap_.empty() || !(heap_.front().lower <= bound)) return false;
+            std::pop_heap(heap_.begin(), heap_.end(), further);
+            entry = heap_.back();
+            heap_.pop_back();
+            return true;
+        }
+
+      private:
+        static bool further(const Entry& a, const Entry& b) { return a.lower > b.lower; }
+        std::vector<Entry> heap_;
+    };
+};
+
+}  // namespace treeform::strategy
