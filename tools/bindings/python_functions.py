@@ -54,9 +54,9 @@ def public_names(text: str) -> list[str]:
     if "# made of uses:" not in text:
         return sorted(ast.literal_eval(said[1])) if said else []
     names = set(re.findall(r"^#: .*\n([A-Z]+) = ", text, re.M))
-    for heads in re.findall(r"^# made of headers:\n((?:#   .*\n)+)", text, re.M):
-        names |= set(re.findall(r"\w+", heads))
-    for one in ast.parse(text).body:
+    made = re.compile(r"^# made of headers:\n((?:#   [^\n]*\n)+).*?^# end$", re.M | re.S)
+    names |= set(re.findall(r"\w+", " ".join(made.findall(text))))
+    for one in ast.parse(made.sub("class _:\n    pass", text)).body:  # methods may follow
         if isinstance(one, ast.ClassDef) or (isinstance(one, ast.FunctionDef)
                                              and ">>> " in (ast.get_docstring(one) or "")):
             names.add(one.name)

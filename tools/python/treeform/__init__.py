@@ -38,9 +38,8 @@ from ._placement import (Alignment, Contacts, Depth, Impact, LaidFlat, Measure, 
 from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_inside_out,
                           count_topology, face_components, find_defects, find_features,
                           find_solid_defects)
-from ._repair import (ConvexHull, MadeMesh, RepairResult, ResolveResult, WrapResult, convex_hull,
-                      find_rounding_defects, join_equal_points, repair, resolve_self_intersections,
-                      rounded, wrap)
+from ._repair import (ConvexHull, MadeMesh, RepairResult, convex_hull, find_rounding_defects,
+                      join_equal_points, repair, resolve_self_intersections, rounded)
 from ._results import Certificate
 from ._robots import Joint, Robot, read_urdf
 from ._shapes import (Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResult, Thickness,
@@ -59,24 +58,24 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
            "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash", "Picture",
            "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
-           "RepairResult", "ResolveResult", "Robot", "SearchEffort", "Section", "SectionLoop",
-           "SimplifyResult", "SolidDefects", "StreamSearch", "StreamWeld", "Thickness", "Topology",
-           "View", "WeldResult", "WeldStreamResult", "WrapResult", "Written", "__version__",
-           "align", "boolean", "check_poses", "check_solid", "clash", "clip", "closest_point",
-           "closest_points", "components", "concatenate", "contains", "convex_hull",
-           "count_inside_out", "count_nearly_equal", "count_topology", "cut", "cut_along",
-           "cut_to_fit", "deviation", "difference", "distance", "drop", "face_components",
-           "faces_in_box", "find_defects", "find_features", "find_rounding_defects",
-           "find_solid_defects", "from_meshio", "from_open3d", "from_pyvista", "from_trimesh",
-           "from_vtk", "hollow", "intersection", "intersection_curves", "intersection_regions",
-           "intersects", "isolines", "join_equal_points", "lay_flat", "layer_heights", "locate",
-           "mass_properties", "mate", "mate_features", "measure", "mesh_intersections", "offset",
-           "oriented_box", "pack", "penetration_depth", "plot", "raycast", "raycast_all",
-           "raycast_any", "read", "read_urdf", "repair", "resolve_self_intersections", "rounded",
-           "section", "self_intersections", "self_intersections_of_file", "separate", "show",
+           "RepairResult", "Robot", "SearchEffort", "Section", "SectionLoop", "SimplifyResult",
+           "SolidDefects", "StreamSearch", "StreamWeld", "Thickness", "Topology", "View",
+           "WeldResult", "WeldStreamResult", "Written", "__version__", "align", "boolean",
+           "check_poses", "check_solid", "clash", "clip", "closest_point", "closest_points",
+           "components", "concatenate", "contains", "convex_hull", "count_inside_out",
+           "count_nearly_equal", "count_topology", "cut", "cut_along", "cut_to_fit", "deviation",
+           "difference", "distance", "drop", "face_components", "faces_in_box", "find_defects",
+           "find_features", "find_rounding_defects", "find_solid_defects", "from_meshio",
+           "from_open3d", "from_pyvista", "from_trimesh", "from_vtk", "hollow", "intersection",
+           "intersection_curves", "intersection_regions", "intersects", "isolines",
+           "join_equal_points", "lay_flat", "layer_heights", "locate", "mass_properties", "mate",
+           "mate_features", "measure", "mesh_intersections", "offset", "oriented_box", "pack",
+           "penetration_depth", "plot", "raycast", "raycast_all", "raycast_any", "read",
+           "read_urdf", "repair", "resolve_self_intersections", "rounded", "section",
+           "self_intersections", "self_intersections_of_file", "separate", "show",
            "signed_distance", "simplify", "slide", "split", "submesh", "symmetric_difference",
            "thicken", "thread_count", "threads", "time_of_impact", "transformed", "turn", "union",
-           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "wrap", "write"]
+           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write"]
 # end
 
 __version__: str = _core.version()
