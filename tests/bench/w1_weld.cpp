@@ -70,8 +70,7 @@ contest equal_points_of_soup(std::size_t points, unsigned percent) {
     for (const unsigned threads : {1U, 2U})
         contest.contestants.push_back({"treeform", threads, [=] {
                                            return make_job([soup = given()] {
-                                               return join_groups(*soup,
-                                                                  group_points(soup->points, {}));
+                                               return group_points(soup->points, {}).joined(*soup);
                                            });
                                        }});
     contest.contestants.push_back(
