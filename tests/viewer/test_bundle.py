@@ -1,4 +1,4 @@
-"""The script of pages is what tools/viewer/bundle.sh makes of the modules, byte for byte."""
+"""The script of pages is what tools/picture/viewer/bundle.sh makes of the modules, byte by byte."""
 
 import pathlib
 import shutil
@@ -29,7 +29,7 @@ class Bundle(unittest.TestCase):
             made = pathlib.Path(folder, "made.js")
             subprocess.run([VIEWER / "bundle.sh", made], check=True)
             self.assertEqual(made.read_bytes(), (VIEWER / "viewer.min.js").read_bytes(),
-                             "run tools/viewer/bundle.sh")
+                             "run tools/picture/viewer/bundle.sh")
 
     def test_the_bundle_names_its_license_and_no_address(self):
         text = (VIEWER / "viewer.min.js").read_text()

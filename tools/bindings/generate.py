@@ -74,7 +74,7 @@ def self_test() -> None:
             "tools/python/src/made/results.cpp": ['made["unheard"] = from.unheard;'],
             "tools/python/src/made/options.cpp": ['visit("unseen", how.unseen);'],
             "tools/python/treeform/_core.pyi": ["unseen: float = ..."],
-            "tools/common/made/report_fields.cpp": ['{"unread", from.unread}'],
+            "tools/shell/made/report_fields.cpp": ['{"unread", from.unread}'],
             "tools/REPORTS.md": ["`effort.unread` | count | of no one |"]}.items():
         text = " ".join(made[path].split())
         for word in words:

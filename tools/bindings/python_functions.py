@@ -47,14 +47,30 @@ def read_docs() -> dict[str, str]:
     return docs
 
 
+def public_names(text: str) -> list[str]:
+    """What a module offers: what is made in it, its classes, values with a sentence (`#:`), and
+    functions with an example; or what it says itself."""
+    said = re.search(r"^__all__ = (\[[^\]]*\])", text, re.M)
+    if "# made of uses:" not in text:
+        return sorted(ast.literal_eval(said[1])) if said else []
+    names = set(re.findall(r"^#: .*\n([A-Z]+) = ", text, re.M))
+    for heads in re.findall(r"^# made of headers:\n((?:#   .*\n)+)", text, re.M):
+        names |= set(re.findall(r"\w+", heads))
+    for one in ast.parse(text).body:
+        if isinstance(one, ast.ClassDef) or (isinstance(one, ast.FunctionDef)
+                                             and ">>> " in (ast.get_docstring(one) or "")):
+            names.add(one.name)
+    return sorted(name for name in names if name[0] != "_")
+
+
 class FunctionWriter:
     def __init__(self, language: Language, options: dict[str, str]) -> None:
         self.language, self.options = language, options
         self.docs = read_docs()
         self.public = {"_core": ["Attributes"]}
         for path in sorted((ROOT / "tools/python/treeform").glob("_[a-z]*.py")):
-            if found := re.search(r"^__all__ = (\[[^\]]*\])", path.read_text(), re.M):
-                self.public[path.stem] = sorted(ast.literal_eval(found[1]))
+            if names := public_names(path.read_text()):
+                self.public[path.stem] = names
         self.known = set(sum(self.public.values(), [])) | {
             one.name for of in language.results.values() for one in language.attributes(of)} | {
             name for enum in language.enums.values() for name, _ in enum.values} | {
@@ -251,11 +267,8 @@ class FunctionWriter:
             text = re.sub("(Not given|Default|`NONE`):", "None:", text)
         return " ".join(filter(None, [values and values + ".", text]))
 
-    def block(self, names: list[str], functions: dict[str, Function], before: str) -> str:
-        """Of a file; examples are those that there are."""
-        made = []
-        for name in names:
-            found = re.search(rf'^def {name}\(.*?^    """.*?^(    >>> .*?)^    """', before,
-                              re.M | re.S)
-            made.append(self.text(functions[name], found[1] if found else ""))
-        return "\n\n".join(made)
+    def function(self, one: Function, before: str) -> str:
+        """Of a block, `before`; its example is that which there is."""
+        found = re.search(rf'^def {one.name}\(.*?^    """.*?^(    >>> .*?)^    """', before,
+                          re.M | re.S)
+        return self.text(one, found[1] if found else "")

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 from headers import Enum, Field, Struct
 
 NUMBERS = {"double": "float", "bool": "bool", "int": "int", "unsigned": "int", "size_t": "int",
-           "uint8_t": "int", "uint32_t": "int", "uint64_t": "int", "int32_t": "int"}
+           "uint8_t": "int", "uint32_t": "int", "uint64_t": "int", "int32_t": "int",
+           "array<double,2>": "tuple[float, float]"}
 #: Annotations and shapes of what becomes arrays.
 ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
           "array<array<double,3>,3>": ("Floats", "(3, 3)"), "box3": ("Floats", "(2, 3)"),
@@ -17,10 +18,17 @@ ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
           "vector<double>": ("Floats", "({},)"), "vector<point3>": ("Floats", "({}, 3)"),
           "vector<face>": ("Ids", "({}, 3)"), "vector<operand_element>": ("Ids", "({}, 2)")}
 
+#: Columns of fields, and how wide they are.
+ROWS = {"double": ("Floats", ","), "point3": ("Floats", ", 3"), "uint32_t": ("Ids", ","),
+        "optional<uint32_t>": ("Ids", ",")}
+
 
 #: What results are made in, as functions take it.
 CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
-            "moving": ", const held_mesh& moving", "data": ", const file_data* data"}
+            "moving": ", const held_mesh& moving", "data": ", const file_data* data",
+            "parts": ", const held_meshes& parts", "whole": ", const tf::section_result& whole",
+            "robot": ", const tf::urdf_robot& robot",
+            "robot_parts": ", tf::robot_parts& parts"}
 
 
 @dataclass
@@ -49,6 +57,8 @@ class Result:
     context: str = ""  #: what it is made in, of `CONTEXTS`
     custom: dict[str, list[Attribute]] = field(default_factory=dict)  #: "+": more of them
     docs: dict[str, str] = field(default_factory=dict)
+    true: str = ""  #: when it is true, where not always
+    rows: str = ""  #: of many, a column for each field: "tf::{}", or "std::optional<tf::{}>"
 
     @property
     def is_tuple(self) -> bool:
@@ -68,6 +78,7 @@ class Function:
     # of the package
     #: What is raised where its certificate is not ok: of a "solid" or "solids", NotSolidError where
     #: one is open, too; of a "mesh" or "meshes", NotCertifiedError alone.
+    pieces: str = ""  #: how many there are, of what it is called for from `begin` to `end`
     check: str = ""
     missing: str = ""  #: what raises ValueError in place of None
     made: str = ""  #: what the package returns, and how, where it is something else
@@ -133,6 +144,8 @@ ARGUMENTS = {
                'np.atleast_1d(_arrays.floats({0}, "{0}"))'),
     "Groups": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})", "ArrayLike | None",
                '_arrays.labels({0}, "{0}")'),
+    "Feature": ("const tf::mesh_feature&", "Feature", "{}", "Feature",
+                'need({0}, "{0}", Feature)'),
     "PairIds": ("const ids_array&", "Ids", "{}", "", ""),
     "Kinds": ("const array_of<std::uint8_t>&", "Bytes", "{}", "", ""),
     "Words": ("const std::vector<std::string>&", "list[str]", "{}", "", ""),
@@ -178,6 +191,11 @@ class Language:
         type = one.type
         context = f", {of.context}" if of.context else ""
         doc = of.docs.get(name) or self.sentence(one)
+        if of.rows:
+            kind, width = ROWS[type]
+            shape = f"(n{width})"
+            return [Attribute(name, kind, doc if doc.startswith(shape) else f"{shape} {doc}",
+                              f"column(from, &tf::{of.cpp}::{one.name})")]
         if type == "mesh":
             return [Attribute(name, "Mesh", doc,
                               f"mesh_object(std::move({source}), certificate, data)")]
@@ -206,6 +224,8 @@ class Language:
             return NUMBERS[type]
         if type in self.enums or type == "string":
             return "str"
+        if type == "vector<string>":
+            return "list[str]"
         if type in ARRAYS:
             return ARRAYS[type][0]
         if type in self.results:
@@ -252,12 +272,16 @@ class Language:
             raise ValueError(f"{of.cpp} has no docstring")
         lines = wrapped(doc, 4, '"""')
         for one in own:
+            if one.name.startswith("_"):
+                continue
             if not one.doc:
                 raise ValueError(f"{of.cpp}::{one.name} has no sentence")
             lines += ([""] if one is own[0] else []) + wrapped(f"{one.name}: {one.doc}", 8, "", 4)
         text += "\n".join(lines) + '\n    """\n\n'
         for one in own:
             text += f"    {one.name}: {one.annotation}{one.default and ' = ' + one.default}\n"
+        if of.true:
+            text += f"\n    def __bool__(self) -> bool:\n        return {of.true}\n"
         if of.is_tuple:
             text += "\n    def __repr__(self) -> str:\n        return tuple_repr(self)\n"
         return text
@@ -265,8 +289,7 @@ class Language:
     def object_code(self, of: Result) -> str:
         """The function that makes an object of it."""
         attributes = self.attributes(of)
-        parameter = CONTEXTS[of.context]
-        text = f"py::object object(of_result, tf::{of.cpp}&& from{parameter}) {{\n"
+        text = self.declaration(of)[:-2] + " {\n"
         codes = [one.code for one in attributes]
         if "certificate" in " ".join(codes) and any(
                 one.name == "certificate" for one in self.structs[of.cpp].fields):
@@ -282,8 +305,9 @@ class Language:
         return text + f'return object_of("treeform.{of.module}", "{of.name}", made);\n}}\n'
 
     def declaration(self, of: Result) -> str:
-        parameter = CONTEXTS[of.context]
-        return f"py::object object(of_result, tf::{of.cpp}&& from{parameter});\n"
+        type = f"std::vector<{of.rows}>" if of.rows else "tf::{}"
+        return (f"py::object object(of_result, {type.format(of.cpp)}&& from"
+                f"{CONTEXTS[of.context]});\n")
 
     # ---- options ----
 
@@ -305,6 +329,7 @@ class Language:
         for one in self.option_fields(name, leave):
             type = {"pair_kinds": "Optional[list[str]]", "filesystem::path": "str",
                     "vector<string>": "list[str]", "vector<weld_condition>": "Same",
+                    "vector<filesystem::path>": "list[str]",
                     "vector<named_column>": "Optional[Mapping[str, str | int]]",
                     "optional<array<double,3>>": "Optional[Sequence[float]]",
                     "optional<array<double,2>>": "Optional[Sequence[float]]"}.get(one.type)
@@ -322,7 +347,7 @@ class Language:
 
     def function_code(self, one: Function) -> str:
         parameters = []
-        call = one.call
+        call, pieces = one.call, one.pieces
         how = ""
         for name, type in one.parameters:
             cpp, _, value = ARGUMENTS.get(type, ("", "", "{}", "", ""))[:3]
@@ -333,6 +358,7 @@ class Language:
                 value = f'choice<tf::{type}>("{name}", words_of<tf::{type}>::all, {{}})'
             parameters.append(f"{cpp}{'' if cpp.endswith('&') else ' '}{name}")
             call = call.replace(f"${name}", value.format(name))
+            pieces = pieces.replace(f"${name}", value.format(name))
         text = f"py::object {one.name}({', '.join(parameters)}) {{\n"
         context = f", {one.context}" if one.context else ""
         if one.context.startswith("attributes of "):
@@ -341,6 +367,9 @@ class Language:
             text += f"carrying attributes({operand if many else '{&' + operand + '}'});\n"
             text += f"attributes.keep_apart({how});\n" if how else ""
             context = ", attributes"
+        if pieces:
+            return text + (f"return as_python(in_pieces({pieces}, [&](std::size_t begin, "
+                           f"std::size_t end) {{\nreturn {call};\n}}){context});\n}}\n")
         report = bool(how) and any("progress" in f.type for f in self.structs[dict(
             one.parameters)[how]].fields)
         text += f"return as_python(run([&](const tf::progress_callback&" \

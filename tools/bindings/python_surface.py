@@ -80,6 +80,42 @@ RESULTS = [
                                         '"vanished_components", from.vanished_components), '
                                         '"vanished_reach", from.vanished_reach)')]}),
     # _cuts
+    Result("section_loop", "SectionLoop", "_cuts", context="whole",
+           docs={"closed": "Whether it is a polygon.",
+                 "oriented": "The faces along it agree: what is inside is to the left, seen from "
+                             "above the plane.", "length": "Of its sides."},
+           custom={"first_point": [
+               Attribute("points", "Floats", "(n, 2) in the frame of the section; the first is not "
+                         "repeated.", "part_of<double>(whole.points, from)"),
+               Attribute("faces", "Ids", "(n,) the face that the side from each point to the next "
+                         "lies in.", "part_of<std::uint32_t>(whole.faces, from)")],
+               "point_count": [],
+               "parent": [Attribute("parent", "int | None", "The innermost loop of the layer that "
+                                    "is around it, by number; None for none.",
+                                    "parent_of(whole, from)")]}),
+    Result("section_result", "Section", "_cuts",
+           doc="What is in parallel planes: layers, in the order of their heights as given. Layer "
+               "i has the loops `loops(i)`.",
+           custom={
+               "layers": [
+                   column("heights", "Floats", "(K,) of the layers.", "layers", "one.height"),
+                   column("origins", "Floats", "(K, 3) a point of each plane.", "layers", "one.at"),
+                   column("areas", "Floats", "(K,) the area inside; of a solid, rounded.", "layers",
+                          "one.area"),
+                   column("lengths", "Floats", "(K,) of all loops.", "layers", "one.length"),
+                   column("open_counts", "Ids", "(K,) how many polylines are open; none of a "
+                          "solid.", "layers", "one.open_count")],
+               "frame": [Attribute("frame", "Floats", "(3, 3) the axes x and y of `points`, and "
+                                   "the normal, each of length 1.",
+                                   "column(std::array{from.frame.x, from.frame.y, "
+                                   "from.frame.normal}, std::identity{})")],
+               "points": [Attribute("points", "Floats", "(P, 2) of all loops, one after the other: "
+                                    "(x . p, y . p) of p in space.",
+                                    "as_array<double>(std::vector(from.points))")],
+               "faces": [Attribute("faces", "Ids", "(P,) the face that the side from each point on "
+                                   "lies in.", "as_array(std::vector(from.faces))")],
+               "loops": [],
+               "+": [Attribute("_data", "_core.SectionData", "", "py::cast(std::move(from))")]}),
     Result("cut_piece", "CutPiece", "_cuts", "MadeMesh", context="attributes",
            inherited="mesh certificate"),
     Result("mesh_part", "MeshPart", "_cuts", "MeshResult", context="attributes",
@@ -117,9 +153,9 @@ RESULTS = [
                       "one another.", "sides", "one.first_face"),
                column("areas", "Floats", "(S,) the area of each side.", "sides", "one.area"),
                column("normals", "Floats", "(S, 3) the outward normal of each side, of length 1.",
-                      "sides", "numbers(one.normal)")]}),
+                      "sides", "one.normal")]}),
     # _properties
-    Result("solid_defects", "SolidDefects", "_properties",
+    Result("solid_defects", "SolidDefects", "_properties", true='self.message != "none"',
            doc="What keeps a mesh from being a solid; `bool()` says whether there is anything.",
            custom={"+": [Attribute("message", "str",
                                    "'open at 37 edges, 2 pairs of faces meet'; 'none'.",
@@ -134,7 +170,7 @@ RESULTS = [
                  column("pairs", "Ids", "(n, 2) uint32, ascending; of one mesh, the lower face "
                         "first.", "pairs", "std::array{one.a, one.b}"),
                  column("kinds", "NDArray[np.uint8]", "(n,) uint8: how they meet, a place in "
-                        "`KINDS`.", "pairs", "static_cast<std::uint8_t>(one.kind)")],
+                        "`KINDS`.", "pairs", "one.kind")],
                  "counts": [Attribute("counts", "dict[str, int]",
                                       "How many of each kind there are, listed or not.",
                                       "counts_of<tf::pair_kind>(from.counts)")]}),
@@ -158,7 +194,7 @@ RESULTS = [
                              "out.", "py::cast(from.part.dropped)")],
                "found": [
                    column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
-                   column("kinds", "", "", "found.pairs", "static_cast<std::uint8_t>(one.kind)"),
+                   column("kinds", "", "", "found.pairs", "one.kind"),
                    Attribute("counts", "", "", "counts_of<tf::pair_kind>(from.found.counts)")]}),
     # _files
     Result("write_result", "Written", "_files", doc="What `write` wrote.",
@@ -167,6 +203,40 @@ RESULTS = [
                  "precision": "Of the coordinates written: 'float32' or 'float64'."},
            custom={"warnings": [Attribute("warnings", "list[str]", "What a person should know.",
                                           "texts_of(from.warnings)")]}),
+    # _robots
+    Result("urdf_joint", "Joint", "_robots", "NamedTuple", context="robot",
+           leave="origin axis mimics mimic_line", doc="What connects two links.",
+           docs={"name": "As in the file.",
+                 "kind": "'fixed', 'revolute', 'continuous' or 'prismatic'.",
+                 "limits": "Least and greatest value, in radians or meters; None where there are "
+                           "none."},
+           custom={
+               **{end: [Attribute(end, "str", f"Name of the link that it {how}.",
+                                  f"py::cast(robot.links[from.{end}])")]
+                  for end, how in (("parent", "is on"), ("child", "moves"))}}),
+    Result("urdf_robot", "Robot", "_robots", context="robot_parts",
+           doc="Links and joints, with a mesh for each link that has any.\n\n"
+               "`clash(robot.parts, ...)` and `check_poses(robot.parts, robot.poses(values), "
+               "ignored=robot.adjacent)` take its parts.",
+           docs={"name": "As in the file.",
+                 "approximated": "Cylinders and spheres, for which triangles around them stand, a "
+                                 "sentence each.",
+                 "skipped": "What else is no mesh, a sentence each."},
+           custom={
+               "links": [Attribute("links", "list[str]", "Names, in the order of the file.",
+                                   "as_python(std::vector(from.links))")],
+               "joints": [Attribute("joints", "list[Joint]", "Parents ahead of their children.",
+                                    "as_python(std::vector(from.joints), from)")],
+               "meshes": [
+                   Attribute("parts", "list[Mesh]", "The meshes of a link as one, in the frame of "
+                             "the link.", "meshes_of(std::move(parts.parts))"),
+                   Attribute("link_of_part", "Ids", "(N,) the link of each part.",
+                             "as_array(std::vector(parts.links))"),
+                   Attribute("adjacent", "Ids", "(n, 2) parts that a joint connects, the lower "
+                             "number first: they always touch.",
+                             "column(parts.adjacent, std::identity{})")],
+               "+": [Attribute("_data", "_core.RobotData", "",
+                               "py::cast(robot_data{from, parts.links})")]}),
     # _weld
     Result("weld_result", "WeldResult", "_weld", "MeshResult", context="data",
            doc="A welded mesh or cloud.", leave="attributes",
@@ -238,7 +308,33 @@ RESULTS = [
                                   "from.band ? py::object(py::make_tuple(from.band->below, "
                                   "from.band->within, from.band->above)) : py::none()")]}),
     Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
+    Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
+           rows="std::optional<tf::{}>", names={"point": "closest", "face": "triangle_id"},
+           doc="The nearest point of a mesh for each query, in the order that trimesh has: "
+               "`closest, distance, triangle_id = closest_point(mesh, points)`.",
+           docs={"closest": "(n, 3) points on the mesh, rounded; NaN where none is within the "
+                            "radius.",
+                 "distance": "(n,) not squared; infinite where there is none.",
+                 "triangle_id": "(n,) uint32 the face; 4294967295 where there is none."}),
+    Result("mesh_hit", "RayHits", "_nearness", "NamedTuple", rows="std::optional<tf::{}>",
+           leave="coplanar t_end", doc="The first face that each ray hits.",
+           docs={"t": "(n,) the point hit is origin + t direction; infinite where nothing is hit.",
+                 "face": "(n,) uint32 the face; 4294967295 where nothing is hit."},
+           custom={"at": [Attribute(
+               "at", "NDArray[np.uint8]", "(n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) "
+               "or in the interior (6) of the face.",
+               "column(from, [](const auto& one) { return one ? one->at : "
+               "tf::feature::interior; })")]}),
     # _placement
+    Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
+           doc="Pairs of faces that meet at a place, or keep the clearance there.",
+           names={"point": "points", "normal": "normals"},
+           docs={"normals": "(n, 3) of length 1, from the fixed to the moving mesh; 0 where there "
+                            "is none.",
+                 "moving": "faces of the moving mesh.",
+                 "fixed_face": "faces of the fixed mesh; 4294967295 for the bed."},
+           custom={"fixed": [Attribute("fixed", "Ids", "(n,) which fixed mesh.", "column(from, "
+                   "[](const auto& one) { return static_cast<std::uint32_t>(one.fixed); })")]}),
     Result("search_effort", "SearchEffort", "_placement", "NamedTuple"),
     Result("mesh_measure", "Measure", "_placement", leave="face_a face_b", custom={
         f"on_{x}": [
@@ -248,6 +344,7 @@ RESULTS = [
                       f"py::cast(from.on_{x}.face)")] for x in "ab"},
            docs={"relation": "'separate', 'touching' or 'penetrating'. Exact."}),
     Result("placement", "Placement", "_placement", "MeshResult", context="moving",
+           true="bool(self.certificate)",
            doc="Where a mesh goes. True where it has a place; else `message` says why not.",
            leave="clearance bed below_bed on_bed max_travel statistics",
            docs={"end": "Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', "
@@ -259,7 +356,7 @@ RESULTS = [
                "points": [MESH_OF_PLACE],
                "contacts": [Attribute(
                    "contacts", "Contacts", "Pairs of faces that meet there, or keep the clearance.",
-                   "contacts_of(from)")],
+                   "as_python(std::move(from.contacts))")],
                "nearest": [Attribute(
                    "nearest", "tuple[int, Measure] | None", "The fixed mesh that matters most, and "
                    "how the mesh lies to it; None where all are far.",
@@ -275,7 +372,7 @@ RESULTS = [
                column("faces", "Ids", "(n, 2) the faces of `a` and `b` that meet at that time.",
                       "contacts", "std::array{one.face_a, one.face_b}"),
                column("points", "Floats", "(n, 3) a common point of each pair, rounded.",
-                      "contacts", "numbers(one.point)")]}),
+                      "contacts", "one.point")]}),
     Result("penetration_depth_result", "Depth", "_placement", "NamedTuple"),
     Result("laid_flat", "LaidFlat", "_placement", "MeshResult", context="moving",
            leave="bed contact corrected", doc="A mesh on the bed.",
@@ -287,7 +384,7 @@ RESULTS = [
                "sides": [column("areas", "Floats", "(S,) of the flat sides of the convex hull, "
                                 "largest first.", "sides", "one.area"),
                          column("normals", "Floats", "(S, 3) outward, before the turn.", "sides",
-                                "numbers(one.normal)")],
+                                "one.normal")],
                "stability": [column("tip_angles", "Floats", "(S,) degrees of tilt at which it tips "
                                     "over; negative: by itself.", "stability", "one.tip_angle"),
                              column("overhangs", "Floats", "(S,) area of the faces that would need "
@@ -295,7 +392,8 @@ RESULTS = [
                                     "one.overhang")],
                "+": [MESSAGE]}),
     Result("align_result", "Alignment", "_placement", "MeshResult", context="moving",
-           leave="pivot pivot_moved freedoms", doc="The motion that `align` has found.",
+           leave="pivot pivot_moved freedoms", true="self.converged",
+           doc="The motion that `align` has found.",
            docs={"end": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'."},
            custom={"points": [Attribute("mesh", "Mesh", "The moved mesh; of a cloud, one without "
                                         "faces.", "moved_mesh(std::move(from.points), moving, "
@@ -308,10 +406,12 @@ RESULTS = [
            custom={"points": [Attribute(
                "mesh", "Mesh", "The part where it goes; where it was, if it is not placed.",
                "moved_mesh(std::move(from.points), moving, from.matrix, py::none())")]}),
-    Result("packing", "Packing", "_placement", leave="pairs_measured bed certificate",
+    Result("packing", "Packing", "_placement", context="parts",
+           leave="pairs_measured bed certificate", true="len(self.not_placed) == 0",
            doc="Filled plates. True where every part has a place.",
            custom={"parts": [Attribute("parts", "list[PackedPart]", "In the order of the input.",
-                                       "py::list()")], "+": [MESSAGE]}),
+                                       "packed_parts(std::move(from.parts), parts)")],
+                   "+": [MESSAGE]}),
     # _assembly
     Result("part_clash", "PartClash", "_assembly", docs={
         "how": "'penetrating', 'touching' or 'closer_than_clearance'."},
@@ -331,7 +431,7 @@ RESULTS = [
                      ("parts", "Ids", "(n, 2) the parts, the lower number first.",
                       "std::array{one.a, one.b}"),
                      ("how", "NDArray[np.uint8]", "(n,) uint8: how they lie, a place in "
-                      "`RELATIONS`.", "static_cast<std::uint8_t>(one.how)"),
+                      "`RELATIONS`.", "one.how"),
                      ("distance", "Floats", "(n,) of those that are closer than the clearance; "
                                             "else "
                       "0.", "one.distance"))]]}),
@@ -354,7 +454,7 @@ STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_val
 
 #: Options by name: structs, and the fields that Python gives in another way, or not at all.
 OPTIONS = {
-    "read_options": "", "write_options": "keep_names",
+    "cloud_inputs": "format names", "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts",
     "resolve_options": "removal_rounds", "repair_options": "",
     "offset_options": "", "simplify_options": "face_groups corner_groups",

@@ -17,6 +17,8 @@ _HEIGHTS = {"heights": "(K,) of planes above that one, along its normal at lengt
 _RAYS = {"origins": "(n, 3)", "directions": "(n, 3) of any length.",
          "t_min": "what is hit before origin + t_min direction does not count.",
          "t_max": "nor what is hit beyond this."}
+_ALL_RAYS = "rays(origins, directions, t_min, t_max)"
+_PIECE = f"mesh.prepared(), {_ALL_RAYS}.piece(begin, end)"
 _MESHES = {"meshes": "each a mesh, or a list of meshes."}
 _VOLUMES = {"volumes": "compute those of two operands, of what is in either, and of what is in "
                        "both."}
@@ -147,14 +149,12 @@ FUNCTIONS = [
     Function("submesh(mesh: Mesh, faces: Chosen) -> MeshPart", "tf::submesh($mesh, $faces)",
              "attributes of mesh", also="Vertices keep their attributes.",
              docs={"faces": "(n,) numbers; or a mask (F,) of True and False."}),
-    Function("moved_points(mesh: Mesh, matrix: Matrix) -> Floats",
-             "tf::transform_mesh({mesh.view().points, {}}, $matrix).points"),
     Function("mass_properties(mesh: Mesh) -> Optional[MassProperties]",
              "tf::find_mass_properties(mesh.view())"),
     Function("concatenate(meshes: Iterable[MeshLike]) -> Mesh", body="joined(meshes, progress)",
              also="Their attributes are put together likewise."),
-    Function("transformed(mesh: MeshLike, matrix: ArrayLike) -> Mesh",
-             body="moved(mesh, matrix, progress)", cpp="transform_mesh", words={"by": "matrix"},
+    Function("transformed(mesh: Mesh, matrix: Matrix) -> Mesh", cpp="transform_mesh",
+             words={"by": "matrix"},
              also="It keeps its attributes, with normals turned.",
              docs={"matrix": "(4, 4)"}),
     # _shapes
@@ -223,8 +223,7 @@ FUNCTIONS = [
              docs={"placed": "(V, 3)"},
              also="Returns the number of faces that have lost their area, and of pairs of faces "
                   "that meet now and did not before."),
-    Function("join_equal_points(mesh: MeshLike) -> Mesh",
-             body="Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))"),
+    Function("join_equal_points(mesh: Mesh) -> Mesh"),
     # _properties
     Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
     Function("signed_volume(mesh: Mesh) -> float", "tf::signed_volume(mesh.view())"),
@@ -317,8 +316,7 @@ FUNCTIONS = [
     Function("count_nearly_equal(points: Points, distance: float) -> int",
              "tf::count_nearly_equal($points, distance)"),
     Function("weld(mesh_or_points: Body, options: weld_options(tolerance), "
-             "label: ArrayLike = None) -> WeldResult",
-             body="welded(mesh_or_points, how, label, progress)",
+             "label: Groups = None) -> WeldResult",
              docs=_WELD | {
                  "mesh_or_points": "a mesh, points (n, 3), or anything with `points` or `vertices` "
                                    "and no faces.",
@@ -327,7 +325,7 @@ FUNCTIONS = [
              "options: weld_stream_options(tolerance), removed: Path = \"\", label: str = \"\", "
              "withhold: bool = False, columns: Columns = None, mixed: bool = False, "
              "communicator: Communicator = None) -> WeldStreamResult",
-             body="streamed(settings_of(files, how, columns, mixed), out, removed, label, "
+             body="streamed(inputs_of(files, columns, mixed), how, out, removed, label, "
                   "withhold,\n"
                   "                    communicator, progress)",
              words={"inputs": "files", "welded": "out"},
@@ -353,7 +351,8 @@ FUNCTIONS = [
                                  "is interrupted, all raise at the next collective call."}),
     # _nearness
     Function("closest_point(mesh: Mesh, points: Points, *, radius: float = np.inf)"
-             " -> tuple[Floats, Floats, Ids]", made="ClosestPoints", value="ClosestPoints(*{})",
+             " -> ClosestPoints", "tf::closest_point(mesh.prepared(), $points.subspan(begin, end - "
+             "begin), radius)", pieces="$points.size()",
              doc="The point of the surface that is nearest to each of `points` (n, 3). Distances "
                  "are within 16 u L of the true ones, where u = 2^-53 and L is the larger of the "
                  "distance and the diagonal of the face's box. Of several faces at the same "
@@ -361,16 +360,20 @@ FUNCTIONS = [
                  "next call.",
              docs={"radius": "what is further away is ignored; inclusive."}),
     Function("raycast(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
-             "t_max: float = np.inf) -> tuple[Floats, Ids, Bytes]", made="RayHits",
-             value="RayHits(*{})", docs=_RAYS),
+             "t_max: float = np.inf) -> RayHits", f"finite(tf::raycast({_PIECE}))",
+             pieces=f"{_ALL_RAYS}.size()", docs=_RAYS),
     Function("raycast_any(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
-             "t_max: float = np.inf) -> Bytes", made="NDArray[np.bool_]", value="{}.view(np.bool_)",
+             "t_max: float = np.inf) -> Bytes", f"tf::raycast_any({_PIECE})",
+             pieces=f"{_ALL_RAYS}.size()", made="NDArray[np.bool_]", value="{}.view(np.bool_)",
              doc="(n,) bool: whether each ray hits any face. Exact.", docs=_RAYS),
     Function("deviation(a: Body, b: Body, options: deviation_options) -> Optional[Deviation]",
              "tf::deviation(a.prepared(), b.prepared(), options)",
              missing="a has no points, or b no faces",
              also="`a` and `b` are a mesh or a cloud (n, 3) each.",
              docs={"band": "signed distances that are within tolerance."}),
+    Function("locate_points(mesh: Mesh, points: Points) -> tuple[Bytes, NDArray[np.int32]]",
+             "tf::locate(mesh.prepared(), $points.subspan(begin, end - begin))",
+             pieces="$points.size()"),
     Function("contains(mesh: MeshLike, points: ArrayLike) -> NDArray[np.bool_]",
              body="np.asarray(located(mesh, points, progress)[0] != OUTSIDE)",
              doc="(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its "
@@ -453,13 +456,14 @@ FUNCTIONS = [
                             "scale of `start`."}),
     Function("mate_features(moving: Body, onto: Bodies, of_moving: Feature, of_fixed: Feature, "
              "options: placement_options) -> Placement",
-             words={"fixed": "onto"}, body="mated(moving, onto, of_moving, of_fixed, how, "
-                                           "progress)", leave=_of_others("flip"),
+             "tf::mate_features($moving, $onto, of_moving, of_fixed, options)", "moving",
+             words={"fixed": "onto"}, leave=_of_others("flip"),
              docs={"onto": _FIXED, "of_moving": "a plane or an axis of `find_features`.",
                    "of_fixed": "one of the same kind.",
                    "flip": "planes look the same way rather than at each other; axes are turned "
                            "around."}),
     Function("pack(parts: Parts, size: ArrayLike, options: pack_options) -> Packing",
+             "tf::pack($parts, options)", "parts", "long_work",
              given="size=extent_of(size)", leave="size",
              docs={"size": "(2,) or (3,): length, depth and height of a plate."}),
     # _assembly

@@ -3,21 +3,58 @@ tools/python/src/made."""
 
 from __future__ import annotations
 
+import ast
 import pathlib
 import re
 
 from c_write import formatted
 from headers import ROOT
-from python_functions import FunctionWriter
-from python_language import Function, Language
+from python_functions import FunctionWriter, public_names
+from python_language import Function, Language, call_text
 
 PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
 #: Modules whose results are in `places.cpp`.
 PLACES = ("_assembly", "_nearness", "_placement")
-BLOCK = re.compile(r"^# made of (results|options|functions|names|imports)[^\n]*:\n"
+BLOCK = re.compile(r"^# made of (headers|options|functions|names|imports|uses)[^\n]*:\n"
                    r"((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
+
+#: Where the modules of the package have names from, in this order.
+USES = {"html": "", "os": "", "re": "", "shutil": "", "tempfile": "",
+        "dataclasses": "dataclass", "functools": "partial",
+        "typing": "IO Any Iterable List Mapping NamedTuple Sequence Union",
+        "numpy": "np", "numpy.typing": "ArrayLike NDArray", ".": "_arrays _core",
+        "._arrays": "NONE Floats Ids path_of",
+        "._errors": "FileError NotSolidError checked file_error need options require",
+        "._files": "Columns Path",
+        "._mesh": "Body Mesh MeshLike MeshResult as_mesh bodies held held_body listed points_of",
+        "._placement": "SearchEffort", "._progress": "Progress part", "._properties": "Feature",
+        "._repair": "MadeMesh", "._results": "Certificate Result tuple_repr",
+        "._steps": "Communicator InSteps in_communicator"}
+
+
+def uses(text: str) -> str:
+    """The imports of a module, and what it offers."""
+    tree = ast.parse(text)
+    used = {one.id for one in ast.walk(tree) if isinstance(one, ast.Name)}
+    used -= {one.name for one in tree.body if isinstance(one, (ast.ClassDef, ast.FunctionDef))}
+    used -= {one.id for one in ast.walk(tree)
+             if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Store)}
+    groups: list[list[str]] = [[], [], []]
+    for module, names in USES.items():
+        there = [name for name in names.split() if name in used]
+        group = groups[2 if module[0] == "." else module.startswith("numpy")]
+        if not names and module in used:
+            group.append(f"import {module}")
+        elif there == ["np"]:
+            group.append("import numpy as np")
+        elif there:
+            line = f"from {module} import {', '.join(there)}"
+            group.append(line if len(line) <= 100 else
+                         call_text(f"from {module} import (", there, ")"))
+    names = call_text("__all__ = [", [f'"{name}"' for name in public_names(text)], "]")
+    return "\n\n".join(["\n".join(one) for one in groups if one] + [names]) + "\n"
 
 
 class Writer:
@@ -28,14 +65,19 @@ class Writer:
         self.functions = [one for one in functions if not one.body]
         self.package = FunctionWriter(language, options)
         self.by_name = {one.name: one for one in functions}
+        self.classes = {one.name: one for one in reversed(language.results.values())}
 
     def package_file(self, path: pathlib.Path) -> str:
         """A file of the package with its blocks made anew."""
-        return BLOCK.sub(self._block, path.read_text())
+        text = BLOCK.sub(self._block, path.read_text())
+        return re.sub(r"(^# made of uses:\n).*?(?=^# end\n)", lambda m: m[1] + uses(text), text,
+                      flags=re.M | re.S)
 
     def _block(self, found: re.Match[str]) -> str:
         kind, names = found.group(1), found.group(2).replace("#", " ").split()
         head = found.group(0)[:found.end(2) - found.start()]
+        if kind == "uses":
+            return found.group(0)
         if kind == "options":
             return head + "".join(self.language.option_stub(name, leave)
                                   for name, leave in self.options.items()
@@ -46,19 +88,20 @@ class Writer:
                                   for module, name in modules) + "# end\n"
         if kind == "names":
             return head + self.package.exports() + "# end\n"
-        if kind == "functions" and names:
-            return head + self.package.block(names, self.by_name, found.group(0)) + "# end\n"
         if kind == "functions":
             return head + "".join(self.language.function_stub(one)
                                   for one in self.functions) + "# end\n"
-        classes = []
+        made = []
         for name in names:
-            of = self.language.results[name]
+            if name in self.by_name:
+                made.append(self.package.function(self.by_name[name], found.group(0)))
+                continue
+            of = self.classes[name]
             before = re.search(rf"^class {of.name}\(.*?(?=^\S)", found.group(0), re.M | re.S)
             order = re.findall(r"^    (\w+): ", before.group(0).rpartition('"""')[2], re.M) \
                 if before else []
-            classes.append(self.language.class_text(of, order))
-        return head + "\n\n".join(classes) + "# end\n"
+            made.append(self.language.class_text(of, order))
+        return head + "\n\n".join(made) + "# end\n"
 
     def _calls(self, start: str, what: str, calls: list[Function]) -> str:
         text = start + "namespace {\n\n"

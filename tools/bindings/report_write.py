@@ -1,5 +1,5 @@
 """Objects of the reports of the tools that are fields of results: the functions that fill them, in
-tools/common/made, and their rows in tools/REPORTS.md."""
+tools/shell/made, and their rows in tools/REPORTS.md."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from c_write import formatted
 from headers import ROOT, Enum, Field, Struct
 
-MADE = ROOT / "tools/common/made"
+MADE = ROOT / "tools/shell/made"
 PAGE = ROOT / "tools/REPORTS.md"
 
 
@@ -122,17 +122,17 @@ class Writer:
             defined += f"{call} {{ return {{ {members} }}; }}\n\n"
         header = ("#pragma once\n/// \\file\n/// Made by tools/bindings: fields of results, as "
                   "reports "
-                  "have them.\n\n#include \"tools/page/json.hpp\"\n"
+                  "have them.\n\n#include \"tools/picture/json.hpp\"\n"
                   + "".join(f"#include <treeform/{name}>\n" for name in headers)
                   + "#include <treeform/tf.hpp>\n\nnamespace tools {\n\n" + declared
                   + "\n}  // namespace tools\n")
-        source = ("// Made by tools/bindings.\n#include \"tools/common/made/report_fields.hpp\"\n\n"
+        source = ("// Made by tools/bindings.\n#include \"tools/shell/made/report_fields.hpp\"\n\n"
                   "namespace tools {\nnamespace {\n\n"
                   "template <class T>\njson list_of(const std::vector<T>& values, json entry(const "
                   "T&)) {\n"
                   "json list = json::array();\nfor (const T& one : values) "
                   "list.push_back(entry(one));\n"
                   "return list;\n}\n\n}  // namespace\n\n" + defined + "}  // namespace tools\n")
-        name = "tools/common/made/report_fields"
+        name = "tools/shell/made/report_fields"
         return {MADE / "report_fields.hpp": formatted(header, f"{name}.hpp"),
                 MADE / "report_fields.cpp": formatted(source, f"{name}.cpp"), PAGE: self.page()}

@@ -8,7 +8,6 @@
 #include <treeform/mesh/self_intersections.hpp>
 
 #include <tools/c/made/structs.hpp>
-#include <tools/c/pairs.hpp>
 
 struct treeform_search {
     void* owner;

@@ -9,7 +9,6 @@
 #include <treeform/mesh/point_location.hpp>
 
 #include <tools/c/made/structs.hpp>
-#include <tools/c/pairs.hpp>
 
 #include <algorithm>
 

@@ -2,14 +2,12 @@
 /// \file
 /// Trees over points and boxes, in the plane and in space, in C.
 
-#include <treeform/tree/aabb.hpp>
-#include <treeform/tree/build.hpp>
-#include <treeform/tree/nearness_batch.hpp>
 #include <treeform/tree/point_search.hpp>
 #include <treeform/tree/ray.hpp>
 #include <treeform/tree/search.hpp>
 #include <treeform/tree/search_pair.hpp>
 
+#include <tools/bindings/box_trees.hpp>
 #include <tools/c/made/structs.hpp>
 
 #include <algorithm>
@@ -18,11 +16,7 @@
 
 namespace glue {
 
-template <std::size_t D>
-struct boxes_and_tree {
-    std::vector<tf::aabb<double, D>> boxes{};
-    tf::tree<D> tree{};
-};
+using tools::boxes_and_tree;
 
 using point_tree = std::variant<tf::point_search<2>, tf::point_search<3>>;
 using box_tree = std::variant<boxes_and_tree<2>, boxes_and_tree<3>>;
@@ -51,14 +45,9 @@ auto rows(const Tree<D>&, const double* data, std::size_t count, const char* nam
     return rows<D>(data, count, name);
 }
 
-/// Boxes of a caller. Which ones make no sense, `build` and `search_all` know.
 template <std::size_t D>
-auto boxes_of(const boxes_and_tree<D>&, const double* mins, const double* maxs, std::size_t count) {
-    const auto low = rows<D>(mins, count, "mins");
-    const auto high = rows<D>(maxs, count, "maxs");
-    std::vector<tf::aabb<double, D>> boxes(count);
-    for (std::size_t i = 0; i < count; ++i) boxes[i] = {low[i], high[i]};
-    return boxes;
+auto boxes_of(const double* mins, const double* maxs, std::size_t count) {
+    return tools::boxes_of<D>(rows<D>(mins, count, "mins"), rows<D>(maxs, count, "maxs"));
 }
 
 /// `create(D)` with the dimensions as a type: 2 or 3.
@@ -87,34 +76,12 @@ answer_of<treeform_id_lists> lists_of(std::size_t count, const ListOf& list_of) 
     auto& begins = made->keep(std::vector<std::size_t>{0});
     auto& ids = made->keep(std::vector<std::uint32_t>());
     in_pieces(count, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::vector<std::uint32_t>> lists(end - begin);
-        tf::for_chunks(lists.size(), 64, [&](std::size_t from, std::size_t to, std::size_t) {
-            for (std::size_t i = from; i < to; ++i) lists[i] = list_of(begin + i);
-        });
-        for (const auto& one : lists) {
-            ids.insert(ids.end(), one.begin(), one.end());
-            begins.push_back(ids.size());
-        }
+        tools::append_lists(begin, end, begins, ids, list_of);
     });
     made->value.count = count;
     made->value.begin = begins.data();
     made->value.ids = ids.data();
     return made;
-}
-
-/// Rows of k answers from query `begin` on, filled up where there are fewer;
-/// `distance_of(neighbor)` is not squared.
-template <class Lists, class DistanceOf>
-void fill_rows(const Lists& found, std::size_t begin, std::size_t k, std::uint32_t* ids,
-               double* distances, const DistanceOf& distance_of) {
-    for (std::size_t query = 0; query < found.size(); ++query) {
-        const auto row = found[query];
-        for (std::size_t i = 0; i < k; ++i) {
-            const std::size_t at = (begin + query) * k + i;
-            if (ids) ids[at] = i < row.size() ? row[i].id : TREEFORM_NONE;
-            if (distances) distances[at] = i < row.size() ? distance_of(row[i]) : infinity;
-        }
-    }
 }
 
 // ---- points ----
@@ -143,8 +110,9 @@ inline void point_tree_nearest(const point_tree& tree, const double* queries, st
         [&](const auto& of) {
             const auto all = rows(of, queries, count, "queries");
             in_pieces(count, [&](std::size_t begin, std::size_t end) {
-                fill_rows(of.k_nearest(all.subspan(begin, end - begin), k, radius), begin, k, ids,
-                          distances, [](const tf::near_point& one) { return one.distance; });
+                tools::fill_rows(of.k_nearest(all.subspan(begin, end - begin), k, radius), begin, k,
+                                 ids, distances, TREEFORM_NONE,
+                                 [](const tf::near_point& one) { return one.distance; });
             });
         },
         tree);
@@ -192,10 +160,7 @@ inline answer_of<treeform_id_pairs> point_tree_pairs(const point_tree& tree, dou
 inline box_tree box_tree_create(const double* mins, const double* maxs, std::size_t count,
                                 std::uint32_t dimensions) {
     return of_dimensions<box_tree>(dimensions, [&](auto d) {
-        boxes_and_tree<d.value> of;
-        of.boxes = boxes_of(of, mins, maxs, count);
-        of.tree = tf::build(of.boxes, [](const auto& box) { return box; });
-        return of;
+        return boxes_and_tree<d.value>(boxes_of<d.value>(mins, maxs, count));
     });
 }
 
@@ -233,13 +198,9 @@ inline answer_of<treeform_id_pairs> box_tree_pairs_of(const box_tree& a, const b
 inline answer_of<treeform_id_lists> box_tree_query(const box_tree& tree, const double* mins,
                                                    const double* maxs, std::size_t count) {
     return std::visit(
-        [&](const auto& of) {
-            const auto queries = boxes_of(of, mins, maxs, count);
-            return lists_of(count, [&](std::size_t i) {
-                return tf::search_all(of.tree, queries[i], [&](std::uint32_t id) {
-                    return tf::overlaps(of.boxes[id], queries[i]);
-                });
-            });
+        [&]<std::size_t D>(const boxes_and_tree<D>& of) {
+            const auto queries = boxes_of<D>(mins, maxs, count);
+            return lists_of(count, [&](std::size_t i) { return of.overlapping(queries[i]); });
         },
         tree);
 }
@@ -275,13 +236,9 @@ inline void box_tree_nearest(const box_tree& tree, const double* points, std::si
         [&](const auto& of) {
             const auto queries = rows(of, points, count, "points");
             in_pieces(count, [&](std::size_t begin, std::size_t end) {
-                const auto some = queries.subspan(begin, end - begin);
-                const auto squared = [&](std::size_t query, std::uint32_t id) {
-                    return tf::squared_distance(of.boxes[id], some[query]);
-                };
-                fill_rows(tf::k_nearest_batch(of.tree, some, k, squared, {.radius = radius}), begin,
-                          k, ids, distances,
-                          [](const auto& one) { return std::sqrt(one.squared_distance()); });
+                tools::fill_rows(of.nearest(queries.subspan(begin, end - begin), k, radius), begin,
+                                 k, ids, distances, TREEFORM_NONE,
+                                 [](const auto& one) { return std::sqrt(one.squared_distance()); });
             });
         },
         tree);

@@ -117,7 +117,43 @@ std::string text_of(const mode_text& mode, const option_text& option,
                       : wrapped(own, width - text_column, left_column(option).size() - text_column);
 }
 
+/// What stands ahead of `end`; it is taken off the text, with `end`.
+std::string taken(std::string_view& text, std::string_view end) {
+    const std::size_t at = text.find(end);
+    const std::string front(text.substr(0, at));
+    text.remove_prefix(at + end.size());
+    return front;
+}
+
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> sections_of(std::string_view help) {
+    std::vector<std::pair<std::string, std::string>> all;
+    while (!help.empty()) {
+        const std::string line = taken(help, "\n");
+        if (line.starts_with('['))
+            all.emplace_back(line.substr(1, line.size() - 2), std::string());
+        else
+            all.back().second += line + "\n";
+    }
+    for (auto& [name, text] : all) text.erase(text.find_last_not_of('\n') + 2);
+    return all;
+}
+
+mode_text mode_of(std::string names, std::string_view section) {
+    mode_text made{.names = std::move(names), .text = taken(section, "\nusage ")};
+    made.usage = taken(section, "\n");
+    if (section.starts_with("without ")) {
+        std::string_view options = section.substr(0, section.find('\n'));
+        section.remove_prefix(options.size() + 1);
+        options.remove_prefix(options.find(' ') + 1);
+        while (options.find(' ') != std::string_view::npos)
+            made.without.push_back(taken(options, " "));
+        made.without.emplace_back(options);
+    }
+    made.more = section;
+    return made;
+}
 
 std::vector<std::string> words_of(std::string_view list) {
     std::vector<std::string> words;

@@ -53,6 +53,16 @@ struct command_text {
     std::vector<std::pair<std::string, const command_text*>> own{};
 };
 
+/// A tool's help.txt, which the build puts into it. Sections begin with their name in brackets; that
+/// of a mode has its text, its usage, options that are not for it, and what its help says.
+extern const std::string_view help_text;
+
+/// Names and texts of all sections.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> sections_of(std::string_view help);
+
+/// The mode of a section.
+[[nodiscard]] mode_text mode_of(std::string names, std::string_view section);
+
 /// "arrange", "pack" of "arrange, pack".
 [[nodiscard]] std::vector<std::string> words_of(std::string_view list);
 

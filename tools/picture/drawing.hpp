@@ -2,8 +2,8 @@
 /// \file
 /// A scene in the pixels of one view, and its tree: what stands where.
 
-#include "tools/page/scene.hpp"
 #include "tools/picture/canvas.hpp"
+#include "tools/picture/scene.hpp"
 #include "tools/picture/view.hpp"
 #include <treeform/tf.hpp>
 #include <treeform/tree/aabb.hpp>

@@ -2,9 +2,9 @@
 /// \file
 /// The words of a picture: its title, legend, scale, and labels of things.
 
-#include "tools/page/scene.hpp"
 #include "tools/picture/canvas.hpp"
 #include "tools/picture/drawing.hpp"
+#include "tools/picture/scene.hpp"
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 /// \file
 /// A scene as one picture: a title, a pane for each view, the legend of the page.
 
-#include "tools/page/scene.hpp"
 #include "tools/picture/canvas.hpp"
 #include "tools/picture/options.hpp"
+#include "tools/picture/scene.hpp"
 
 namespace tools {
 

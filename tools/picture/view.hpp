@@ -2,8 +2,8 @@
 /// \file
 /// Where one looks from, and where things are then in the picture.
 
-#include "tools/page/scene.hpp"
 #include "tools/picture/options.hpp"
+#include "tools/picture/scene.hpp"
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 

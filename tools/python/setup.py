@@ -24,9 +24,8 @@ import licenses
 
 HERE = pathlib.Path(__file__).resolve().parent
 TREE = HERE.parents[1] if (HERE.parents[1] / "libmesh").is_dir() else HERE / "native"
-CARRIED = ["CMakeLists.txt", "LICENSE", "libtree", "libmesh", "tools/bindings", "tools/page",
-           "tools/picture", "tools/python/CMakeLists.txt", "tools/python/find_python.cmake",
-           "tools/python/src", "tools/viewer/viewer.css", "tools/viewer/viewer.min.js"]
+CARRIED = ["CMakeLists.txt", "LICENSE", "libtree", "libmesh", "tools/bindings", "tools/picture",
+           "tools/python/CMakeLists.txt", "tools/python/find_python.cmake", "tools/python/src"]
 # What every system has that runs Python, as other wheels expect it, too.
 OF_SYSTEM = re.compile(r"(linux-vdso|ld-linux.*|lib(c|m|dl|rt|pthread|util|stdc\+\+|gcc_s))\.so")
 # What a compiler of a room of the library takes, at most.

@@ -1,10 +1,10 @@
 /// \file
 /// tf-boolean: set operations on solids.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-boolean/outputs.hpp"
 #include "tools/tf-boolean/settings.hpp"
 #include "tools/tf-boolean/solids.hpp"
@@ -22,48 +22,6 @@ using tools::boolean_settings;
 using tools::command_line;
 using tools::common_options;
 using tools::exit_status;
-
-void add_operation(command_line& line, const std::string& name, const std::string& text,
-                   const std::string& example, std::vector<std::string> without) {
-    without.emplace_back("--expr");
-    line.mode({.names = name,
-               .text = text,
-               .usage = name + " [OPTIONS] INPUT...",
-               .more = "Prints the faces and the volume of the result, and how far rounding moved\n"
-                       "points.\n\nExamples:\n  $ tf-boolean " +
-                       name + example,
-               .without = std::move(without)});
-}
-
-void add_operations(command_line& line) {
-    line.group("OP");
-    add_operation(line, "union", "what is in any; of one INPUT, its own overlaps",
-                  " data/two_spheres.stl data/cube.stl -o union.ply\n"
-                  "  2 inputs: union: 622 faces, volume 7.1294, rounding moved points by "
-                  "1.11022e-16 at most\n",
-                  {"--accept-open"});
-    add_operation(line, "intersection", "what is in all",
-                  " data/two_spheres.stl data/cube.stl -o both.ply\n"
-                  "  2 inputs: intersection: 132 faces, volume 0.795415, rounding moved points by "
-                  "1.11022e-16 at most\n",
-                  {"--gap"});
-    add_operation(line, "difference", "the first minus all the others",
-                  " data/two_spheres.stl data/cube.stl -o cut.ply\n"
-                  "  2 inputs: difference: 622 faces, volume 6.1294, rounding moved points by "
-                  "1.11022e-16 at most\n",
-                  {"--gap"});
-    add_operation(line, "xor", "what is in an odd number of them",
-                  " data/two_spheres.stl data/cube.stl -o xor.ply\n"
-                  "  2 inputs: xor: 754 faces, volume 6.33399, rounding moved points by "
-                  "1.11022e-16 at most\n",
-                  {"--accept-open", "--gap"});
-    add_operation(
-        line, "split", "cut all along each other, keep every piece",
-        " data/two_spheres.stl data/cube.stl -o pieces.ply\n"
-        "  2 inputs: split: 1,140 faces, rounding moved points by "
-        "1.11022e-16 at most\n",
-        {"--simplify", "--keep-cuts", "--inside", "--accept-open", "--min-volume", "--gap"});
-}
 
 void add_options(command_line& line, boolean_settings& s) {
     line.group("Options");
@@ -111,47 +69,6 @@ void add_what_to_give_back(command_line& line, boolean_settings& s, common_optio
     line.output(s.curves,
                 {"--curves", "FILE", "the lines along which the inputs meet, as OBJ or PLY"});
 }
-
-const char* const epilogue =
-    "DIST is in the unit of the files, V in its cube; \"0.01%\" is that share of the\n"
-    "diagonal of the box of all INPUTs. What is inside is decided exactly on the\n"
-    "coordinates as read (with --matrix, as moved in double). Inputs may overlap\n"
-    "themselves, touch, and share faces; corners with equal coordinates are one. Only\n"
-    "the result is rounded: it is checked in the coordinates that are written, and\n"
-    "mended where rounding has made faces meet. What cannot be certified is not\n"
-    "written; parts thinner than the numbers written tell apart are left out and\n"
-    "named. Points that were not cut stay bit for bit, except for those next to a\n"
-    "place that was mended. Meshes and faces are numbered from 0, faces as in the\n"
-    "files. Coplanar faces of different meshes are not merged if --source is given,\n"
-    "those with different properties only with --no-attributes, and where vertices\n"
-    "have properties only with that or --simplify.\n"
-    "\n"
-    "The objects of one INPUT that stands alone are the operands, in order: build\n"
-    "items of a 3MF, objects and groups of an OBJ, nodes of a GLB, named solids of a\n"
-    "text STL. Those whose open edges coincide are pieces of one surface, and one\n"
-    "operand. The line says how many were taken, -v which.\n"
-    "\n"
-    "--min-volume looks at each closed part of the result by itself: specks go, and\n"
-    "voids are filled, with all that is in them. --gap fills where both faces look\n"
-    "into the gap and lean by at most 45 degrees; nothing else moves, and beyond DIST\n"
-    "the filling tapers off. The line says how many of either there were.\n"
-    "\n"
-    "With --accept-open, one input may be an open surface: the first of a difference,\n"
-    "any of an intersection, or one that the formula is not true without. What lies\n"
-    "on the surface of a solid is in it. The result is open, too, and free of\n"
-    "self-intersections. split takes open inputs without that.\n"
-    "\n"
-    "Examples:\n"
-    "  tf-boolean difference body.stl hole1.stl hole2.stl -o out.ply --source from\n"
-    "  tf-boolean union part.stl -o solid.stl\n"
-    "  tf-boolean --expr \"(a-b)*c\" a.obj b.obj c.obj --matrix 2:m.txt -o out.obj\n"
-    "  tf-boolean --check *.stl\n"
-    "\n"
-    "Exit status: 0 done, output is closed, consistently oriented and free of\n"
-    "  self-intersections in the precision written (split and --accept-open: free of\n"
-    "  self-intersections); 1 an input is not a solid (the report says where) or the\n"
-    "  result could not be written so; 2 usage; 3 input; 4 output; 5 stopped (memory,\n"
-    "  timeout, signal); 70 bug.\n";
 
 /// Merging is not to lose what is written of faces.
 std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_settings& s,
@@ -289,14 +206,14 @@ int main(int argc, char** argv) {
     options.joined = true;
     options.words.assign(tools::operations.begin(), tools::operations.end());
     line.inputs(options.inputs, tools::mesh_inputs);
-    add_operations(line);
+    line.group("OP");
+    line.describe(tools::help_text);
     add_options(line, s);
     add_what_to_give_back(line, s, options);
     line.group("Common options");
     tools::add_common_options(
         line, options,
         {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}, .one_result = true});
-    line.epilogue(epilogue);
     return tools::run(
         line, options, {"read", "prepare", "cut", "check", "write"}, argc, argv,
         [&] {

@@ -1,8 +1,8 @@
 #include "tools/tf-boolean/outputs.hpp"
 
-#include "tools/common/console.hpp"
-#include "tools/common/curve_file.hpp"
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>

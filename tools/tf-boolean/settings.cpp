@@ -1,7 +1,7 @@
 #include "tools/tf-boolean/settings.hpp"
 
-#include "tools/common/curve_file.hpp"
-#include "tools/common/exit_status.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/exit_status.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>

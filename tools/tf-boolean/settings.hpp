@@ -2,9 +2,9 @@
 /// \file
 /// What a user of tf-boolean asks for.
 
-#include "tools/common/change_limits.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/parse_value.hpp"
+#include "tools/shell/change_limits.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/parse_value.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 

@@ -2,7 +2,7 @@
 /// \file
 /// The operands: files read, moved, and looked at.
 
-#include "tools/common/run.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-boolean/settings.hpp"
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/carry.hpp>

@@ -1,4 +1,4 @@
-#include "tools/common/console.hpp"
+#include "tools/shell/console.hpp"
 #include "tools/tf-boolean/outputs.hpp"
 #include <treeform/mesh/carry.hpp>
 #include <treeform/tf.hpp>

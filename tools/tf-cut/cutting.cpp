@@ -1,6 +1,6 @@
 #include "tools/tf-cut/cutting.hpp"
 
-#include "tools/common/console.hpp"
+#include "tools/shell/console.hpp"
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>

@@ -2,12 +2,12 @@
 /// \file
 /// What a user of tf-cut asks for, what is made of an input, and how it is reported and written.
 
-#include "tools/common/change_limits.hpp"
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/parse_value.hpp"
-#include "tools/common/run.hpp"
-#include "tools/common/usable_input.hpp"
+#include "tools/shell/change_limits.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/parse_value.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/shell/usable_input.hpp"
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>

@@ -1,5 +1,5 @@
-#include "tools/common/console.hpp"
-#include "tools/common/output_file.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/output_file.hpp"
 #include "tools/tf-cut/cutting.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/attributes.hpp>

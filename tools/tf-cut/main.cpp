@@ -1,11 +1,11 @@
 /// \file
 /// tf-cut: sections, halves and pieces of meshes by planes; their parts; what they are.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/console.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-cut/cutting.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/cut.hpp>

@@ -1,4 +1,4 @@
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include "tools/tf-cut/cutting.hpp"
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/cut.hpp>

@@ -1,5 +1,5 @@
-#include "tools/common/console.hpp"
-#include "tools/shown/shown.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/shown.hpp"
 #include "tools/tf-cut/cutting.hpp"
 #include <treeform/tf.hpp>
 

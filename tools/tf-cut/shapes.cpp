@@ -1,4 +1,4 @@
-#include "tools/common/console.hpp"
+#include "tools/shell/console.hpp"
 #include "tools/tf-cut/cutting.hpp"
 #include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/properties.hpp>

@@ -1,4 +1,4 @@
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>

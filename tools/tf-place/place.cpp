@@ -1,8 +1,8 @@
 #include "tools/tf-place/place.hpp"
 
-#include "tools/common/console.hpp"
-#include "tools/common/matrix_file.hpp"
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/matrix_file.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>
 

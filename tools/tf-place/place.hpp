@@ -2,14 +2,14 @@
 /// \file
 /// What a user of tf-place asks for, where MOVING goes, and what that is written to.
 
-#include "tools/assembly/measured.hpp"
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/parse_value.hpp"
-#include "tools/common/run.hpp"
-#include "tools/placing/arrange_options.hpp"
-#include "tools/placing/lay_options.hpp"
-#include "tools/placing/motion_options.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/parse_value.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/tf-place/assembly/measured.hpp"
+#include "tools/tf-place/placing/arrange_options.hpp"
+#include "tools/tf-place/placing/lay_options.hpp"
+#include "tools/tf-place/placing/motion_options.hpp"
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/pack.hpp>

@@ -1,7 +1,7 @@
-#include "tools/assembly/contact_entries.hpp"
-#include "tools/common/align_options.hpp"
-#include "tools/common/console.hpp"
-#include "tools/common/made/report_fields.hpp"
+#include "tools/shell/align_options.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/made/report_fields.hpp"
+#include "tools/tf-place/assembly/contact_entries.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/tf.hpp>
 

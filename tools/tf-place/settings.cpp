@@ -1,7 +1,7 @@
-#include "tools/common/align_options.hpp"
-#include "tools/common/exit_status.hpp"
-#include "tools/placing/arrange_options.hpp"
+#include "tools/shell/align_options.hpp"
+#include "tools/shell/exit_status.hpp"
 #include "tools/tf-place/place.hpp"
+#include "tools/tf-place/placing/arrange_options.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>

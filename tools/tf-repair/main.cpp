@@ -1,11 +1,11 @@
 /// \file
 /// tf-repair: makes solids of dirty meshes.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/curve_file.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-repair/outputs.hpp"
 #include "tools/tf-repair/wrapping.hpp"
 #include <treeform/mesh/as_mesh.hpp>
@@ -90,44 +90,6 @@ void add_what_to_give_back(command_line& line, repair_settings& s, common_option
                            "write the face of the input that each face lies in\n"
                            "to property P of a PLY or GLB; -1 where it is new"});
 }
-
-const char* const epilogue =
-    "DIST is in the unit of the file; \"0.01%\" is that share of the bounding-box\n"
-    "diagonal. A SHARE is \"5%\" or 0.05. Corners with equal coordinates are one.\n"
-    "\n"
-    "Which faces meet and what is inside is decided exactly, on the coordinates as\n"
-    "read. Which cracks close, which way faces point, and what fills a hole are\n"
-    "guesses; they are counted in the line that is printed, and in the report. A part\n"
-    "that needs nothing stays bit for bit. What is written has been checked in the\n"
-    "coordinates written: it is closed and oriented, every edge has two faces, and no\n"
-    "two faces meet. Loss is measured in volume; where there were holes, in area of\n"
-    "which nothing is left, except for what is hidden in the solid. Coplanar faces\n"
-    "that were cut are merged, but not where vertices have properties, or faces\n"
-    "different ones; of merged faces, --source writes the lowest.\n"
-    "\n"
-    "Objects of a file are mended one by one where the output has objects, too (3MF,\n"
-    "OBJ): each is a solid of its own, and they may overlap. As STL, PLY, OFF or GLB\n"
-    "they become one solid. --check looks at each object.\n"
-    "\n"
-    "--wrap rolls a ball over the faces, so to speak, and keeps what it cannot get\n"
-    "to: gaps and holes narrower than the ball are closed, cavities filled, edges\n"
-    "rounded. All faces are inside the wrap. It has no attributes.\n"
-    "\n"
-    "auto is positive where every part is turned outward, and nonzero otherwise.\n"
-    "Where faces disagree, the parts of space between them are labeled inside or\n"
-    "outside, as the faces disagree with least: a guess, and counted.\n"
-    "\n"
-    "Examples:\n"
-    "  tf-repair part.stl -o fixed.stl\n"
-    "  tf-repair --check parts/\n"
-    "  tf-repair scan.ply -o closed.3mf --holes 100\n"
-    "  tf-repair *.stl --output-dir fixed -r report.json\n"
-    "  tf-repair hopeless.obj -o wrapped.stl --wrap 2%\n"
-    "\n"
-    "Exit status: 0 a solid was written (or --check found nothing); 1 not all could\n"
-    "  be mended, a limit was met, or --check found something; 2 usage; 3 input;\n"
-    "  4 output; 5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the\n"
-    "  highest.\n";
 
 void check_request(const command_line& line, request& r, common_options& options) {
     using tools::refuse;
@@ -258,7 +220,7 @@ int main(int argc, char** argv) {
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}});
-    line.epilogue(epilogue);
+    line.describe(tools::help_text);
     return tools::run(
         line, options, {"read", "prepare", "check", "repair", "write"}, argc, argv,
         [&] { check_request(line, r, options); },

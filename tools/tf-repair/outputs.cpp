@@ -1,7 +1,7 @@
 #include "tools/tf-repair/outputs.hpp"
 
-#include "tools/common/curve_file.hpp"
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/properties.hpp>

@@ -2,9 +2,9 @@
 /// \file
 /// What tf-repair says and writes.
 
-#include "tools/common/change_limits.hpp"
-#include "tools/common/run.hpp"
-#include "tools/common/usable_input.hpp"
+#include "tools/shell/change_limits.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/shell/usable_input.hpp"
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/repair.hpp>

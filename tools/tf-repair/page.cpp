@@ -1,6 +1,6 @@
-#include "tools/common/console.hpp"
-#include "tools/page/edges.hpp"
-#include "tools/shown/shown.hpp"
+#include "tools/picture/edges.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/shown.hpp"
 #include "tools/tf-repair/outputs.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/repair.hpp>

@@ -1,7 +1,7 @@
 #include "tools/tf-repair/wrapping.hpp"
 
-#include "tools/common/console.hpp"
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/properties.hpp>

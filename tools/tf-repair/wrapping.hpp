@@ -2,8 +2,8 @@
 /// \file
 /// tf-repair --wrap: a closed surface around whatever there is.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-repair/outputs.hpp"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 #include "tools/tf-selfintersect/in_tiles.hpp"
 
-#include "tools/common/console.hpp"
-#include "tools/tiles/shared_digests.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/shared_digests.hpp"
 
 #include <algorithm>
 #include <string>

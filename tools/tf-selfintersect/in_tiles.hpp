@@ -2,8 +2,8 @@
 /// \file
 /// The search of a file that does not fit into memory.
 
+#include "tools/shell/tile_options.hpp"
 #include "tools/tf-selfintersect/search.hpp"
-#include "tools/tiles/tile_options.hpp"
 
 #include <optional>
 

@@ -1,14 +1,14 @@
 /// \file
 /// tf-selfintersect: finds the self-intersections of triangle meshes, and resolves them.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/curve_file.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/shell/team.hpp"
 #include "tools/tf-selfintersect/in_tiles.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
-#include "tools/tiles/team.hpp"
 #include <treeform/tf.hpp>
 
 #include <array>
@@ -107,37 +107,6 @@ void add_repair(command_line& line, request& r) {
               {"--keep-components", "", "fail (exit 1) if a component would disappear"});
 }
 
-const char* const epilogue =
-    "DIST is in the unit of the file; \"0.01%\" is that share of the bounding-box\n"
-    "diagonal. The DIST actually used is reported in file units.\n"
-    "\n"
-    "Kinds of pairs: crossing (no common corner), pierce (one common corner), overlap\n"
-    "(coplanar, common area), fold (common edge, coplanar, on one side of it),\n"
-    "duplicate (same corners), touching (contact without crossing), degenerate (a\n"
-    "face of the pair is a segment or a point). Degenerate pairs are counted apart:\n"
-    "the edges of such a face belong to its neighbors, which are looked at in their\n"
-    "own right. Face and vertex numbers are those of the file, from 0; polygons are\n"
-    "cut into a fan from their first corner.\n"
-    "\n"
-    "A repaired mesh is checked in the coordinates that are written; what cannot be\n"
-    "certified is not written. outer needs a closed surface, however it overlaps, and\n"
-    "keeps what it winds around; tf-repair closes holes and cracks first. remove is\n"
-    "local, and for open sheets and scans: a hole that cannot be filled becomes\n"
-    "wider, or stays where there is a border. Faces that meet nothing stay bit for\n"
-    "bit, except for those next to a place that was mended or widened. outer merges\n"
-    "coplanar faces that were cut, but not where vertices have properties, or faces\n"
-    "different ones; of merged faces, source_face is the lowest.\n"
-    "\n"
-    "Examples:\n"
-    "  tf-selfintersect part.stl --curves where.obj\n"
-    "  tf-selfintersect --repair part.stl -o fixed.stl\n"
-    "  tf-selfintersect --repair=remove scan.ply -o clean.ply --max-move 0\n"
-    "  mpirun -n 8 tf-selfintersect huge.stl --work /scratch/tiles --pairs pairs.csv\n"
-    "\n"
-    "Exit status: 0 none found, or all resolved; 1 found, or not all resolved;\n"
-    "  2 usage; 3 input; 4 output; 5 stopped (memory, timeout, signal); 70 bug.\n"
-    "  Of several inputs, the highest.\n";
-
 void check_request(const command_line& line, request& r, common_options& options) {
     using tools::refuse;
     if (r.search.between && r.search.within) refuse("--between and --within exclude each other");
@@ -235,7 +204,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "glb", "3mf", "obj", "stl", "off"}});
-    line.epilogue(epilogue);
+    line.describe(tools::help_text);
     return tools::run(
         line, options, {"read", "prepare", "tree", "pairs", "regions", "repair", "write"}, argc,
         argv,

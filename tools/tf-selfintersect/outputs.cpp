@@ -1,8 +1,8 @@
 #include "tools/tf-selfintersect/outputs.hpp"
 
-#include "tools/common/curve_file.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/output_file.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/output_file.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 /// \file
 /// What tf-selfintersect says and writes.
 
-#include "tools/common/change_limits.hpp"
+#include "tools/shell/change_limits.hpp"
 #include "tools/tf-selfintersect/search.hpp"
 #include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>

@@ -2,8 +2,8 @@
 /// \file
 /// From a file's mesh to its classified self-intersections.
 
-#include "tools/common/parse_value.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/parse_value.hpp"
+#include "tools/shell/run.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>

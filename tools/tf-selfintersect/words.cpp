@@ -1,4 +1,4 @@
-#include "tools/common/console.hpp"
+#include "tools/shell/console.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/tf.hpp>
 

@@ -1,6 +1,6 @@
 #include "tools/tf-weld/in_memory.hpp"
 
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/welding.hpp"
 #include "tools/tf-weld/words.hpp"

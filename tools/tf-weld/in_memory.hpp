@@ -2,7 +2,7 @@
 /// \file
 /// The work on inputs that fit into memory.
 
-#include "tools/common/run.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-weld/settings.hpp"
 
 #include <string>

@@ -1,10 +1,10 @@
 #include "tools/tf-weld/in_tiles.hpp"
 
-#include "tools/common/console.hpp"
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/shared_digests.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/words.hpp"
-#include "tools/tiles/shared_digests.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 #include <treeform/tf.hpp>

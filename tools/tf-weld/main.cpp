@@ -1,14 +1,14 @@
 /// \file
 /// tf-weld: merges points or vertices that lie within a distance of each other.
 
-#include "tools/common/command_line.hpp"
-#include "tools/common/common_options.hpp"
-#include "tools/common/output_file.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/command_line.hpp"
+#include "tools/shell/common_options.hpp"
+#include "tools/shell/output_file.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/shell/team.hpp"
 #include "tools/tf-weld/out_of_core.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/settings.hpp"
-#include "tools/tiles/team.hpp"
 #include <treeform/tf.hpp>
 
 namespace {
@@ -122,43 +122,6 @@ void add_meshes(command_line& line, weld_settings& s) {
                                         "of more than two faces or a bow-tie vertex"});
 }
 
-const char* const epilogue =
-    "DIST is in the unit of the file; \"0.01%\" is that share of the bounding-box\n"
-    "diagonal. The DIST actually used is printed and reported in file units. Every\n"
-    "comparison is exact on the coordinates as read (--exact is accepted: always so).\n"
-    "Points with a NaN or infinite coordinate are kept, and merge with nothing.\n"
-    "\n"
-    "P is a property of the points, x, y, z, or normal, uv, color for all columns of\n"
-    "it. Further columns of an XYZ file are column_4, column_5, ... Kept points keep\n"
-    "their order; indices and group numbers count from 0, with --join through all\n"
-    "inputs. --join matches properties by name; where an input has none of that name,\n"
-    "its points get NaN or 0. Corners of an STL file are points. Means of floats are\n"
-    "written as doubles unless --precision float asks for rounding.\n"
-    "\n"
-    "In tiles, clouds are read three times: to look at them (the box that a DIST in\n"
-    "percent needs, how many points, samples that say where to cut), to give each\n"
-    "tile its points, and to write what is kept; --order and --keep read them once\n"
-    "more, and LAS of other formats three times more. Meshes in PLY and binary STL\n"
-    "are welded in tiles to PLY and OBJ; other meshes, --borders and --keep-manifold\n"
-    "need all of it in memory, and so do -t (with rule first) and --keep of an STL.\n"
-    "\n"
-    "With --order and rule first, no two kept points are within DIST, and every\n"
-    "dropped point is within DIST of a kept one that comes earlier in that order.\n"
-    "--keep other than first promises neither: kept points may lie within DIST of\n"
-    "each other, and a point may move by up to twice DIST.\n"
-    "\n"
-    "Examples:\n"
-    "  tf-weld in.stl -o out.obj                       index a soup, lossless\n"
-    "  tf-weld scan.ply -t 0.5 -o thin.ply --removed gone.ply --map map.csv\n"
-    "  tf-weld tile*.ply --join -t 0.001 --order min:range -o all.ply\n"
-    "  tf-weld scan.laz -t 0.05 --order max:intensity --withhold -o marked.laz\n"
-    "  mpirun -n 16 tf-weld huge.ply -t 0.001 --work /scratch/tiles -o thin.ply\n"
-    "  tf-weld part.obj -t 0.01% --borders --keep-manifold -o stitched.obj\n"
-    "  gen | tf-weld --format stl - -o - --output-format ply | view -\n"
-    "\n"
-    "Exit status: 0 done; 1 --check found some; 2 usage; 3 input; 4 output;\n"
-    "  5 stopped (memory, timeout, signal); 70 bug. Of several inputs, the highest.\n";
-
 /// Options that would do nothing are refused rather than passed over.
 void check_what_is_marked(const weld_outputs& outputs, const weld_settings& s,
                           const common_options& o) {
@@ -235,7 +198,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "pcd",
                                                   "las", "laz", "xyz", "csv"}});
-    line.epilogue(epilogue);
+    line.describe(tools::help_text);
     return tools::run(
         line, options, {"read", "weld", "write"}, argc, argv,
         [&] {

@@ -1,8 +1,8 @@
 #include "tools/tf-weld/out_of_core.hpp"
 
-#include "tools/common/console.hpp"
-#include "tools/common/mesh_output.hpp"
-#include "tools/common/spooled_input.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/mesh_output.hpp"
+#include "tools/shell/spooled_input.hpp"
 #include "tools/tf-weld/in_memory.hpp"
 #include "tools/tf-weld/in_tiles.hpp"
 #include <treeform/mesh/mesh_file.hpp>

@@ -2,9 +2,9 @@
 /// \file
 /// The work on clouds that do not fit into memory.
 
-#include "tools/common/run.hpp"
+#include "tools/shell/run.hpp"
+#include "tools/shell/tile_options.hpp"
 #include "tools/tf-weld/settings.hpp"
-#include "tools/tiles/tile_options.hpp"
 
 namespace tools {
 

@@ -1,7 +1,7 @@
 #include "tools/tf-weld/outputs.hpp"
 
-#include "tools/common/console.hpp"
-#include "tools/common/mesh_output.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/mesh_output.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>

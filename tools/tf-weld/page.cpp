@@ -1,5 +1,5 @@
-#include "tools/common/console.hpp"
-#include "tools/shown/shown.hpp"
+#include "tools/shell/console.hpp"
+#include "tools/shell/shown.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/words.hpp"
 #include <treeform/mesh/as_mesh.hpp>

@@ -1,6 +1,6 @@
 #include "tools/tf-weld/settings.hpp"
 
-#include "tools/common/exit_status.hpp"
+#include "tools/shell/exit_status.hpp"
 #include <treeform/tf.hpp>
 
 #include <array>

@@ -2,9 +2,9 @@
 /// \file
 /// What a user of tf-weld asks for.
 
-#include "tools/common/exit_status.hpp"
-#include "tools/common/parse_value.hpp"
-#include "tools/common/run.hpp"
+#include "tools/shell/exit_status.hpp"
+#include "tools/shell/parse_value.hpp"
+#include "tools/shell/run.hpp"
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 

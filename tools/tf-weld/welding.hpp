@@ -2,7 +2,7 @@
 /// \file
 /// From a file to what becomes of its points and faces.
 
-#include "tools/common/run.hpp"
+#include "tools/shell/run.hpp"
 #include "tools/tf-weld/settings.hpp"
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>

@@ -1,6 +1,6 @@
 #include "tools/tf-weld/words.hpp"
 
-#include "tools/common/console.hpp"
+#include "tools/shell/console.hpp"
 #include <treeform/tf.hpp>
 
 namespace tools {

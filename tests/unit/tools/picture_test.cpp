@@ -1,6 +1,6 @@
-#include "tools/page/scene.hpp"
 #include "tools/picture/font.hpp"
 #include "tools/picture/png.hpp"
+#include "tools/picture/scene.hpp"
 #include "tools/picture/sheet.hpp"
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>

@@ -52,13 +52,45 @@ inline py::array_t<std::uint32_t> as_array(std::vector<std::uint32_t>&& ids) {
     return as_array<std::uint32_t>(std::move(ids));
 }
 
-/// An array of `of(row)` for each row; `of` gives a number or an array of equal numbers.
+/// Where an element has no other.
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// A value as it stands in an array, a number or equal numbers.
+template <class T>
+auto cell(const T& value) {
+    if constexpr (std::is_same_v<T, tf::point3>)
+        return numbers(value);
+    else if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>)
+        return static_cast<std::uint8_t>(value);
+    else
+        return value;
+}
+inline std::uint32_t cell(const std::optional<std::uint32_t>& id) { return id.value_or(none); }
+
+/// What stands where there is none: for a distance, a point, a number.
+inline double no_cell(double) { return std::numeric_limits<double>::infinity(); }
+inline std::uint32_t no_cell(std::uint32_t) { return none; }
+inline std::array<double, 3> no_cell(std::array<double, 3> of) {
+    of.fill(std::numeric_limits<double>::quiet_NaN());
+    return of;
+}
+
+/// `of` a row, which may be a field of it; of a row that is not there, what stands for it.
+template <class Row, class Of>
+auto cell_of(const Row& row, const Of& of) {
+    if constexpr (std::is_member_pointer_v<Of> && requires { row.has_value(); })
+        return row ? cell(std::invoke(of, *row)) : no_cell(decltype(cell(std::invoke(of, *row))){});
+    else
+        return cell(std::invoke(of, row));
+}
+
+/// An array of `of` each row: a function, or a field.
 template <class Rows, class Of>
 auto column(const Rows& rows, const Of& of) {
-    using value = std::remove_cvref_t<decltype(of(*std::begin(rows)))>;
+    using value = decltype(cell_of(*std::begin(rows), of));
     std::vector<value> values;
     values.reserve(std::size(rows));
-    for (const auto& row : rows) values.push_back(of(row));
+    for (const auto& row : rows) values.push_back(cell_of(row, of));
     if constexpr (std::is_arithmetic_v<value>)
         return as_array<value>(std::move(values));
     else
@@ -79,11 +111,6 @@ inline py::array_t<double> as_array(const tf::point3& p) {
     py::array_t<double> made(3);
     for (py::ssize_t k = 0; k < 3; ++k) made.mutable_at(k) = p[static_cast<std::size_t>(k)];
     return made;
-}
-
-/// Where a mesh has no element: None in place of the number.
-inline py::object or_none(bool there, std::uint64_t number) {
-    return there ? py::object(py::int_(number)) : py::none();
 }
 
 }  // namespace binding

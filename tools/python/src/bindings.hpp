@@ -7,22 +7,15 @@
 
 namespace binding {
 
-void add_assembly(py::module_& module);
-void add_booleans(py::module_& module);
-void add_carrying(py::module_& module);
-void add_cuts(py::module_& module);
 void add_functions(py::module_& module);
 void add_files(py::module_& module);
 void add_intersections(py::module_& module);
-void add_nearness(py::module_& module);
 void add_operations(py::module_& module);
 void add_options(py::module_& module);
 void add_pictures(py::module_& module);
-void add_placement(py::module_& module);
-void add_repair(py::module_& module);
 void add_robots(py::module_& module);
 void add_streams(py::module_& module);
 void add_trees(py::module_& module);
-void add_weld(py::module_& module);
+void add_verbs(py::module_& module);
 
 }  // namespace binding

@@ -21,11 +21,20 @@ const file_data* data_of(const held_mesh& mesh, bool single) {
     return has_values(data.file().attributes, single) ? &data : nullptr;
 }
 
-py::tuple turned(const held_mesh& body, const array_of<double>& matrix) {
-    return turned_over(body, transform_of(matrix));
-}
-
 }  // namespace
+
+tf::mesh_file file_of(const held_mesh& mesh) {
+    std::optional<file_data> data;
+    if (!mesh.data().is_none()) data = mesh.data().cast<const file_data&>();
+    tf::mesh_file file;
+    without_lock([&] {
+        const auto [points, faces] = mesh.view();
+        if (data) file = data->file();
+        file.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
+        if (file.stored_face.empty()) file.stored_faces = faces.size();
+    });
+    return file;
+}
 
 py::tuple turned_over(const held_mesh& body, const tf::transform<3>& by) {
     const bool bare = body.data().is_none();
@@ -118,7 +127,5 @@ py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> fac
         if (!cap.empty()) sources_.all().front().texture_caps(file, cap);
     });
 }
-
-void add_carrying(py::module_& module) { module.def("turned", &turned); }
 
 }  // namespace binding

@@ -10,6 +10,9 @@ namespace binding {
 /// \throws std::invalid_argument where attributes are not those of the mesh
 void require_rows(const tf::mesh_file& file, std::size_t operand);
 
+/// The mesh with all that it has, as a file has it.
+tf::mesh_file file_of(const held_mesh& mesh);
+
 /// The operands of an operation, with their attributes as they are now.
 class carrying {
   public:

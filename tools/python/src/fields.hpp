@@ -57,6 +57,9 @@ inline void take(const char* name, py::handle value, std::vector<tf::named_colum
 inline void take(const char* name, py::handle value, std::array<double, 2>& to) {
     to = made_by<std::array<double, 2>>("pair", name, value);
 }
+inline void take(const char* name, py::handle value, std::vector<std::filesystem::path>& to) {
+    to = made_by<std::vector<std::filesystem::path>>("paths", name, value);
+}
 inline void take(const char* name, py::handle value, std::vector<std::string>& to) {
     to = made_by<std::vector<std::string>>("words", name, value);
 }
@@ -116,6 +119,23 @@ void add_options_of(py::module_& module, const char* type) {
     made.attr("defaults") = defaults;
 }
 
+}  // namespace binding
+
+/// What Python has for a feature.
+template <>
+struct pybind11::detail::type_caster<treeform::mesh_feature> {
+    PYBIND11_TYPE_CASTER(treeform::mesh_feature, const_name("Feature"));
+
+    bool load(handle from, bool) {
+        binding::take("kind", from.attr("kind"), value.kind);
+        binding::take("origin", from.attr("origin"), value.origin);
+        binding::take("direction", from.attr("direction"), value.direction);
+        return true;
+    }
+};
+
+namespace binding {
+
 // ---- results ----
 
 /// The object of a class of the package, with these fields.
@@ -144,6 +164,9 @@ inline py::object value_of(std::vector<tf::face>&& faces) { return as_array(std:
 inline py::object value_of(std::vector<tf::operand_element>&& elements) {
     return as_array<std::uint32_t>(std::move(elements));
 }
+inline py::object value_of(const std::array<double, 2>& pair) {
+    return py::make_tuple(pair[0], pair[1]);
+}
 /// Two corners, as rows.
 inline py::object value_of(const std::array<tf::point3, 2>& corners) {
     return column(corners, [](const tf::point3& p) { return numbers(p); });
@@ -167,7 +190,9 @@ py::object as_python(T&& value, const Context&... context) {
 }
 template <class T, class... Context>
 py::object as_python(std::vector<T>&& values, const Context&... context) {
-    if constexpr (requires { value_of(std::move(values)); }) {
+    if constexpr (requires { object(of_result{}, std::move(values), context...); }) {
+        return object(of_result{}, std::move(values), context...);
+    } else if constexpr (requires { value_of(std::move(values)); }) {
         return value_of(std::move(values));
     } else {
         py::list made;

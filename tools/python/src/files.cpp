@@ -5,9 +5,15 @@ namespace binding {
 
 namespace {
 
+/// `Mesh` of the package.
+py::object mesh_of(tf::mesh_file&& file) {
+    tf::mesh mesh = std::exchange(file.mesh, {});
+    return mesh_object(std::move(mesh), py::none(), py::cast(file_data(std::move(file))));
+}
+
 /// What `take` has read.
 template <class Take>
-py::tuple read_by(bool join, const Take& take) {
+py::object read_by(bool join, const Take& take) {
     tf::mesh_file file = run([&](const tf::progress_callback&) {
         tf::mesh_file read = take();
         if (join && !read.indexed) {
@@ -19,74 +25,45 @@ py::tuple read_by(bool join, const Take& take) {
         }
         return read;
     });
-    py::array points = as_array(std::move(file.mesh.points));
-    py::array faces = as_array(std::move(file.mesh.faces));
-    file.mesh = {};
-    return py::make_tuple(points, faces, file_data{std::move(file)});
+    return mesh_of(std::move(file));
 }
 
-py::tuple read(const std::filesystem::path& path, const std::string& format, bool join,
-               const tf::read_options& options) {
+py::object read(const std::filesystem::path& path, const std::string& format, bool join,
+                const tf::read_options& options) {
     return read_by(join, [&] { return tf::read(path, format, options); });
 }
 
 /// `name` stands for the file in errors, and its extension counts.
-py::tuple read_bytes(const py::bytes& bytes, const std::string& name, const std::string& format,
-                     bool join, const tf::read_options& options) {
+py::object read_bytes(const py::bytes& bytes, const std::string& name, const std::string& format,
+                      bool join, const tf::read_options& options) {
     const auto content = static_cast<std::string_view>(bytes);
     return read_by(
         join, [&] { return tf::read(std::as_bytes(std::span(content)), name, format, options); });
 }
 
-/// Meshes as the parts of one file: its points, faces and all else.
-py::tuple scene(const held_meshes& meshes, const std::vector<const file_data*>& data,
-                const std::vector<std::string>& names) {
+/// Meshes as the parts of one file.
+py::object scene(const held_meshes& meshes, const std::vector<std::string>& names) {
     std::vector<tf::mesh_file> files;
-    std::vector<std::optional<file_data>> kept;
-    for (const file_data* one : data)
-        kept.push_back(one == nullptr ? std::nullopt : std::optional(*one));
-    tf::mesh_file made = run([&](const tf::progress_callback&) {
-        std::vector<const tf::mesh_file*> members;
-        for (std::size_t i = 0; i < meshes.size(); ++i) {
-            const auto [points, faces] = meshes[i]->view();
-            tf::mesh_file one = kept[i] ? kept[i]->file() : tf::mesh_file{};
-            one.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
-            if (one.stored_face.empty()) one.stored_faces = faces.size();
-            files.push_back(std::move(one));
-        }
-        for (const tf::mesh_file& one : files) members.push_back(&one);
-        return tf::scene_of(members, names, names);
-    });
-    py::array points = as_array(std::move(made.mesh.points));
-    py::array faces = as_array(std::move(made.mesh.faces));
-    made.mesh = {};
-    return py::make_tuple(points, faces, file_data{std::move(made)});
+    std::vector<const tf::mesh_file*> members;
+    for (const held_mesh* one : meshes) files.push_back(file_of(*one));
+    for (const tf::mesh_file& one : files) members.push_back(&one);
+    return mesh_of(
+        run([&](const tf::progress_callback&) { return tf::scene_of(members, names, names); }));
 }
 
-tf::write_result write_to(const std::filesystem::path& path, const held_mesh& mesh,
-                          const file_data* data, bool certified, const tf::write_options& options) {
-    const auto [points, faces] = mesh.view();
-    tf::mesh copy{{points.begin(), points.end()}, {faces.begin(), faces.end()}};
-    certified = certified && !options.round && !tf::fits_single(points);
-    tf::mesh_file file = data == nullptr ? tf::mesh_file{} : data->file();
-    file.mesh = std::move(copy);
-    if (file.stored_face.empty()) file.stored_faces = file.mesh.faces.size();
-    tf::write_options as = options;
-    if (!certified) return tf::write(path, file, as);
-    if (data != nullptr && !as.precision) as.precision = tf::precision::float64;
-    return tf::detail::io::write_certified(path, file, as);
-}
-
-py::object write(const std::filesystem::path& path, const held_mesh& mesh, const file_data* data,
-                 bool certified, tf::write_options options) {
+py::object write(const std::filesystem::path& path, const held_mesh& mesh, bool certified,
+                 tf::write_options options) {
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };
-    const std::optional<file_data> kept = data == nullptr ? std::nullopt : std::optional(*data);
-    tf::write_result written = run([&](const tf::progress_callback&) {
-        return write_to(path, mesh, kept ? &*kept : nullptr, certified, options);
-    });
-    return as_python(std::move(written));
+    const bool bare = mesh.data().is_none();
+    const tf::mesh_file file = file_of(mesh);
+    return as_python(run([&](const tf::progress_callback&) {
+        if (!certified || options.round || tf::fits_single(file.mesh.points))
+            return tf::write(path, file, options);
+        if (!bare && !options.precision) options.precision = tf::precision::float64;
+        return tf::detail::io::write_certified(path, file, options);
+    }));
 }
 
 // ---- columns ----

@@ -39,11 +39,6 @@ class held_mesh {
         if (keep_ || prepared_.is_cloud()) return prepared_;
         return view_;
     }
-    /// `f` of the prepared mesh, or of the view where no further query will come.
-    template <class F>
-    auto with(F&& f) const {
-        return keep_ ? f(prepared_) : f(view_);
-    }
 
   private:
     points_array points_;
@@ -54,19 +49,7 @@ class held_mesh {
     tf::prepared_mesh prepared_;
 };
 
-/// `f` of two meshes, both prepared or both views.
-template <class F>
-auto with_both(const held_mesh& a, const held_mesh& b, F&& f) {
-    return a.keep() || b.keep() ? f(a.prepared(), b.prepared()) : f(a.view(), b.view());
-}
-
 using held_meshes = std::vector<const held_mesh*>;
-
-[[nodiscard]] inline std::size_t size_of(const held_meshes& meshes) {
-    std::size_t size = 0;
-    for (const held_mesh* one : meshes) size += one->size();
-    return size;
-}
 
 [[nodiscard]] inline tf::mesh_refs refs_of(const held_meshes& meshes) {
     std::vector<tf::mesh_ref> refs;

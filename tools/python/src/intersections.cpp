@@ -34,34 +34,25 @@ py::object self_intersections_of_file(const std::filesystem::path& path,
     }));
 }
 
-using search_in_steps = work_in_steps<tf::stream_search>;
+struct shared_search : tf::stream_search {
+    using tf::stream_search::stream_search;
+    /// The number of tiles.
+    [[nodiscard]] std::size_t scatter() {
+        return stream_search::scatter() == tf::status::ok ? tiles() : 0;
+    }
+    [[nodiscard]] tf::status do_tile(std::size_t tile) { return search_tile(tile); }
+};
+
+using search_in_steps = work_in_steps<shared_search>;
 
 std::unique_ptr<search_in_steps> search_of(const std::filesystem::path& path,
                                            tf::stream_search_options options) {
     return run([&](const tf::progress_callback&) {
         return std::make_unique<search_in_steps>([&](const step_progress& progress) {
             options.progress = std::ref(progress);
-            return tf::stream_search(path, options);
+            return shared_search(path, options);
         });
     });
-}
-
-void add_search_in_steps(py::module_& module) {
-    py::class_<search_in_steps>(module, "SearchInSteps")
-        .def("scatter",
-             [](search_in_steps& all) {
-                 return all.step([](tf::stream_search& search) {
-                     return search.scatter() == tf::status::ok ? search.tiles() : 0;
-                 });
-             })
-        .def("tiles", step_of(&tf::stream_search::tiles))
-        .def("unfinished", step_of(&tf::stream_search::unfinished))
-        .def("search_tile", step_of(&tf::stream_search::search_tile))
-        .def("finish", step_of(&tf::stream_search::finish))
-        .def("remove_folder", step_of(&tf::stream_search::remove_folder))
-        .def("close", &search_in_steps::close);
-    make_jobs(module.attr("SearchInSteps"), {"scatter", "search_tile", "finish"}, job_kind::writes);
-    add_job(module, "search_of", &search_of, job_kind::long_work);
 }
 
 }  // namespace
@@ -69,7 +60,9 @@ void add_search_in_steps(py::module_& module) {
 void add_intersections(py::module_& module) {
     module.attr("KINDS") = py::cast(kind_words);
     add_job(module, "self_intersections_of_file", &self_intersections_of_file, job_kind::long_work);
-    add_search_in_steps(module);
+    add_steps<shared_search>(module, "SearchInSteps", &shared_search::finish)
+        .def("unfinished", step_of<shared_search>(&shared_search::unfinished));
+    add_job(module, "search_of", &search_of, job_kind::long_work);
 }
 
 }  // namespace binding

@@ -63,6 +63,18 @@ auto run(Body&& body) {
 /// cannot be asked to stop: `tools::in_pieces`.
 void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
 
+/// What `find(begin, end)` returns for such pieces, one after the other.
+template <class Find>
+auto in_pieces(std::size_t count, const Find& find) {
+    decltype(find(count, count)) all;
+    all.reserve(count);
+    run_pieces(count, [&](std::size_t begin, std::size_t end) {
+        auto found = find(begin, end);
+        std::ranges::move(found, std::back_inserter(all));
+    });
+    return all;
+}
+
 /// For jobs: makes objects that take long to make, as `build(type, arguments...)`.
 py::object build(const py::object& type, const py::args& arguments);
 

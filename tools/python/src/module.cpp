@@ -89,21 +89,14 @@ PYBIND11_MODULE(_core, module) {
     using namespace binding;
     py::register_exception_translator(translate);
     add_meshes(module);
-    add_carrying(module);
     add_options(module);
-    add_cuts(module);
     add_files(module);
     add_intersections(module);
-    add_booleans(module);
-    add_repair(module);
     add_robots(module);
-    add_weld(module);
     add_streams(module);
-    add_placement(module);
-    add_nearness(module);
     add_pictures(module);
-    add_assembly(module);
     add_trees(module);
+    add_verbs(module);
     add_functions(module);
     add_operations(module);
 }

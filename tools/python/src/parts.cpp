@@ -7,20 +7,6 @@ py::object volumes_of(const tf::boolean_result& from) {
     return v ? py::object(py::make_tuple(v->first, v->second, v->either, v->both)) : py::none();
 }
 
-py::object contacts_of(const tf::placement& at) {
-    using contact = tf::placement_contact;
-    constexpr std::uint32_t no_face = tf::operand_element::none;
-    py::dict made;
-    made["points"] = column(at.contacts, [](const contact& c) { return numbers(c.point); });
-    made["normals"] = column(at.contacts, [](const contact& c) { return numbers(c.normal); });
-    made["moving"] = column(at.contacts, [](const contact& c) { return c.moving; });
-    made["fixed_face"] =
-        column(at.contacts, [=](const contact& c) { return c.fixed_face.value_or(no_face); });
-    made["fixed"] =
-        column(at.contacts, [](const contact& c) { return static_cast<std::uint32_t>(c.fixed); });
-    return object_of("treeform._placement", "Contacts", made);
-}
-
 py::array ends_of(const std::vector<tf::open_edge>& open) {
     auto ends = column(open, [](const tf::open_edge& edge) {
         return std::array{edge.ends[0].x, edge.ends[0].y, edge.ends[0].z,
@@ -36,6 +22,12 @@ py::list regions_of(tf::part_clash& from) {
                                       as_array(std::move(region.faces_a)),
                                       as_array(std::move(region.faces_b))));
     return regions;
+}
+
+py::list meshes_of(std::vector<tf::mesh>&& meshes) {
+    py::list made;
+    for (tf::mesh& one : meshes) made.append(mesh_object(std::move(one), py::none(), py::none()));
+    return made;
 }
 
 py::list texts_of(const std::vector<tf::io_warning>& warnings) {
@@ -65,31 +57,17 @@ py::list warnings_of(const tf::weld_stream_result& from) {
     return warnings;
 }
 
-py::object object(of_result, tf::section_result&& s) {
-    using layer = tf::section_layer;
-    using loop = tf::section_loop;
-    py::dict made, loops;
-    made["heights"] = column(s.layers, [](const layer& l) { return l.height; });
-    made["origins"] = column(s.layers, [](const layer& l) { return numbers(l.at); });
-    made["areas"] = column(s.layers, [](const layer& l) { return l.area; });
-    made["lengths"] = column(s.layers, [](const layer& l) { return l.length; });
-    made["open_counts"] = column(s.layers, [](const layer& l) { return l.open_count; });
-    loops["first_loop"] = column(s.layers, [](const layer& l) { return l.first_loop; });
-    loops["first_point"] =
-        column(s.loops, [](const loop& l) { return static_cast<std::uint64_t>(l.first_point); });
-    loops["closed"] = column(s.loops, [](const loop& l) { return std::uint8_t{l.closed}; });
-    loops["oriented"] = column(s.loops, [](const loop& l) { return std::uint8_t{l.oriented}; });
-    loops["parent"] = column(s.loops, [](const loop& l) { return l.parent; });
-    loops["depth"] = column(s.loops, [](const loop& l) { return l.depth; });
-    loops["loop_areas"] = column(s.loops, [](const loop& l) { return l.area; });
-    loops["loop_lengths"] = column(s.loops, [](const loop& l) { return l.length; });
-    made["points"] = as_array<double>(std::vector(s.points));
-    made["faces"] = as_array(std::vector(s.faces));
-    made["frame"] = column(std::array{s.frame.x, s.frame.y, s.frame.normal},
-                           [](const tf::point3& axis) { return numbers(axis); });
-    made["_loops"] = loops;
-    made["_data"] = std::move(s);
-    return object_of("treeform._cuts", "Section", made);
+py::object parent_of(const tf::section_result& whole, const tf::section_loop& loop) {
+    if (loop.parent == none) return py::none();
+    const auto layer = std::ranges::find_if(whole.layers, [&](const tf::section_layer& l) {
+        return loop.parent - l.first_loop < l.loop_count;
+    });
+    return py::int_(loop.parent - layer->first_loop);
+}
+
+py::object object(of_result, std::vector<tf::point_location>&& from) {
+    return py::make_tuple(column(from, &tf::point_location::where),
+                          column(from, &tf::point_location::winding));
 }
 
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes) {
@@ -119,6 +97,13 @@ py::object object(of_result, tf::curve_network&& from) {
 
 py::object object(of_result, tf::rounding_effects&& from) {
     return py::make_tuple(from.collapsed, from.meeting);
+}
+
+py::list packed_parts(std::vector<tf::packed_part>&& from, const held_meshes& parts) {
+    py::list made;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        made.append(as_python(std::move(from[i]), *parts[i]));
+    return made;
 }
 
 py::object mesh_object(tf::mesh&& mesh, const py::object& certificate, const py::object& data) {

@@ -1,7 +1,7 @@
 #include "bindings.hpp"
-#include "tools/page/page.hpp"
-#include "tools/page/scene.hpp"
+#include "tools/picture/page.hpp"
 #include "tools/picture/png.hpp"
+#include "tools/picture/scene.hpp"
 #include "tools/picture/sheet.hpp"
 
 namespace binding {

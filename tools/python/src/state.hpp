@@ -6,87 +6,65 @@
 
 namespace binding {
 
-/// Takes the fields of values one after the other; `made/states.hpp` has those of structs.
-class state_writer {
+/// Takes the fields of values one after the other as bytes, or gives them what it was made of;
+/// `made/states.hpp` has those of structs.
+class state {
   public:
-    [[nodiscard]] py::bytes bytes() const { return {bytes_}; }
+    state() = default;
+    explicit state(std::string_view given) : gives_(true), rest_(given) {}
+
+    [[nodiscard]] py::bytes bytes() const { return {taken_}; }
 
     template <class T>
-    void put(T& value) {
+    void field(T& value) {
         if constexpr (std::is_trivially_copyable_v<T>)
-            bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+            copy(&value, sizeof(T));
         else
-            each_field(value, [&](const char*, auto& field) { put(field); });
+            each_field(value, [&](const char*, auto& one) { field(one); });
     }
     template <class T>
-    void put(std::optional<T>& value) {
+    void field(std::optional<T>& value) {
         bool there = value.has_value();
-        put(there);
-        if (there) put(*value);
+        field(there);
+        if (gives_ && there) value.emplace();
+        if (there) field(*value);
     }
     template <class T>
-    void put(std::vector<T>& values) {
-        std::size_t size = values.size();
-        put(size);
-        if constexpr (std::is_trivially_copyable_v<T>)
-            bytes_.append(reinterpret_cast<const char*>(values.data()), size * sizeof(T));
+    void field(std::vector<T>& values) {
+        constexpr bool flat = std::is_trivially_copyable_v<T>;
+        make_room(values, flat ? sizeof(T) : 1);
+        if constexpr (flat)
+            copy(values.data(), values.size() * sizeof(T));
         else
-            for (T& one : values) put(one);
+            for (T& one : values) field(one);
     }
-    void put(std::string& text) {
-        std::size_t size = text.size();
-        put(size);
-        bytes_ += text;
+    void field(std::string& text) {
+        make_room(text, 1);
+        copy(text.data(), text.size());
     }
 
   private:
-    std::string bytes_;
-};
-
-/// Gives the fields what a `state_writer` has taken.
-class state_reader {
-  public:
-    explicit state_reader(std::string_view bytes) : rest_(bytes) {}
-
-    template <class T>
-    void get(T& value) {
-        if constexpr (std::is_trivially_copyable_v<T>)
-            std::memcpy(&value, take(1, sizeof(T)).data(), sizeof(T));
-        else
-            each_field(value, [&](const char*, auto& field) { get(field); });
+    /// As many elements, of so many bytes at least, as are told.
+    template <class Values>
+    void make_room(Values& values, std::size_t width) {
+        std::size_t size = values.size();
+        field(size);
+        if (!gives_) return;
+        if (size > rest_.size() / width) throw std::invalid_argument("state: too short");
+        values.resize(size);
     }
-    template <class T>
-    void get(std::optional<T>& value) {
-        bool there = false;
-        get(there);
-        if (there) get(value.emplace());
-    }
-    template <class T>
-    void get(std::vector<T>& values) {
-        std::size_t size = 0;
-        get(size);
-        if constexpr (std::is_trivially_copyable_v<T>) {
-            const std::string_view taken = take(size, sizeof(T));
-            values.resize(size);
-            if (size != 0) std::memcpy(values.data(), taken.data(), taken.size());
+    void copy(void* data, std::size_t size) {
+        if (!gives_) {
+            taken_.append(static_cast<const char*>(data), size);
         } else {
-            while (values.size() < size) get(values.emplace_back());
+            if (size > rest_.size()) throw std::invalid_argument("state: too short");
+            if (size != 0) std::memcpy(data, rest_.data(), size);
+            rest_.remove_prefix(size);
         }
     }
-    void get(std::string& text) {
-        std::size_t size = 0;
-        get(size);
-        text = take(size, 1);
-    }
 
-  private:
-    std::string_view take(std::size_t count, std::size_t width) {
-        if (count > rest_.size() / width) throw std::invalid_argument("state: too short");
-        const std::string_view taken = rest_.substr(0, count * width);
-        rest_.remove_prefix(taken.size());
-        return taken;
-    }
-
+    bool gives_ = false;
+    std::string taken_;
     std::string_view rest_;
 };
 
@@ -95,14 +73,14 @@ template <class T, class PartOf>
 auto pickled(const PartOf& part_of) {
     return py::pickle(
         [=](T& value) {
-            state_writer state;
-            state.put(part_of(value));
-            return state.bytes();
+            state taken;
+            taken.field(part_of(value));
+            return taken.bytes();
         },
         [=](const py::bytes& bytes) {
             T value;
-            state_reader state{std::string_view(bytes)};
-            state.get(part_of(value));
+            state given{std::string_view(bytes)};
+            given.field(part_of(value));
             return value;
         });
 }

@@ -92,8 +92,8 @@ class work_in_steps {
 };
 
 /// A method of `Work` as a step; a status is not looked at, for the job says what went wrong.
-template <class Work, class Result, class... Arguments>
-auto step_of(Result (Work::*method)(Arguments...)) {
+template <class Work, class Of, class Result, class... Arguments>
+auto step_of(Result (Of::*method)(Arguments...)) {
     return [method](work_in_steps<Work>& all, const std::remove_cvref_t<Arguments>&... given) {
         if constexpr (std::is_void_v<Result>)
             all.step([&](Work& one) {
@@ -107,6 +107,20 @@ auto step_of(Result (Work::*method)(Arguments...)) {
         else
             return all.step([&](Work& one) { return (one.*method)(given...); });
     };
+}
+
+/// The class of a `Work`: steps that all have, and `finish`.
+template <class Work, class Finish>
+auto add_steps(py::module_& module, const char* name, const Finish& finish) {
+    py::class_<work_in_steps<Work>> made(module, name);
+    made.def("scatter", step_of<Work>(&Work::scatter))
+        .def("tiles", step_of<Work>(&Work::tiles))
+        .def("do_tile", step_of<Work>(&Work::do_tile))
+        .def("finish", step_of<Work>(finish))
+        .def("remove_folder", step_of<Work>(&Work::remove_folder))
+        .def("close", &work_in_steps<Work>::close);
+    make_jobs(made, {"scatter", "do_tile", "finish"}, job_kind::writes);
+    return made;
 }
 
 }  // namespace binding

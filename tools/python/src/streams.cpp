@@ -13,22 +13,6 @@ double whole_share(std::string_view step, double share) {
     return 0.0;
 }
 
-/// How to weld a cloud of files, from Python.
-struct stream_settings {
-    tf::cloud_inputs inputs{};
-    tf::weld_stream_options options{};
-};
-
-stream_settings settings_of(std::vector<std::filesystem::path> inputs,
-                            const tf::weld_stream_options& options, const name_pairs& columns,
-                            bool mixed) {
-    stream_settings made{{}, options};
-    made.inputs.paths = std::move(inputs);
-    made.inputs.columns = columns_of(columns);
-    made.inputs.mixed = mixed;
-    return made;
-}
-
 tf::weld_stream_outputs outputs_of(const std::filesystem::path& output, const std::string& removed,
                                    const std::string& label, bool withhold) {
     tf::weld_stream_outputs outputs;
@@ -39,18 +23,16 @@ tf::weld_stream_outputs outputs_of(const std::filesystem::path& output, const st
     return outputs;
 }
 
-py::object weld_stream(const stream_settings& settings, const std::filesystem::path& output,
-                       const std::string& removed, const std::string& label, bool withhold,
-                       const py::object& communicator) {
-    tf::weld_stream_options options = settings.options;
+py::object weld_stream(const tf::cloud_inputs& inputs, tf::weld_stream_options options,
+                       const std::filesystem::path& output, const std::string& removed,
+                       const std::string& label, bool withhold, const py::object& communicator) {
     options.communicator = communicator_of(communicator);
     const at_work here(communicator);
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = [&](std::string_view step, double share) {
             return !report || report(whole_share(step, share));
         };
-        return tf::weld_stream(settings.inputs, outputs_of(output, removed, label, withhold),
-                               options);
+        return tf::weld_stream(inputs, outputs_of(output, removed, label, withhold), options);
     }));
 }
 
@@ -75,7 +57,7 @@ struct shared_weld {
         work.check_tiles();
         return work.survey().tiles;
     }
-    [[nodiscard]] tf::status weld_tile(std::size_t tile) { return work.weld_tile(tile); }
+    [[nodiscard]] tf::status do_tile(std::size_t tile) { return work.weld_tile(tile); }
     void remove_folder() { work.remove_folder(); }
     [[nodiscard]] tf::weld_stream_result finish(const std::filesystem::path& output,
                                                 const std::string& removed,
@@ -95,35 +77,23 @@ struct shared_weld {
 
 using weld_in_steps = work_in_steps<shared_weld>;
 
-std::unique_ptr<weld_in_steps> weld_of(const stream_settings& settings) {
-    tf::weld_stream_options options = settings.options;
+std::unique_ptr<weld_in_steps> weld_of(const tf::cloud_inputs& inputs,
+                                       tf::weld_stream_options options) {
     options.shared = true;
     return run([&](const tf::progress_callback&) {
         return std::make_unique<weld_in_steps>([&](const step_progress& progress) {
             options.progress = std::ref(progress);
-            return shared_weld{tf::stream_weld(settings.inputs, options)};
+            return shared_weld{tf::stream_weld(inputs, options)};
         });
     });
-}
-
-void add_weld_in_steps(py::module_& module) {
-    py::class_<weld_in_steps>(module, "WeldInSteps")
-        .def("scatter", step_of(&shared_weld::scatter))
-        .def("tiles", step_of(&shared_weld::tiles))
-        .def("weld_tile", step_of(&shared_weld::weld_tile))
-        .def("finish", step_of(&shared_weld::finish))
-        .def("remove_folder", step_of(&shared_weld::remove_folder))
-        .def("close", &weld_in_steps::close);
-    make_jobs(module.attr("WeldInSteps"), {"scatter", "weld_tile", "finish"}, job_kind::writes);
-    add_job(module, "weld_of", &weld_of, job_kind::long_work);
 }
 
 }  // namespace
 
 void add_streams(py::module_& module) {
-    py::class_<stream_settings>(module, "StreamSettings").def(py::init(&settings_of));
     add_job(module, "weld_stream", &weld_stream, job_kind::writes);
-    add_weld_in_steps(module);
+    add_steps<shared_weld>(module, "WeldInSteps", &shared_weld::finish);
+    add_job(module, "weld_of", &weld_of, job_kind::long_work);
 }
 
 }  // namespace binding

@@ -1,32 +1,24 @@
 #include "bindings.hpp"
+#include "tools/bindings/box_trees.hpp"
 
 namespace binding {
 namespace {
 
 using id = std::int64_t;  ///< as NumPy numbers elements
 
-/// [Q][k] distances and numbers, nearest first; infinite and `none` where there are fewer.
-class neighbor_table {
-  public:
-    neighbor_table(std::size_t queries, std::size_t k, std::size_t none)
-        : k_(k),
-          distances_(entries(queries, k), std::numeric_limits<double>::infinity()),
-          ids_(distances_.size(), static_cast<id>(none)) {}
-
-    void set(std::size_t query, std::size_t i, double distance, id number) {
-        distances_[query * k_ + i] = distance;
-        ids_[query * k_ + i] = number;
-    }
-    py::tuple taken() && {
-        return py::make_tuple(as_array<double>(std::move(distances_)),
-                              as_array<id>(std::move(ids_)));
-    }
-
-  private:
-    std::size_t k_;
-    std::vector<double> distances_;
-    std::vector<id> ids_;
-};
+/// [Q][k] distances and numbers, nearest first, of what `find(begin, end)` finds for queries;
+/// infinite and `none` where there are fewer.
+template <class Find, class DistanceOf>
+py::tuple nearest_of(std::size_t queries, std::size_t k, std::size_t none, const Find& find,
+                     const DistanceOf& distance_of) {
+    std::vector<double> distances(entries(queries, k));
+    std::vector<id> ids(distances.size());
+    run_pieces(queries, [&](std::size_t begin, std::size_t end) {
+        tools::fill_rows(find(begin, end), begin, k, ids.data(), distances.data(),
+                         static_cast<id>(none), distance_of);
+    });
+    return py::make_tuple(as_array<double>(std::move(distances)), as_array<id>(std::move(ids)));
+}
 
 /// [n][2]
 py::array as_pairs(const std::vector<tf::id_pair>& pairs) {
@@ -51,17 +43,15 @@ class cloud {
     /// The nearest points. Nearer than `bound` if that is finite, as SciPy has it.
     py::tuple query(const array_of<double>& queries, std::size_t k, double bound) const {
         const auto all = rows_of<point>(queries);
-        neighbor_table table(all.size(), k, size());
-        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-            const auto found =
-                search_.k_nearest(all.subspan(begin, end - begin), std::min(k, size()), bound);
-            for (std::size_t q = 0; q < found.size(); ++q)
-                for (std::size_t i = 0; i < found[q].size(); ++i) {
-                    if (!(found[q][i].distance < bound)) break;
-                    table.set(begin + q, i, found[q][i].distance, found[q][i].id);
-                }
-        });
-        return std::move(table).taken();
+        return nearest_of(
+            all.size(), k, size(),
+            [&](std::size_t begin, std::size_t end) {
+                return search_.k_nearest(all.subspan(begin, end - begin), std::min(k, size()),
+                                         bound);
+            },
+            [&](const tf::near_point& one) {
+                return one.distance < bound ? one.distance : std::nan("");
+            });
     }
 
     /// All points within `radius` of each query: where its list begins, numbers, distances; nearest
@@ -123,51 +113,41 @@ class boxes {
     using box = tf::aabb<double, D>;
 
     boxes(const array_of<double>& mins, const array_of<double>& maxs)
-        : boxes_(boxes_of(mins, maxs)), tree_(run([this](const tf::progress_callback&) {
-              return tf::build(boxes_, [](const box& one) { return one; });
+        : all_(run([all = boxes_of(mins, maxs)](const tf::progress_callback&) {
+              return tools::boxes_and_tree<D>(all);
           })) {}
 
-    [[nodiscard]] std::size_t size() const { return boxes_.size(); }
+    [[nodiscard]] std::size_t size() const { return all_.boxes.size(); }
 
     /// [n][D] the lows and the highs.
     [[nodiscard]] py::tuple bounds() const {
-        return py::make_tuple(column(boxes_, [](const box& one) { return one.min; }),
-                              column(boxes_, [](const box& one) { return one.max; }));
+        return py::make_tuple(column(all_.boxes, &box::min), column(all_.boxes, &box::max));
     }
 
     /// The pairs of boxes that overlap, ascending.
     py::array pairs() const {
-        return pairs_by(*this,
-                        [&](const auto& overlap) { return tf::search_self_all(tree_, overlap); });
+        return pairs_by(
+            *this, [&](const auto& overlap) { return tf::search_self_all(all_.tree, overlap); });
     }
     /// The pairs of a box of this and a box of the other that overlap, ascending.
     py::array pairs_with(const boxes& other) const {
         return pairs_by(other, [&](const auto& overlap) {
-            return tf::search_all(tree_, other.tree_, overlap);
+            return tf::search_all(all_.tree, other.all_.tree, overlap);
         });
     }
 
     /// The boxes that overlap each query: where its list begins, and numbers, ascending.
     py::tuple query(const array_of<double>& mins, const array_of<double>& maxs) const {
-        const std::vector<box> all = boxes_of(mins, maxs);
-        for (std::size_t q = 0; q < all.size(); ++q)
+        const std::vector<box> queries = boxes_of(mins, maxs);
+        for (std::size_t q = 0; q < queries.size(); ++q)
             for (std::size_t k = 0; k < D; ++k)
-                if (std::isnan(all[q].min[k]) || std::isnan(all[q].max[k]))
+                if (std::isnan(queries[q].min[k]) || std::isnan(queries[q].max[k]))
                     throw std::invalid_argument("query " + std::to_string(q) +
                                                 " has a coordinate that is NaN");
         std::vector<id> begins{0}, ids;
-        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-            std::vector<std::vector<std::uint32_t>> found(end - begin);
-            tf::for_chunks(found.size(), 64, [&](std::size_t from, std::size_t to, std::size_t) {
-                for (std::size_t q = from; q < to; ++q)
-                    found[q] = tf::search_all(tree_, all[begin + q], [&](std::uint32_t i) {
-                        return tf::overlaps(boxes_[i], all[begin + q]);
-                    });
-            });
-            for (const auto& one : found) {
-                ids.insert(ids.end(), one.begin(), one.end());
-                begins.push_back(static_cast<id>(ids.size()));
-            }
+        run_pieces(queries.size(), [&](std::size_t begin, std::size_t end) {
+            tools::append_lists(begin, end, begins, ids,
+                                [&](std::size_t q) { return all_.overlapping(queries[q]); });
         });
         return py::make_tuple(as_array<id>(std::move(begins)), as_array<id>(std::move(ids)));
     }
@@ -175,21 +155,12 @@ class boxes {
     /// The nearest boxes.
     py::tuple nearest(const array_of<double>& queries, std::size_t k, double radius) const {
         const auto all = rows_of<point>(queries);
-        neighbor_table table(all.size(), k, size());
-        run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
-            const auto some = all.subspan(begin, end - begin);
-            const auto found =
-                tf::k_nearest_batch(tree_, some, std::min(k, size()),
-                                    [&](std::size_t q, std::uint32_t i) {
-                                        return tf::squared_distance(boxes_[i], some[q]);
-                                    },
-                                    {.radius = radius});
-            for (std::size_t q = 0; q < found.size(); ++q)
-                for (std::size_t i = 0; i < found[q].size(); ++i)
-                    table.set(begin + q, i, std::sqrt(found[q][i].squared_distance()),
-                              found[q][i].id);
-        });
-        return std::move(table).taken();
+        return nearest_of(
+            all.size(), k, size(),
+            [&](std::size_t begin, std::size_t end) {
+                return all_.nearest(all.subspan(begin, end - begin), std::min(k, size()), radius);
+            },
+            [](const auto& one) { return std::sqrt(one.squared_distance()); });
     }
 
   private:
@@ -199,7 +170,8 @@ class boxes {
         return as_pairs(run([&](const tf::progress_callback&) {
             const std::atomic<bool>* const stop = stop_of_job();
             return search([&](std::uint32_t a, std::uint32_t b) {
-                return (stop == nullptr || !*stop) && tf::overlaps(boxes_[a], other.boxes_[b]);
+                return (stop == nullptr || !*stop) &&
+                       tf::overlaps(all_.boxes[a], other.all_.boxes[b]);
             });
         }));
     }
@@ -208,16 +180,10 @@ class boxes {
         const auto low = rows_of<point>(mins), high = rows_of<point>(maxs);
         if (low.size() != high.size())
             throw std::invalid_argument("treeform: as many lows as highs are needed");
-        std::vector<box> all(low.size());
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            all[i].min = low[i];
-            all[i].max = high[i];
-        }
-        return all;
+        return tools::boxes_of<D>(low, high);
     }
 
-    std::vector<box> boxes_;
-    tf::tree<D> tree_;
+    tools::boxes_and_tree<D> all_;
 };
 
 template <std::size_t D>

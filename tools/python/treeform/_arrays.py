@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping
+from typing import Any, Mapping, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +12,7 @@ __all__ = ["NONE"]
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.uint32]
+_Array = TypeVar("_Array", bound=NDArray[Any])
 
 _FLOAT64 = np.dtype(np.float64)
 _UINT32 = np.dtype(np.uint32)
@@ -39,14 +40,20 @@ def floats(values: ArrayLike, name: str) -> Floats:
     return np.require(array, np.float64, ["C", "A"])
 
 
+def shaped(array: _Array, fits: bool, name: str, wanted: str) -> _Array:
+    """`array`, whose shape has to fit."""
+    if not fits:
+        raise ValueError(f"{name}: the shape is {array.shape}, not {wanted}")
+    return array
+
+
 def rows(values: ArrayLike, width: int, name: str) -> Floats:
     """`values` as float64 of shape (n, width)."""
     array = floats(values, name)
-    if array.ndim != 2 or array.shape[1] != width:
-        if array.size == 0:
-            return np.empty((0, width))
-        raise ValueError(f"{name}: the shape is {array.shape}, not (n, {width})")
-    return array
+    fits = array.ndim == 2 and array.shape[1] == width
+    if array.size == 0 and not fits:
+        return np.empty((0, width))
+    return shaped(array, fits, name, f"(n, {width})")
 
 
 def points(values: ArrayLike, name: str = "vertices") -> Floats:
@@ -57,9 +64,7 @@ def points(values: ArrayLike, name: str = "vertices") -> Floats:
 def vector(values: ArrayLike, name: str) -> Floats:
     """`values` as three numbers."""
     array = floats(values, name)
-    if array.shape != (3,):
-        raise ValueError(f"{name}: the shape is {array.shape}, not (3,)")
-    return array
+    return shaped(array, array.shape == (3,), name, "(3,)")
 
 
 def pair(values: Any, name: str) -> Floats:
@@ -80,8 +85,7 @@ def matrix(values: ArrayLike | None, name: str) -> Floats:
     array = floats(values, name)
     if array.shape == (3, 4):
         array = np.vstack([array, [0.0, 0.0, 0.0, 1.0]])
-    if array.shape != (4, 4):
-        raise ValueError(f"{name}: the shape is {array.shape}, not (4, 4)")
+    shaped(array, array.shape == (4, 4), name, "(4, 4)")
     if not np.array_equal(array[3], (0.0, 0.0, 0.0, 1.0)):
         raise ValueError(f"{name}: the last row is {array[3].tolist()}, not [0, 0, 0, 1]")
     return array
@@ -107,9 +111,7 @@ def ids(values: ArrayLike, name: str) -> Ids:
 def labels(values: ArrayLike | None, name: str) -> Ids:
     """`values` as (n,) numbers; None is an empty array."""
     array = ids(() if values is None else values, name)
-    if array.ndim != 1:
-        raise ValueError(f"{name}: the shape is {array.shape}, not (n,)")
-    return array
+    return shaped(array, array.ndim == 1, name, "(n,)")
 
 
 def faces(values: ArrayLike, name: str = "faces") -> Ids:
@@ -121,7 +123,7 @@ def faces(values: ArrayLike, name: str = "faces") -> Ids:
         return np.empty((0, 3), np.uint32)
     if array.ndim == 1:
         return _flat_faces(array, name)
-    raise ValueError(f"{name}: the shape is {array.shape}, not (n, 3)")
+    return shaped(array, False, name, "(n, 3)")
 
 
 def triangles_of(corners: Ids, begin: NDArray[Any], sizes: NDArray[Any], name: str) -> Ids:
@@ -213,6 +215,15 @@ def path_of(path: str | os.PathLike[str], name: str = "path") -> str:
     if "\0" in text:
         raise ValueError(f"{name}: {text!r} has a zero in it")
     return text
+
+
+def paths(values: Any, name: str) -> list[str]:
+    """One path, or several, but not none."""
+    one = isinstance(values, (str, os.PathLike))
+    all = [path_of(path, name) for path in ([values] if one else several(values, name))]
+    if not all:
+        raise ValueError(f"{name}: there are none")
+    return all
 
 
 def word(value: Any, name: str) -> str:

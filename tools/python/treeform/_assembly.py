@@ -3,6 +3,7 @@ poses."""
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Any, Iterable, NamedTuple, Sequence
 
@@ -19,6 +20,7 @@ from ._results import Result, tuple_repr
 
 __all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATIONS", "check_poses",
            "clash", "closest_points", "distance", "intersects"]
+# end
 
 #: How two parts lie to each other; a number in `PoseClashes.how` is a place in this list.
 RELATIONS = tuple(_core.RELATIONS)
@@ -29,9 +31,8 @@ def poses_of(values: ArrayLike | None, name: str) -> Floats:
     if values is None:
         return _arrays.matrix(None, name)[None]
     array = _arrays.floats(values, name)
-    if array.ndim not in (2, 3) or array.shape[-2:] != (4, 4):
-        raise ValueError(f"{name}: the shape is {array.shape}, not (4, 4) or (n, 4, 4)")
-    array = array.reshape(-1, 4, 4)
+    fits = array.ndim in (2, 3) and array.shape[-2:] == (4, 4)
+    array = _arrays.shaped(array, fits, name, "(4, 4) or (n, 4, 4)").reshape(-1, 4, 4)
     if not np.isfinite(array).all():
         at = int(np.argmin(np.isfinite(array).all(axis=(1, 2))))
         raise ValueError(f"{name}: an entry of {at} is not finite")
@@ -49,8 +50,88 @@ def one_or_all(found: NDArray[Any], *moves: ArrayLike | None) -> Any:
     return found[0].item() if is_one else found
 
 
-# made of functions:
-#   intersects distance
+PartPairs = Iterable[Sequence[int]]
+
+
+def _pairs(pairs: PartPairs) -> Ids:
+    array = _arrays.ids(_arrays.several(pairs, "ignored"), "ignored")
+    fits = not array.size or array.ndim == 2 and array.shape[1] == 2
+    return _arrays.shaped(array, fits, "ignored", "(n, 2)").reshape(-1, 2)
+
+
+def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
+    """A body moved, rounded once; where the map is a reflection, its faces are turned over."""
+    x, y, z = body.vertices.T[:, :, None]
+    points = np.ascontiguousarray(x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3])
+    if body.is_cloud:
+        return _core.HeldMesh(points)
+    faces = body.faces
+    if np.linalg.det(pose[:3, :3]) < 0:
+        faces = np.ascontiguousarray(faces[:, [0, 2, 1]])
+    return _core.HeldMesh(points, faces, True)
+
+
+def _held(parts: Iterable[Body]) -> list[_core.HeldMesh]:
+    return [held_body(part) for part in _arrays.several(parts, "parts")]
+
+
+def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOptions,
+            ignored: PartPairs, progress: Progress) -> ClashResult:
+    """`clash` of parts where they are."""
+    bodies = _held(parts)
+    if poses is not None:
+        maps = poses_of(poses, "poses")
+        if np.ndim(poses) != 3 or len(maps) != len(bodies):
+            raise ValueError(f"poses: the shape is {np.shape(poses)}, not ({len(bodies)}, 4, 4)")
+        bodies = [_at(body, pose) for body, pose in zip(bodies, maps)]
+    return _core.clash_parts(bodies, how, _pairs(ignored), progress=progress)
+
+
+# made of headers:
+#   PoseClashes
+@dataclass(frozen=True, repr=False)
+class PoseClashes(Result):
+    """What is not clear in each of many poses: n pairs of parts, pose after pose.
+
+    pose: (n,) the pose, ascending.
+    parts: (n, 2) the parts, the lower number first.
+    how: (n,) uint8: how they lie, a place in `RELATIONS`.
+    distance: (n,) of those that are closer than the clearance; else 0.
+    clashing: Poses with a pair that penetrates or is too close.
+    """
+
+    pose: Ids
+    parts: Ids
+    how: NDArray[np.uint8]
+    distance: Floats
+    clashing: int
+# end
+
+    def in_collision(self, poses: int) -> NDArray[np.bool_]:
+        """(poses,) bool: whether something penetrates or is too close in each pose."""
+        bad = np.zeros(poses, np.bool_)
+        bad[self.pose[np.isin(self.how, [RELATIONS.index("penetrating"),
+                                         RELATIONS.index("closer_than_clearance")])]] = True
+        return bad
+
+
+def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOptions,
+                     ignored: PartPairs, progress: Progress) -> PoseClashes:
+    """`check_poses`, of all parts or of the first."""
+    bodies = _held(parts)
+    array = _arrays.floats(poses, "poses")
+    if array.ndim == 3 and array.shape[1:] == (4, 4):
+        moves = np.tile(np.eye(4), (len(array), max(1, len(bodies)), 1, 1))
+        moves[:, 0] = array
+        array = moves
+    _arrays.shaped(array, array.ndim == 4 and array.shape[1:] == (len(bodies), 4, 4), "poses",
+                   f"(n, {len(bodies)}, 4, 4)")
+    return _core.clash_in_poses(bodies, poses_of(array.reshape(-1, 4, 4), "poses"), how,
+                                _pairs(ignored), progress=progress)
+
+
+# made of headers:
+#   intersects distance NearestPoints closest_points PartClash ClashResult clash check_poses
 def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
                move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
     """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns
@@ -93,11 +174,8 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     return one_or_all(_core.distance(held(a), held(b), poses_of(move_a, "move_a"),
                                      poses_of(move_b, "move_b"), radius,
                                      progress=progress), move_a, move_b)
-# end
 
 
-# made of results:
-#   closest_points_result
 class NearestPoints(NamedTuple):
     """The nearest points of two meshes.
 
@@ -116,11 +194,8 @@ class NearestPoints(NamedTuple):
 
     def __repr__(self) -> str:
         return tuple_repr(self)
-# end
 
 
-# made of functions:
-#   closest_points
 def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, radius: float = np.inf,
                    progress: Progress = None) -> NearestPoints | None:
@@ -152,11 +227,8 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     """
     return _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
                                 _arrays.matrix(move_b, "move_b"), radius, progress=progress)
-# end
 
 
-# made of results:
-#   part_clash
 @dataclass(frozen=True, repr=False)
 class PartClash(Result):
     """Two parts that are not clear of each other.
@@ -191,11 +263,8 @@ class PartClash(Result):
     move: Floats
     depth_effort: SearchEffort
     regions: list[tuple[Floats, int, Ids, Ids]]
-# end
 
 
-# made of results:
-#   clash_result
 @dataclass(frozen=True, repr=False)
 class ClashResult(Result):
     """How all parts lie to each other.
@@ -211,49 +280,8 @@ class ClashResult(Result):
     counts: dict[str, int]
     clashes: int
     boxes_apart: int
-# end
 
 
-PartPairs = Iterable[Sequence[int]]
-
-
-def _pairs(pairs: PartPairs) -> Ids:
-    array = _arrays.ids(_arrays.several(pairs, "ignored"), "ignored")
-    if array.size and (array.ndim != 2 or array.shape[1] != 2):
-        raise ValueError(f"ignored: the shape is {array.shape}, not (n, 2)")
-    return array.reshape(-1, 2)
-
-
-def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
-    """A body moved, rounded once; where the map is a reflection, its faces are turned over."""
-    x, y, z = body.vertices.T[:, :, None]
-    points = np.ascontiguousarray(x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3])
-    if body.is_cloud:
-        return _core.HeldMesh(points)
-    faces = body.faces
-    if np.linalg.det(pose[:3, :3]) < 0:
-        faces = np.ascontiguousarray(faces[:, [0, 2, 1]])
-    return _core.HeldMesh(points, faces, True)
-
-
-def _held(parts: Iterable[Body]) -> list[_core.HeldMesh]:
-    return [held_body(part) for part in _arrays.several(parts, "parts")]
-
-
-def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOptions,
-            ignored: PartPairs, progress: Progress) -> ClashResult:
-    """`clash` of parts where they are."""
-    bodies = _held(parts)
-    if poses is not None:
-        maps = poses_of(poses, "poses")
-        if np.ndim(poses) != 3 or len(maps) != len(bodies):
-            raise ValueError(f"poses: the shape is {np.shape(poses)}, not ({len(bodies)}, 4, 4)")
-        bodies = [_at(body, pose) for body, pose in zip(bodies, maps)]
-    return _core.clash_parts(bodies, how, _pairs(ignored), progress=progress)
-
-
-# made of functions:
-#   clash
 def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True,
           depths: bool = True, limit: int = 1000, vertices: str = "by_coordinates",
           poses: ArrayLike | None = None, ignored: PartPairs = (),
@@ -297,54 +325,8 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     """
     how = options(_core.ClashOptions, locals())
     return clashes(parts, poses, how, ignored, progress)
-# end
 
 
-# made of results:
-#   pose_result
-@dataclass(frozen=True, repr=False)
-class PoseClashes(Result):
-    """What is not clear in each of many poses: n pairs of parts, pose after pose.
-
-    pose: (n,) the pose, ascending.
-    parts: (n, 2) the parts, the lower number first.
-    how: (n,) uint8: how they lie, a place in `RELATIONS`.
-    distance: (n,) of those that are closer than the clearance; else 0.
-    clashing: Poses with a pair that penetrates or is too close.
-    """
-
-    pose: Ids
-    parts: Ids
-    how: NDArray[np.uint8]
-    distance: Floats
-    clashing: int
-# end
-
-    def in_collision(self, poses: int) -> NDArray[np.bool_]:
-        """(poses,) bool: whether something penetrates or is too close in each pose."""
-        bad = np.zeros(poses, np.bool_)
-        bad[self.pose[np.isin(self.how, [RELATIONS.index("penetrating"),
-                                         RELATIONS.index("closer_than_clearance")])]] = True
-        return bad
-
-
-def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOptions,
-                     ignored: PartPairs, progress: Progress) -> PoseClashes:
-    """`check_poses`, of all parts or of the first."""
-    bodies = _held(parts)
-    array = _arrays.floats(poses, "poses")
-    if array.ndim == 3 and array.shape[1:] == (4, 4):
-        moves = np.tile(np.eye(4), (len(array), max(1, len(bodies)), 1, 1))
-        moves[:, 0] = array
-        array = moves
-    if array.ndim != 4 or array.shape[1:] != (len(bodies), 4, 4):
-        raise ValueError(f"poses: the shape is {array.shape}, not (n, {len(bodies)}, 4, 4)")
-    return _core.clash_in_poses(bodies, poses_of(array.reshape(-1, 4, 4), "poses"), how,
-                                _pairs(ignored), progress=progress)
-
-
-# made of functions:
-#   check_poses
 def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0, *,
                 first_only: bool = False, vertices: str = "by_coordinates", ignored: PartPairs = (),
                 progress: Progress = None) -> PoseClashes:

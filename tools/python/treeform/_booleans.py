@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Any, Iterable, Union
 
@@ -16,30 +17,6 @@ from ._results import Certificate
 
 __all__ = ["BooleanResult", "boolean", "check_solid", "clip", "difference", "intersection", "split",
            "symmetric_difference", "union"]
-
-
-# made of results:
-#   boolean_result
-@dataclass(frozen=True, repr=False)
-class BooleanResult(MeshResult):
-    """The surface of a solid, and what was checked about it. Every function that takes a mesh takes
-    a result; `vertices, faces = result.mesh`.
-
-    mesh: Faces are counter-clockwise from outside.
-    certificate: What was checked about its coordinates.
-    face_source: (F, 2) the lowest operand, and its face, that each face lies in.
-    vertex_source: (V, 2) the lowest operand, and its vertex, that each vertex is; `NONE` for new
-        ones.
-    volumes: With `volumes`: of the first, the second, either and both.
-    statistics: Counts of what was done.
-    """
-
-    mesh: Mesh
-    certificate: Certificate
-    face_source: Ids
-    vertex_source: Ids
-    volumes: tuple[float, float, float, float] | None
-    statistics: dict[str, Any]
 # end
 
 
@@ -83,8 +60,31 @@ def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.Bool
     return _core.clip_by([held(sheet), *operands_of(solids)], operation, how, progress=progress)
 
 
-# made of functions:
-#   union intersection difference symmetric_difference boolean clip split check_solid
+# made of headers:
+#   BooleanResult union intersection difference symmetric_difference boolean clip split
+#   check_solid
+@dataclass(frozen=True, repr=False)
+class BooleanResult(MeshResult):
+    """The surface of a solid, and what was checked about it. Every function that takes a mesh takes
+    a result; `vertices, faces = result.mesh`.
+
+    mesh: Faces are counter-clockwise from outside.
+    certificate: What was checked about its coordinates.
+    face_source: (F, 2) the lowest operand, and its face, that each face lies in.
+    vertex_source: (V, 2) the lowest operand, and its vertex, that each vertex is; `NONE` for new
+        ones.
+    volumes: With `volumes`: of the first, the second, either and both.
+    statistics: Counts of what was done.
+    """
+
+    mesh: Mesh
+    certificate: Certificate
+    face_source: Ids
+    vertex_source: Ids
+    volumes: tuple[float, float, float, float] | None
+    statistics: dict[str, Any]
+
+
 def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
           max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
           volumes: bool = False, min_volume: float = 0.0, gap: float = 0.0, check: bool = True,

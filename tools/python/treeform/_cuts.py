@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+# made of uses:
 import os
 from dataclasses import dataclass
-from typing import Any, Iterable, List, Union
+from typing import Iterable, List, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _arrays, _core
-from ._arrays import NONE, Floats, Ids
+from ._arrays import Floats, Ids
 from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held, listed
 from ._progress import Progress
@@ -20,32 +21,11 @@ from ._results import Certificate, Result
 __all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "SectionLoop",
            "components", "concatenate", "cut", "cut_along", "cut_to_fit", "layer_heights",
            "mass_properties", "section", "submesh", "transformed"]
+# end
 
 
-@dataclass(frozen=True, repr=False)
-class SectionLoop(Result):
-    """A closed polygon, or, where the mesh ends, an open polyline.
-
-    points: (n, 2) in the frame of the section; the first is not repeated.
-    faces: (n,) the face that the side from each point to the next lies in.
-    closed: Whether it is a polygon.
-    oriented: The faces along it agree: what is inside is to the left, seen from above the plane.
-    parent: The innermost loop of the layer that is around it, by number; None for none.
-    depth: How many loops are around it: of a solid, holes have an odd one.
-    area: Positive where it runs counter-clockwise; 0 for open ones.
-    length: Of its sides.
-    """
-
-    points: Floats
-    faces: Ids
-    closed: bool
-    oriented: bool
-    parent: int | None
-    depth: int
-    area: float
-    length: float
-
-
+# made of headers:
+#   Section
 @dataclass(frozen=True, repr=False)
 class Section(Result):
     """What is in parallel planes: layers, in the order of their heights as given. Layer i has the
@@ -70,10 +50,10 @@ class Section(Result):
     points: Floats
     faces: Ids
     _data: _core.SectionData
-    _loops: dict[str, NDArray[Any]]
+# end
 
     def __repr__(self) -> str:
-        return f"Section({len(self.heights)} layers, {len(self._loops['closed'])} loops)"
+        return f"Section({len(self.heights)} layers, {len(self._data)} loops)"
 
     def __len__(self) -> int:
         return len(self.heights)
@@ -86,21 +66,7 @@ class Section(Result):
         >>> [loop.area for loop in treeform.section(cube, at=(0, 0, 0.5)).loops()]
         [1.0]
         """
-        of = self._loops
-        count = len(of["closed"])
-        layer = range(len(self))[layer]
-        first = int(of["first_loop"][layer])
-        end = int(of["first_loop"][layer + 1]) if layer + 1 < len(self) else count
-        found = []
-        for i in range(first, end):
-            last = int(of["first_point"][i + 1]) if i + 1 < count else len(self.points)
-            points = slice(int(of["first_point"][i]), last)
-            parent = int(of["parent"][i])
-            found.append(SectionLoop(
-                self.points[points], self.faces[points], bool(of["closed"][i]),
-                bool(of["oriented"][i]), None if parent == NONE else parent - first,
-                int(of["depth"][i]), float(of["loop_areas"][i]), float(of["loop_lengths"][i])))
-        return found
+        return self._data.loops(range(len(self))[layer])
 
     def in_space(self, layer: int, points: ArrayLike) -> Floats:
         """(n, 3) points (n, 2) of a layer in space, rounded."""
@@ -122,8 +88,64 @@ def heights_of(heights: ArrayLike | None) -> Floats:
     return np.zeros(1) if heights is None else np.atleast_1d(_arrays.floats(heights, "heights"))
 
 
-# made of functions:
-#   section layer_heights
+class CutPieces(List["CutPiece"]):
+    """A list of pieces, and what was checked.
+
+    certificate: That of the first piece that is not ok, or of the mesh where it bounds no solid.
+    resolved: Faces of the mesh met: what was cut is the solid that it winds around, where parts
+        that overlap are one; without caps, the faces cut along each other.
+    """
+
+    certificate: Certificate
+    resolved: bool
+
+
+def chosen_of(mesh: MeshLike, faces: ArrayLike) -> Ids:
+    """Numbers of faces, or those that a mask has."""
+    chosen = np.asarray(faces)
+    if chosen.dtype == bool:
+        count = len(as_mesh(mesh).faces)
+        if chosen.shape != (count,):
+            raise ValueError(f"faces: the shape of the mask is {chosen.shape}, not ({count},)")
+        chosen = np.flatnonzero(chosen)
+    return _arrays.ids(chosen, "faces")
+
+
+def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
+    """The meshes of a list, one after the other."""
+    several = listed(meshes)
+    if several is None:
+        raise ValueError("meshes: several meshes are needed")
+    return _core.concatenate([held(one) for one in several], progress=progress)
+
+
+# made of headers:
+#   SectionLoop section layer_heights CutPiece cut cut_to_fit cut_along MeshPart components
+#   submesh concatenate transformed MassProperties mass_properties
+@dataclass(frozen=True, repr=False)
+class SectionLoop(Result):
+    """A closed polygon, or, where the mesh ends, an open polyline.
+
+    points: (n, 2) in the frame of the section; the first is not repeated.
+    faces: (n,) the face that the side from each point to the next lies in.
+    closed: Whether it is a polygon.
+    oriented: The faces along it agree: what is inside is to the left, seen from above the plane.
+    parent: The innermost loop of the layer that is around it, by number; None for none.
+    depth: How many loops are around it: of a solid, holes have an odd one.
+    area: Positive where it runs counter-clockwise; 0 for open ones.
+    length: Of its sides.
+    """
+
+    points: Floats
+    faces: Ids
+    closed: bool
+    oriented: bool
+    parent: int | None
+    depth: int
+    area: float
+    length: float
+
+
 def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
             heights: ArrayLike | None = None, progress: Progress = None) -> Section:
     """Sections of a mesh by the planes at `heights` above a plane.
@@ -182,11 +204,8 @@ def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1
     """
     return _core.layer_heights(held(mesh), thickness, _arrays.vector(normal, "normal"),
                                _arrays.vector(at, "at"), progress=progress)
-# end
 
 
-# made of results:
-#   cut_piece
 @dataclass(frozen=True, repr=False)
 class CutPiece(MadeMesh):
     """What is between two planes.
@@ -199,23 +218,8 @@ class CutPiece(MadeMesh):
     face_source: Ids
     vertex_source: Ids
     cap: Ids
-# end
 
 
-class CutPieces(List[CutPiece]):
-    """A list of pieces, and what was checked.
-
-    certificate: That of the first piece that is not ok, or of the mesh where it bounds no solid.
-    resolved: Faces of the mesh met: what was cut is the solid that it winds around, where parts
-        that overlap are one; without caps, the faces cut along each other.
-    """
-
-    certificate: Certificate
-    resolved: bool
-
-
-# made of functions:
-#   cut cut_to_fit cut_along
 def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0), *,
         heights: ArrayLike | None = None, precision: str = "float64",
         max_displacement: float = np.inf, caps: bool = True, check: bool = True,
@@ -314,11 +318,8 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
     return checked(_core.cut_along(held(mesh), _arrays.floats(values, "values"),
                                    np.atleast_1d(_arrays.floats(levels, "levels")),
                                    progress=progress), check, of_one=True)
-# end
 
 
-# made of results:
-#   mesh_part
 @dataclass(frozen=True, repr=False)
 class MeshPart(MeshResult):
     """Faces of a mesh by themselves, with the vertices that they use, and their attributes.
@@ -335,22 +336,8 @@ class MeshPart(MeshResult):
     vertex_source: Ids
     volume: float
     area: float
-# end
 
 
-def chosen_of(mesh: MeshLike, faces: ArrayLike) -> Ids:
-    """Numbers of faces, or those that a mask has."""
-    chosen = np.asarray(faces)
-    if chosen.dtype == bool:
-        count = len(as_mesh(mesh).faces)
-        if chosen.shape != (count,):
-            raise ValueError(f"faces: the shape of the mask is {chosen.shape}, not ({count},)")
-        chosen = np.flatnonzero(chosen)
-    return _arrays.ids(chosen, "faces")
-
-
-# made of functions:
-#   components submesh
 def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
                progress: Progress = None) -> list[MeshPart]:
     """The faces that corners link, as meshes, in the order of their lowest faces. Corners with
@@ -393,19 +380,8 @@ def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> M
     Mesh(4 vertices, 2 faces)
     """
     return _core.submesh(held(mesh), chosen_of(mesh, faces), progress=progress)
-# end
 
 
-def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
-    """The meshes of a list, one after the other."""
-    several = listed(meshes)
-    if several is None:
-        raise ValueError("meshes: several meshes are needed")
-    return Mesh._of(*_core.concatenate([held(one) for one in several], progress=progress))
-
-
-# made of functions:
-#   concatenate
 def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mesh:
     """Points and faces of all meshes, one after the other; nothing is joined.
 
@@ -419,19 +395,9 @@ def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mes
     Mesh(16 vertices, 24 faces)
     """
     return joined(meshes, progress)
-# end
 
 
-def moved(mesh: MeshLike, matrix: ArrayLike, progress: Progress) -> Mesh:
-    """With its attributes, normals turned."""
-    own, move = held(mesh), _arrays.matrix(matrix, "matrix")
-    faces, data = _core.turned(own, move)
-    return Mesh._of(_core.moved_points(own, move, progress=progress), faces, data)
-
-
-# made of functions:
-#   transformed
-def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None) -> Mesh:
+def transformed(mesh: MeshLike, matrix: ArrayLike | None, *, progress: Progress = None) -> Mesh:
     """The mesh with its points moved. Where `matrix` mirrors, faces are turned over, so that they
     look outward as before.
 
@@ -446,12 +412,9 @@ def transformed(mesh: MeshLike, matrix: ArrayLike, *, progress: Progress = None)
     >>> mirrored.volume, mirrored.bounds.tolist()
     (2.0, [[-2.0, 0.0, 0.0], [0.0, 1.0, 1.0]])
     """
-    return moved(mesh, matrix, progress)
-# end
+    return _core.transformed(held(mesh), _arrays.matrix(matrix, "matrix"), progress=progress)
 
 
-# made of results:
-#   mass_properties
 @dataclass(frozen=True, repr=False)
 class MassProperties(Result):
     """Of a solid of density 1.
@@ -465,11 +428,8 @@ class MassProperties(Result):
     volume: float
     center: Floats
     inertia: Floats
-# end
 
 
-# made of functions:
-#   mass_properties
 def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
     """Volume, center of mass and inertia of what a closed mesh encloses. Where it is inside out,
     volume and inertia have the opposite sign. A region that the surface winds around several times

@@ -173,16 +173,8 @@ def options(type: Callable[..., _Made], arguments: Mapping[str, Any], **others: 
         raise
 
 
-def settings(type: Callable[..., _Made], *arguments: Any) -> _Made:
-    """`type(*arguments)`, of the extension."""
-    try:
-        return type(*arguments)
-    except TypeError as error:
-        name_argument(error)
-        raise
-
-
-def need(value: Any, name: str, *types: type) -> None:
-    """Raises ValueError unless `value` is one of these."""
-    if not isinstance(value, types):
-        raise ValueError(f"{name}: {types[0].__name__} is needed, not {value!r}")
+def need(value: Any, name: str, kind: type) -> Any:
+    """`value`, which has to be one of these."""
+    if not isinstance(value, kind):
+        raise ValueError(f"{name}: {kind.__name__} is needed, not {value!r}")
+    return value

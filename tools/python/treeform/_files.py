@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 import os
 import shutil
 import tempfile
@@ -17,6 +18,7 @@ from ._progress import Progress
 from ._results import Result
 
 __all__ = ["Written", "read", "write"]
+# end
 
 Path = Union[str, "os.PathLike[str]"]
 Columns = Mapping[str, Union[str, int]]
@@ -26,13 +28,78 @@ def read_from(path: Path | IO[bytes], format: str, join: bool, how: _core.ReadOp
               progress: Progress) -> Mesh:
     """Of a path, or of what is open."""
     if isinstance(path, (str, os.PathLike)):
-        return Mesh._of(*_core.read(path_of(path), format, join, how, progress=progress))
-    return Mesh._of(*_core.read_bytes(_content(path), _name_of(path), format, join, how,
-                                      progress=progress))
+        return _core.read(path_of(path), format, join, how, progress=progress)
+    return _core.read_bytes(_content(path), _name_of(path), format, join, how, progress=progress)
 
 
-# made of functions:
-#   read
+def _content(file: Any) -> bytes:
+    """All that is left in it."""
+    content = file.read() if hasattr(file, "read") else None
+    if isinstance(content, (bytes, bytearray, memoryview)):
+        return bytes(content)
+    if content is None:
+        raise ValueError(f"path: a path or a file is needed, not {file!r}")
+    raise ValueError(f"path: the file is open for text, not for bytes: {file!r}")
+
+
+def _name_of(file: Any) -> str:
+    """For messages; its extension counts."""
+    name = getattr(file, "name", "")
+    return name if isinstance(name, str) and name else "bytes"
+
+
+#: What `write` takes: a mesh, or several as parts, with names or without.
+PartsLike = Union[MeshLike, Iterable[MeshLike], Mapping[str, MeshLike]]
+
+
+def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.WriteOptions,
+            progress: Progress) -> Written:
+    """To a path, or to what is open."""
+    put = partial(_write, mesh, how, progress)
+    if isinstance(path, (str, os.PathLike)):
+        return put(path_of(path))
+    if not hasattr(path, "write"):
+        raise ValueError(f"path: a path or a file is needed, not {path!r}")
+    name = _name_of(path)
+    if not format and "." not in name:
+        raise ValueError("format: it has to be said for a file without a name")
+    with tempfile.TemporaryDirectory() as folder:
+        beside = os.path.join(folder, os.path.basename(name))
+        try:
+            written = put(beside)
+        except FileError as error:
+            raise file_error(str(error).replace(beside, name), error.errno or 0, name) from None
+        with open(beside, "rb") as whole:
+            shutil.copyfileobj(whole, path)
+    return written
+
+
+def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: str) -> Written:
+    parts = mesh if isinstance(mesh, Mapping) else listed(mesh)
+    if parts is None:
+        made = as_mesh(mesh)
+        certified = bool(made._certificate)
+    else:
+        made, certified = _scene_of(parts if isinstance(parts, Mapping) else {
+            str(number): part for number, part in enumerate(parts, 1)})
+    written = _core.write(path, made._held, certified, how, progress=progress)
+    if parts is not None and not written.format.startswith(("3mf", "obj")):
+        written.warnings.append(f"parts are one mesh now: {written.format} does not hold them")
+    return written
+
+
+def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
+    """All as one, and whether the coordinates of one are certified."""
+    if not parts:
+        raise ValueError("mesh: there is none in the list")
+    meshes = [as_mesh(part) for part in parts.values()]
+    made = _core.scene([one._held for one in meshes],
+                       [_arrays.word(name, "mesh") for name in parts])
+    return made, any(one._certificate for one in meshes)
+
+
+# made of headers:
+#   read Written write
 def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
          columns: Columns | None = None, drop_nan: bool = False, progress: Progress = None) -> Mesh:
     """Reads the file at `path`; "-" is standard input. `format` is an extension without its dot
@@ -108,27 +175,8 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
     """
     how = options(_core.ReadOptions, locals())
     return read_from(path, format, join, how, progress)
-# end
 
 
-def _content(file: Any) -> bytes:
-    """All that is left in it."""
-    content = file.read() if hasattr(file, "read") else None
-    if isinstance(content, (bytes, bytearray, memoryview)):
-        return bytes(content)
-    if content is None:
-        raise ValueError(f"path: a path or a file is needed, not {file!r}")
-    raise ValueError(f"path: the file is open for text, not for bytes: {file!r}")
-
-
-def _name_of(file: Any) -> str:
-    """For messages; its extension counts."""
-    name = getattr(file, "name", "")
-    return name if isinstance(name, str) and name else "bytes"
-
-
-# made of results:
-#   write_result
 @dataclass(frozen=True, repr=False)
 class Written(Result):
     """What `write` wrote.
@@ -143,37 +191,8 @@ class Written(Result):
     precision: str
     max_displacement: float
     warnings: list[str]
-# end
 
 
-#: What `write` takes: a mesh, or several as parts, with names or without.
-PartsLike = Union[MeshLike, Iterable[MeshLike], Mapping[str, MeshLike]]
-
-
-def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.WriteOptions,
-            progress: Progress) -> Written:
-    """To a path, or to what is open."""
-    put = partial(_write, mesh, how, progress)
-    if isinstance(path, (str, os.PathLike)):
-        return put(path_of(path))
-    if not hasattr(path, "write"):
-        raise ValueError(f"path: a path or a file is needed, not {path!r}")
-    name = _name_of(path)
-    if not format and "." not in name:
-        raise ValueError("format: it has to be said for a file without a name")
-    with tempfile.TemporaryDirectory() as folder:
-        beside = os.path.join(folder, os.path.basename(name))
-        try:
-            written = put(beside)
-        except FileError as error:
-            raise file_error(str(error).replace(beside, name), error.errno or 0, name) from None
-        with open(beside, "rb") as whole:
-            shutil.copyfileobj(whole, path)
-    return written
-
-
-# made of functions:
-#   write
 def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: bool = False,
           precision: str | None = None, drop: Iterable[str] = (), rename: Columns | None = None,
           las_scale: Sequence[float] | None = None, las_offset: Sequence[float] | None = None,
@@ -255,28 +274,3 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     how = options(_core.WriteOptions, locals())
     return written(path, mesh, format, how, progress)
 # end
-
-
-def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: str) -> Written:
-    parts = mesh if isinstance(mesh, Mapping) else listed(mesh)
-    if parts is None:
-        made = as_mesh(mesh)
-        certified = bool(made._certificate)
-    else:
-        made, certified = _scene_of(parts if isinstance(parts, Mapping) else {
-            str(number): part for number, part in enumerate(parts, 1)})
-    written = _core.write(path, made._held, made._attributes, certified, how, progress=progress)
-    if parts is not None and not written.format.startswith(("3mf", "obj")):
-        written.warnings.append(f"parts are one mesh now: {written.format} does not hold them")
-    return written
-
-
-def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
-    """All as one, and whether the coordinates of one are certified."""
-    if not parts:
-        raise ValueError("mesh: there is none in the list")
-    meshes = [as_mesh(part) for part in parts.values()]
-    data = [one._attributes for one in meshes]
-    made = Mesh._of(*_core.scene([one._held for one in meshes], data,
-                                 [_arrays.word(name, "mesh") for name in parts]))
-    return made, any(one._certificate for one in meshes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Iterable
 
@@ -20,13 +21,14 @@ from ._steps import Communicator, InSteps, in_communicator
 __all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "StreamSearch", "faces_in_box",
            "intersection_curves", "intersection_regions", "mesh_intersections",
            "self_intersections", "self_intersections_of_file"]
+# end
 
 #: How two faces meet; a number in `kinds` is a place in this list.
 KINDS = tuple(_core.KINDS)
 
 
-# made of results:
-#   intersection_result
+# made of headers:
+#   FacePairs
 @dataclass(frozen=True, repr=False)
 class FacePairs(Result):
     """Pairs of faces that meet.
@@ -55,8 +57,95 @@ class FacePairs(Result):
         return self.pairs[np.isin(self.kinds, [KINDS.index(kind) for kind in kinds])]
 
 
-# made of functions:
-#   self_intersections mesh_intersections
+# made of headers:
+#   FilePairs
+@dataclass(frozen=True, repr=False)
+class FilePairs(FacePairs):
+    """Pairs of faces of a file that meet; they are numbers of faces of `mesh`.
+
+    mesh: Only the faces that meet others, in the order of the file.
+    face_in_file: (F,) the number in the file of each face of `mesh`.
+    stored_faces: Faces of the file.
+    dropped: Triangles with a coordinate that is not finite, left out.
+    tiles: Parts that space was cut into.
+    """
+
+    mesh: Mesh
+    face_in_file: Ids
+    stored_faces: int
+    dropped: int
+    tiles: int
+# end
+
+    @property
+    def pairs_in_file(self) -> Ids:
+        """(n, 2): the pairs by numbers of the file."""
+        return self.face_in_file[self.pairs]
+
+
+class StreamSearch(InSteps[_core.SearchInSteps]):
+    """`self_intersections_of_file` step by step, for many processes, of one machine or of several
+    that see the folder: those of Dask, of Slurm, of `multiprocessing`.
+
+    All make it with the same arguments. One calls `scatter`; then each calls `search_tile` for its
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
+    is finished is not searched again. Arguments are those of `self_intersections_of_file`; empty
+    `folder`: the input's name and ".search-tiles".
+
+    It has a hold on the folder until `close`, the end of a `with`, or its own end. A copy for
+    another process (pickle) is made anew from its arguments. A step before its turn raises
+    FileError, a tile that is not there IndexError.
+
+    >>> import tempfile, treeform
+    >>> with tempfile.TemporaryDirectory() as home:
+    ...     options = dict(folder=home + "/tiles", faces_per_tile=100)
+    ...     with treeform.StreamSearch("data/two_spheres.stl", **options) as first:
+    ...         count = first.scatter()
+    ...     for tile in range(count):  # in as many processes as there are
+    ...         with treeform.StreamSearch("data/two_spheres.stl", **options) as one:
+    ...             one.search_tile(tile)
+    ...     with treeform.StreamSearch("data/two_spheres.stl", **options) as last:
+    ...         found = last.finish()
+    ...         last.remove_folder()
+    >>> count > 1, len(found)
+    (True, 78)
+    """
+
+    def __init__(self, path: Path, *, kinds: Iterable[str] | None = None,
+                 vertices: str | None = None, format: str = "", memory: int = 0, folder: Path = "",
+                 faces_per_tile: int = 0, progress: Progress = None) -> None:
+        kinds = None if kinds is None else _arrays.words(kinds, "kinds")
+        how = options(_core.StreamSearchOptions, locals())
+        super().__init__(_core.search_of(path_of(path), how, progress=progress), locals())
+
+    @property
+    def unfinished(self) -> list[int]:
+        """The tiles that are to be searched."""
+        return self._work.unfinished()
+
+    def search_tile(self, tile: int, *, progress: Progress = None) -> None:
+        """Searches a tile, from 0, unless that is done."""
+        self._do_tile(tile, progress)
+
+    def finish(self, *, progress: Progress = None) -> FilePairs:
+        """Puts together what was found, when all tiles are searched."""
+        return self._work.finish(progress=progress)
+
+
+def pairs_of(found: FacePairs) -> tuple[Ids, NDArray[np.uint8]]:
+    """The pairs, and their kinds."""
+    need(found, "found", FacePairs)
+    return found.pairs, found.kinds
+
+
+def curves(points: Floats, paths: list[tuple[Ids, bool]]) -> list[Floats]:
+    """Of paths by numbers of points; closed ones end where they begin."""
+    return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
+
+
+# made of headers:
+#   self_intersections mesh_intersections self_intersections_of_file Region intersection_regions
+#   intersection_curves faces_in_box
 def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
                        first_only: bool = False, kinds: Iterable[str] | None = None,
                        limit: int | None = None, progress: Progress = None) -> FacePairs:
@@ -119,37 +208,8 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     """
     how = options(_core.IntersectionOptions, locals())
     return _core.mesh_intersections(held(a), held(b), how, progress=progress)
-# end
 
 
-# made of results:
-#   stream_search_result
-@dataclass(frozen=True, repr=False)
-class FilePairs(FacePairs):
-    """Pairs of faces of a file that meet; they are numbers of faces of `mesh`.
-
-    mesh: Only the faces that meet others, in the order of the file.
-    face_in_file: (F,) the number in the file of each face of `mesh`.
-    stored_faces: Faces of the file.
-    dropped: Triangles with a coordinate that is not finite, left out.
-    tiles: Parts that space was cut into.
-    """
-
-    mesh: Mesh
-    face_in_file: Ids
-    stored_faces: int
-    dropped: int
-    tiles: int
-# end
-
-    @property
-    def pairs_in_file(self) -> Ids:
-        """(n, 2): the pairs by numbers of the file."""
-        return self.face_in_file[self.pairs]
-
-
-# made of functions:
-#   self_intersections_of_file
 def self_intersections_of_file(path: Path, *, vertices: str | None = None,
                                kinds: Iterable[str] | None = None, format: str = "",
                                memory: int = 0, folder: Path = "", faces_per_tile: int = 0,
@@ -187,64 +247,8 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
     how = options(_core.StreamSearchOptions, locals())
     return in_communicator(communicator, lambda all: _core.self_intersections_of_file(
         path_of(path), how, all, progress=progress))
-# end
 
 
-class StreamSearch(InSteps[_core.SearchInSteps]):
-    """`self_intersections_of_file` step by step, for many processes, of one machine or of several
-    that see the folder: those of Dask, of Slurm, of `multiprocessing`.
-
-    All make it with the same arguments. One calls `scatter`; then each calls `search_tile` for its
-    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
-    is finished is not searched again. Arguments are those of `self_intersections_of_file`; empty
-    `folder`: the input's name and ".search-tiles".
-
-    It has a hold on the folder until `close`, the end of a `with`, or its own end. A copy for
-    another process (pickle) is made anew from its arguments. A step before its turn raises
-    FileError, a tile that is not there IndexError.
-
-    >>> import tempfile, treeform
-    >>> with tempfile.TemporaryDirectory() as home:
-    ...     options = dict(folder=home + "/tiles", faces_per_tile=100)
-    ...     with treeform.StreamSearch("data/two_spheres.stl", **options) as first:
-    ...         count = first.scatter()
-    ...     for tile in range(count):  # in as many processes as there are
-    ...         with treeform.StreamSearch("data/two_spheres.stl", **options) as one:
-    ...             one.search_tile(tile)
-    ...     with treeform.StreamSearch("data/two_spheres.stl", **options) as last:
-    ...         found = last.finish()
-    ...         last.remove_folder()
-    >>> count > 1, len(found)
-    (True, 78)
-    """
-
-    def __init__(self, path: Path, *, kinds: Iterable[str] | None = None,
-                 vertices: str | None = None, format: str = "", memory: int = 0, folder: Path = "",
-                 faces_per_tile: int = 0, progress: Progress = None) -> None:
-        kinds = None if kinds is None else _arrays.words(kinds, "kinds")
-        how = options(_core.StreamSearchOptions, locals())
-        super().__init__(_core.search_of(path_of(path), how, progress=progress), locals())
-
-    def scatter(self, *, progress: Progress = None) -> int:
-        """Gives each tile its faces, unless they have them. Returns the number of tiles."""
-        return self._work.scatter(progress=progress)
-
-    @property
-    def unfinished(self) -> list[int]:
-        """The tiles that are to be searched."""
-        return self._work.unfinished()
-
-    def search_tile(self, tile: int, *, progress: Progress = None) -> None:
-        """Searches a tile, from 0, unless that is done."""
-        self._work.search_tile(_arrays.number(tile, "tile", 0), progress=progress)
-
-    def finish(self, *, progress: Progress = None) -> FilePairs:
-        """Puts together what was found, when all tiles are searched."""
-        return self._work.finish(progress=progress)
-
-
-# made of results:
-#   intersection_region
 @dataclass(frozen=True, repr=False)
 class Region(Result):
     """Faces that meet, in one place of the mesh.
@@ -257,22 +261,8 @@ class Region(Result):
     faces: Ids
     bounds: Floats
     pairs: int
-# end
 
 
-def pairs_of(found: FacePairs) -> tuple[Ids, NDArray[np.uint8]]:
-    """The pairs, and their kinds."""
-    need(found, "found", FacePairs)
-    return found.pairs, found.kinds
-
-
-def curves(points: Floats, paths: list[tuple[Ids, bool]]) -> list[Floats]:
-    """Of paths by numbers of points; closed ones end where they begin."""
-    return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
-
-
-# made of functions:
-#   intersection_regions intersection_curves faces_in_box
 def intersection_regions(mesh: MeshLike, found: FacePairs, *,
                          progress: Progress = None) -> tuple[list[Region], Ids]:
     """Groups the faces in `found` into regions. Two of these faces are in one region when a pair or

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, Iterator, Protocol, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Protocol, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,16 +31,12 @@ class HasTriangles(Protocol):
     """A mesh as Open3D has it."""
 
     @property
-    def vertices(self) -> Any: ...
-    @property
     def triangles(self) -> Any: ...
 
 
 class HasCells(Protocol):
     """A mesh as meshio has it, and grids of PyVista."""
 
-    @property
-    def points(self) -> Any: ...
     @property
     def cells_dict(self) -> Any: ...
 
@@ -49,15 +45,12 @@ class HasTensors(Protocol):
     """A mesh as `open3d.t.geometry` has it."""
 
     @property
-    def vertex(self) -> Any: ...
-    @property
     def triangle(self) -> Any: ...
 
 
 class HasPolys(Protocol):
     """A mesh as VTK has it."""
 
-    def GetPoints(self) -> Any: ...
     def GetPolys(self) -> Any: ...
 
 
@@ -66,6 +59,15 @@ class HasMesh(Protocol):
 
     @property
     def mesh(self) -> "Mesh": ...
+
+
+_Operator = Callable[[Any, "MeshLike"], "Mesh"]
+
+
+def _operators(sign: str) -> tuple[_Operator, _Operator]:
+    """`mesh sign other`, and `other sign mesh`."""
+    return (lambda mesh, other: _operation(sign, mesh, other),
+            lambda mesh, other: _operation(sign, other, mesh))
 
 
 class Mesh:
@@ -201,29 +203,10 @@ class Mesh:
     to_vtk = _others.to_vtk
     to_meshio = _others.to_meshio
 
-    def __or__(self, other: MeshLike) -> Mesh:
-        return _operation("|", self, other)
-
-    def __and__(self, other: MeshLike) -> Mesh:
-        return _operation("&", self, other)
-
-    def __sub__(self, other: MeshLike) -> Mesh:
-        return _operation("-", self, other)
-
-    def __xor__(self, other: MeshLike) -> Mesh:
-        return _operation("^", self, other)
-
-    def __ror__(self, other: MeshLike) -> Mesh:
-        return _operation("|", other, self)
-
-    def __rand__(self, other: MeshLike) -> Mesh:
-        return _operation("&", other, self)
-
-    def __rsub__(self, other: MeshLike) -> Mesh:
-        return _operation("-", other, self)
-
-    def __rxor__(self, other: MeshLike) -> Mesh:
-        return _operation("^", other, self)
+    __or__, __ror__ = _operators("|")
+    __and__, __rand__ = _operators("&")
+    __sub__, __rsub__ = _operators("-")
+    __xor__, __rxor__ = _operators("^")
 
     #: NumPy leaves `array - mesh` to the mesh.
     __array_ufunc__ = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,11 +19,69 @@ from ._results import Result, tuple_repr
 __all__ = ["AllRayHits", "ClosestPoints", "Deviation", "RayHits", "closest_point", "contains",
            "deviation", "locate", "raycast", "raycast_all", "raycast_any", "signed_distance",
            "winding_number"]
+# end
 
 
+OUTSIDE = 0
+
+
+def located(mesh: MeshLike, points: ArrayLike,
+            progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
+    """Raises NotSolidError where the mesh is open."""
+    try:
+        return _core.locate_points(held(mesh), _arrays.points(points, "points"), progress=progress)
+    except ValueError:
+        if len(as_mesh(mesh).faces):
+            require(as_mesh(mesh).solid_certificate, of_one=True)
+        raise
+
+
+def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
+    """Positive inside."""
+    cloud = _arrays.points(points, "points")
+    if len(cloud) == 0:
+        return np.empty(0)
+    how = _core.DeviationOptions(bins=0, both_ways=False)
+    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), how, progress=progress)
+    if made is None:
+        return np.full(len(cloud), -np.inf)
+    if not made.is_signed:
+        raise NotSolidError(as_mesh(mesh).solid_certificate, True)
+    return np.asarray(-made.distances + 0.0)
+
+
+class AllRayHits(NamedTuple):
+    """All faces that rays hit, in the order that trimesh's `intersects_location` has:
+    `locations, index_ray, index_tri = raycast_all(...)`.
+
+    locations: (n, 3) the points hit, rounded.
+    index_ray: (n,) uint32 the ray, ascending.
+    index_tri: (n,) uint32 the face.
+    """
+
+    locations: Floats
+    index_ray: Ids
+    index_tri: Ids
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+
+
+def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float,
+             progress: Progress) -> AllRayHits:
+    """With the points hit."""
+    start, along = _arrays.points(origins, "origins"), _arrays.points(directions, "directions")
+    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max,
+                                    progress=progress)
+    return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
+
+
+# made of headers:
+#   ClosestPoints closest_point contains locate winding_number signed_distance RayHits raycast
+#   raycast_all raycast_any Deviation deviation
 class ClosestPoints(NamedTuple):
-    """The nearest point of a mesh for each query, in the order that trimesh has:
-    `closest, distance, triangle_id = closest_point(mesh, points)`.
+    """The nearest point of a mesh for each query, in the order that trimesh has: `closest,
+    distance, triangle_id = closest_point(mesh, points)`.
 
     closest: (n, 3) points on the mesh, rounded; NaN where none is within the radius.
     distance: (n,) not squared; infinite where there is none.
@@ -37,8 +96,6 @@ class ClosestPoints(NamedTuple):
         return tuple_repr(self)
 
 
-# made of functions:
-#   closest_point
 def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
                   progress: Progress = None) -> ClosestPoints:
     """The point of the surface that is nearest to each of `points` (n, 3). Distances are within 16
@@ -61,27 +118,10 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
     >>> closest.tolist(), distance.tolist()
     ([[0.5, 0.25, 1.0]], [2.0])
     """
-    return ClosestPoints(*_core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
-                                              progress=progress))
-# end
+    return _core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
+                               progress=progress)
 
 
-OUTSIDE = 0
-
-
-def located(mesh: MeshLike, points: ArrayLike,
-            progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
-    """Raises NotSolidError where the mesh is open."""
-    try:
-        return _core.locate(held(mesh), _arrays.points(points, "points"), progress=progress)
-    except ValueError:
-        if len(as_mesh(mesh).faces):
-            require(as_mesh(mesh).solid_certificate, of_one=True)
-        raise
-
-
-# made of functions:
-#   contains locate winding_number
 def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
     """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface: inside
     is where the winding number is not 0. Exact, for every point. Raises NotSolidError where the
@@ -129,25 +169,8 @@ def winding_number(mesh: MeshLike, points: ArrayLike, *,
     array([1, 0], dtype=int32)
     """
     return np.asarray(located(mesh, points, progress)[1])
-# end
 
 
-def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
-    """Positive inside."""
-    cloud = _arrays.points(points, "points")
-    if len(cloud) == 0:
-        return np.empty(0)
-    how = _core.DeviationOptions(bins=0, both_ways=False)
-    made = _core.deviation(_core.HeldMesh(cloud), held(mesh), how, progress=progress)
-    if made is None:
-        return np.full(len(cloud), -np.inf)
-    if not made.is_signed:
-        raise NotSolidError(as_mesh(mesh).solid_certificate, True)
-    return np.asarray(-made.distances + 0.0)
-
-
-# made of functions:
-#   signed_distance
 def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
     """(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; positive
     inside, as in trimesh, and exactly 0 on the surface. The sign is exact. `deviation` has the
@@ -165,7 +188,6 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     array([ 0.25, -2.  ])
     """
     return distances(mesh, points, progress)
-# end
 
 
 class RayHits(NamedTuple):
@@ -184,8 +206,6 @@ class RayHits(NamedTuple):
         return tuple_repr(self)
 
 
-# made of functions:
-#   raycast
 def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
             t_max: float = np.inf, progress: Progress = None) -> RayHits:
     """The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
@@ -212,40 +232,10 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     >>> hits.t.tolist(), hits.at.tolist()
     ([2.0], [6])
     """
-    return RayHits(*_core.raycast(held(mesh), _arrays.points(origins, "origins"),
-                                  _arrays.points(directions, "directions"), t_min, t_max,
-                                  progress=progress))
-# end
+    return _core.raycast(held(mesh), _arrays.points(origins, "origins"),
+                         _arrays.points(directions, "directions"), t_min, t_max, progress=progress)
 
 
-class AllRayHits(NamedTuple):
-    """All faces that rays hit, in the order that trimesh's `intersects_location` has:
-    `locations, index_ray, index_tri = raycast_all(...)`.
-
-    locations: (n, 3) the points hit, rounded.
-    index_ray: (n,) uint32 the ray, ascending.
-    index_tri: (n,) uint32 the face.
-    """
-
-    locations: Floats
-    index_ray: Ids
-    index_tri: Ids
-
-    def __repr__(self) -> str:
-        return tuple_repr(self)
-
-
-def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float,
-             progress: Progress) -> AllRayHits:
-    """With the points hit."""
-    start, along = _arrays.points(origins, "origins"), _arrays.points(directions, "directions")
-    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max,
-                                    progress=progress)
-    return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
-
-
-# made of functions:
-#   raycast_all raycast_any
 def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
                 t_max: float = np.inf, progress: Progress = None) -> AllRayHits:
     """All faces that each ray hits, in the exact order along the ray, then by number.
@@ -281,11 +271,8 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     return _core.raycast_any(held(mesh), _arrays.points(origins, "origins"),
                              _arrays.points(directions, "directions"), t_min, t_max,
                              progress=progress).view(np.bool_)
-# end
 
 
-# made of results:
-#   deviation_result
 @dataclass(frozen=True, repr=False)
 class Deviation(Result):
     """How far points are from a surface.
@@ -333,11 +320,8 @@ class Deviation(Result):
     histogram: NDArray[np.uint64]
     histogram_range: tuple[float, float]
     band_counts: tuple[int, int, int] | None
-# end
 
 
-# made of functions:
-#   deviation
 def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,
               both_ways: bool = True, progress: Progress = None) -> Deviation:
     """How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of

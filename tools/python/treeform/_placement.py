@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Any, Iterable, NamedTuple
 
@@ -20,28 +21,27 @@ __all__ = ["Alignment", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "P
            "Packing", "Placement", "SearchEffort", "align", "drop", "lay_flat", "mate",
            "mate_features", "measure", "pack", "penetration_depth", "separate", "slide",
            "time_of_impact", "turn"]
-
-# made of results:
-#   search_effort
-class SearchEffort(NamedTuple):
-    """The work of a bounded search, in pairs of faces looked at. It depends on the input alone.
-    What the search found is valid even where it was cut short.
-
-    pairs: Pairs of faces looked at; a pair in motion counts as two.
-    bound: The most that the search was to look at.
-    cut: Candidates skipped, since each would take more than 1/32 of the bound, or than what was
-        left of it. If not 0, a better answer may exist.
-    """
-
-    pairs: int
-    bound: int
-    cut: int
-
-    def __repr__(self) -> str:
-        return tuple_repr(self)
 # end
 
 
+def scale_of(scale: bool | tuple[float, float]) -> dict[str, Any]:
+    """Options of `align`: whether to scale, and the bounds."""
+    if isinstance(scale, (bool, np.bool_)):
+        return {"scale": bool(scale)}
+    least, most = _arrays.pair(scale, "scale")
+    return {"scale": True, "least_scale": least, "most_scale": most}
+
+
+def extent_of(size: ArrayLike) -> Floats:
+    """(3,) of a plate without a height, too."""
+    extent = _arrays.floats(size, "size")
+    return np.append(extent, np.inf) if extent.shape == (2,) else extent
+
+
+# made of headers:
+#   Contacts Placement SearchEffort Measure slide drop mate separate turn mate_features LaidFlat
+#   lay_flat Alignment align PackedPart Packing pack measure Depth penetration_depth Impact
+#   time_of_impact
 class Contacts(NamedTuple):
     """Pairs of faces that meet at a place, or keep the clearance there.
 
@@ -62,38 +62,6 @@ class Contacts(NamedTuple):
         return tuple_repr(self)
 
 
-# made of results:
-#   mesh_measure
-@dataclass(frozen=True, repr=False)
-class Measure(Result):
-    """How two meshes lie to each other.
-
-    relation: 'separate', 'touching' or 'penetrating'. Exact.
-    distance: Not squared. 0 if and only if the meshes touch or penetrate each other.
-    surface_distance: Exactly 0 if and only if a face of one meets a face of the other. So it is
-        positive for a mesh inside a solid whose surface it does not touch.
-    on_a: (3,) the nearest point on the surface of `a`; where they meet, a common one.
-    on_b: (3,) the nearest point on the surface of `b`; where they meet, a common one.
-    face_a: The face of `a` that `on_a` is on.
-    face_b: The face of `b` that `on_b` is on.
-    a_inside_b: A part of `a` lies inside the solid `b` and does not touch `b`.
-    b_inside_a: The same with `a` and `b` exchanged.
-    """
-
-    relation: str
-    distance: float
-    surface_distance: float
-    on_a: Floats
-    on_b: Floats
-    face_a: int
-    face_b: int
-    a_inside_b: bool
-    b_inside_a: bool
-# end
-
-
-# made of results:
-#   placement
 @dataclass(frozen=True, repr=False)
 class Placement(MeshResult):
     """Where a mesh goes. True where it has a place; else `message` says why not.
@@ -138,40 +106,56 @@ class Placement(MeshResult):
     angle: float
     tolerance: float
     offset: float
-# end
 
     def __bool__(self) -> bool:
         return bool(self.certificate)
 
 
-def mated(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature,
-          how: _core.PlacementOptions, progress: Progress) -> Placement:
-    """`mate_features`, of features of one kind."""
-    need(of_moving, "of_moving", Feature)
-    need(of_fixed, "of_fixed", Feature)
-    if of_moving.kind != of_fixed.kind:
-        raise ValueError(f"of_fixed: {of_fixed.kind!r}, but of_moving is {of_moving.kind!r}")
-    return _core.mate_features(
-        held_body(moving), bodies(onto), of_moving.kind, of_moving.origin, of_moving.direction,
-        of_fixed.origin, of_fixed.direction, how, progress=progress)
+class SearchEffort(NamedTuple):
+    """The work of a bounded search, in pairs of faces looked at. It depends on the input alone.
+    What the search found is valid even where it was cut short.
+
+    pairs: Pairs of faces looked at; a pair in motion counts as two.
+    bound: The most that the search was to look at.
+    cut: Candidates skipped, since each would take more than 1/32 of the bound, or than what was
+        left of it. If not 0, a better answer may exist.
+    """
+
+    pairs: int
+    bound: int
+    cut: int
+
+    def __repr__(self) -> str:
+        return tuple_repr(self)
 
 
-def scale_of(scale: bool | tuple[float, float]) -> dict[str, Any]:
-    """Options of `align`: whether to scale, and the bounds."""
-    if isinstance(scale, (bool, np.bool_)):
-        return {"scale": bool(scale)}
-    least, most = _arrays.pair(scale, "scale")
-    return {"scale": True, "least_scale": least, "most_scale": most}
+@dataclass(frozen=True, repr=False)
+class Measure(Result):
+    """How two meshes lie to each other.
+
+    relation: 'separate', 'touching' or 'penetrating'. Exact.
+    distance: Not squared. 0 if and only if the meshes touch or penetrate each other.
+    surface_distance: Exactly 0 if and only if a face of one meets a face of the other. So it is
+        positive for a mesh inside a solid whose surface it does not touch.
+    on_a: (3,) the nearest point on the surface of `a`; where they meet, a common one.
+    on_b: (3,) the nearest point on the surface of `b`; where they meet, a common one.
+    face_a: The face of `a` that `on_a` is on.
+    face_b: The face of `b` that `on_b` is on.
+    a_inside_b: A part of `a` lies inside the solid `b` and does not touch `b`.
+    b_inside_a: The same with `a` and `b` exchanged.
+    """
+
+    relation: str
+    distance: float
+    surface_distance: float
+    on_a: Floats
+    on_b: Floats
+    face_a: int
+    face_b: int
+    a_inside_b: bool
+    b_inside_a: bool
 
 
-def extent_of(size: ArrayLike) -> Floats:
-    """(3,) of a plate without a height, too."""
-    extent = _arrays.floats(size, "size")
-    return np.append(extent, np.inf) if extent.shape == (2,) else extent
-
-
-# made of functions:
-#   slide drop mate separate turn mate_features
 def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0, *,
           max_travel: float | None = None, precision: str = "float64", bed: float | None = None,
           progress: Progress = None) -> Placement:
@@ -380,12 +364,11 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     'touching'
     """
     how = options(_core.PlacementOptions, locals())
-    return mated(moving, onto, of_moving, of_fixed, how, progress)
-# end
+    return _core.mate_features(held_body(moving), bodies(onto),
+                               need(of_moving, "of_moving", Feature),
+                               need(of_fixed, "of_fixed", Feature), how, progress=progress)
 
 
-# made of results:
-#   laid_flat
 @dataclass(frozen=True, repr=False)
 class LaidFlat(MeshResult):
     """A mesh on the bed.
@@ -417,11 +400,8 @@ class LaidFlat(MeshResult):
     mass: str
     on_bed: Ids
     certificate: Certificate
-# end
 
 
-# made of functions:
-#   lay_flat
 def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.0, 0.0, 0.0),
              keep_spin: bool = False, tolerance: float = 0.0, bed: float = 0.0,
              overhang_angle: float = 45.0, precision: str = "float64",
@@ -463,11 +443,8 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
     if made is None:
         raise ValueError("lay_flat: no side: fewer than three points, or all on a line")
     return made
-# end
 
 
-# made of results:
-#   align_result
 @dataclass(frozen=True, repr=False)
 class Alignment(MeshResult):
     """The motion that `align` has found.
@@ -510,14 +487,11 @@ class Alignment(MeshResult):
     start: int
     undetermined: int
     message: str
-# end
 
     def __bool__(self) -> bool:
         return self.converged
 
 
-# made of functions:
-#   align
 def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False,
           method: str = "automatic", overlap: float = 1.0, robust: bool = True,
           max_distance: float = np.inf, max_iterations: int = 100, tolerance: float = 1e-6,
@@ -585,11 +559,8 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     """
     how = options(_core.AlignOptions, locals(), **scale_of(scale))
     return _core.align(held_body(moving), held_body(onto), how, progress=progress)
-# end
 
 
-# made of results:
-#   packed_part
 class PackedPart(NamedTuple):
     """A part on a plate.
 
@@ -608,11 +579,8 @@ class PackedPart(NamedTuple):
 
     def __repr__(self) -> str:
         return tuple_repr(self)
-# end
 
 
-# made of results:
-#   packing
 @dataclass(frozen=True, repr=False)
 class Packing(Result):
     """Filled plates. True where every part has a place.
@@ -632,14 +600,11 @@ class Packing(Result):
     tries: int
     density: float
     message: str
-# end
 
     def __bool__(self) -> bool:
         return len(self.not_placed) == 0
 
 
-# made of functions:
-#   pack measure
 def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.0, 0.0),
          spacing: float = 2.0, turns: str = "quarter", stack: bool = False, plates: int = 1,
          plate_step: ArrayLike = (0.0, 0.0, 0.0), seed: int = 0, tries: int = 32,
@@ -723,11 +688,8 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     """
     how = options(_core.MeasureOptions, locals())
     return _core.measure(held_body(a), held_body(b), how, progress=progress)
-# end
 
 
-# made of results:
-#   penetration_depth_result
 class Depth(NamedTuple):
     """The move apart that was found.
 
@@ -744,11 +706,8 @@ class Depth(NamedTuple):
 
     def __repr__(self) -> str:
         return tuple_repr(self)
-# end
 
 
-# made of functions:
-#   penetration_depth
 def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort: int = 0,
                       progress: Progress = None) -> Depth | None:
     """The length of a short translation that takes `a` out of `b`: an upper bound of the depth of
@@ -780,11 +739,8 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
     """
     how = options(_core.DepthOptions, locals())
     return _core.penetration_depth(held(a), held(b), how, progress=progress)
-# end
 
 
-# made of results:
-#   impact
 class Impact(NamedTuple):
     """The first contact of two meshes in motion.
 
@@ -802,11 +758,8 @@ class Impact(NamedTuple):
 
     def __repr__(self) -> str:
         return tuple_repr(self)
-# end
 
 
-# made of functions:
-#   time_of_impact
 def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, latest: float = np.inf,
                    progress: Progress = None) -> Impact:

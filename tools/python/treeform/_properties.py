@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 
 from . import _core
@@ -14,10 +15,12 @@ from ._results import Result
 __all__ = ["Feature", "MeshDefects", "SolidDefects", "Topology", "count_inside_out",
            "count_topology", "face_components", "find_defects", "find_features",
            "find_solid_defects"]
+# end
 
 
-# made of results:
-#   solid_defects
+# made of headers:
+#   SolidDefects find_solid_defects MeshDefects find_defects Topology count_topology
+#   count_inside_out face_components Feature find_features
 @dataclass(frozen=True, repr=False)
 class SolidDefects(Result):
     """What keeps a mesh from being a solid; `bool()` says whether there is anything.
@@ -53,14 +56,11 @@ class SolidDefects(Result):
     inverted: int
     wrongly_nested: bool
     message: str
-# end
 
     def __bool__(self) -> bool:
         return self.message != "none"
 
 
-# made of functions:
-#   find_solid_defects
 def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDefects:
     """What `repair` would have to mend, and what it does not take. Nothing without points is a
     solid.
@@ -78,11 +78,8 @@ def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDef
     '1 vertex that is not finite, there are points, but no faces'
     """
     return _core.find_solid_defects(held(mesh), progress=progress)
-# end
 
 
-# made of results:
-#   mesh_defects
 @dataclass(frozen=True, repr=False)
 class MeshDefects(Result):
     """Points and faces with defects, ascending. A face is in at most one list.
@@ -97,11 +94,8 @@ class MeshDefects(Result):
     nonfinite_faces: Ids
     degenerate_faces: Ids
     out_of_range_faces: Ids
-# end
 
 
-# made of functions:
-#   find_defects
 def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
     """Finds the points and faces that algorithms refuse or treat in a special way.
 
@@ -120,11 +114,8 @@ def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
     ([3], [0])
     """
     return _core.find_defects(held(mesh), progress=progress)
-# end
 
 
-# made of results:
-#   topology_counts
 @dataclass(frozen=True, repr=False)
 class Topology(Result):
     """Counts over the faces with three different corner numbers. Faces that repeat a corner have no
@@ -157,11 +148,8 @@ class Topology(Result):
     repeated_corner_faces: int
     duplicate_faces: int
     closed: bool
-# end
 
 
-# made of functions:
-#   count_topology count_inside_out face_components
 def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
     """Counts edges, components and defects of a mesh. Only corner numbers matter, so corners with
     equal coordinates should be joined first (`join_equal_points`).
@@ -214,11 +202,8 @@ def face_components(mesh: MeshLike, *, progress: Progress = None) -> Ids:
     1
     """
     return _core.face_components(held(mesh), progress=progress)
-# end
 
 
-# made of results:
-#   mesh_feature
 @dataclass(frozen=True, repr=False)
 class Feature(Result):
     """A plane or an axis, fitted to faces by least squares.
@@ -241,11 +226,8 @@ class Feature(Result):
     area: float
     deviation: float
     faces: Ids
-# end
 
 
-# made of functions:
-#   find_features
 def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | None = None,
                   plane_angle: float = 1.0, facet_angle: float = 46.0, arc: float = 60.0,
                   progress: Progress = None) -> list[Feature]:

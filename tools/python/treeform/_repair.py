@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Any, Iterable
 
@@ -15,9 +16,9 @@ from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
 from ._results import Certificate, Result
 
-__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "convex_hull",
-           "find_rounding_defects", "join_equal_points", "repair", "resolve_self_intersections",
-           "rounded"]
+__all__ = ["ConvexHull", "MadeMesh", "RepairResult", "convex_hull", "find_rounding_defects",
+           "join_equal_points", "repair", "resolve_self_intersections", "rounded"]
+# end
 
 
 @dataclass(frozen=True, repr=False)
@@ -32,8 +33,48 @@ class MadeMesh(MeshResult):
     certificate: Certificate
 
 
-# made of results:
-#   repair_result
+STEPS = ("join", "orient", "fill", "resolve", "detach")
+
+
+def steps_of(steps: Iterable[str]) -> dict[str, bool]:
+    """Whether each step is taken."""
+    taken = _arrays.words(steps, "steps")
+    for step in taken:
+        if step not in STEPS:
+            raise ValueError(f"steps: \"{step}\" is none of {', '.join(STEPS)}")
+    return {step: step in taken for step in STEPS}
+
+
+# made of headers:
+#   ConvexHull
+@dataclass(frozen=True, repr=False)
+class ConvexHull(Result):
+    """The convex hull of points: triangles, grouped by flat sides.
+
+    dimension: 3 for points that span space, 2 in a plane, 1 on a line, 0 when all are equal, -1 for
+        none.
+    faces: (F, 3) numbers of the points, outward.
+    first_face: (S,) the first face of each flat side; its faces follow one another.
+    areas: (S,) the area of each side.
+    normals: (S, 3) the outward normal of each side, of length 1.
+    """
+
+    dimension: int
+    faces: Ids
+    first_face: Ids
+    areas: Floats
+    normals: Floats
+# end
+
+    def mesh(self, points: Body) -> Mesh:
+        """The hull as a closed mesh, of the points that it uses: `points` are those it is of."""
+        used, faces = np.unique(self.faces, return_inverse=True)
+        return Mesh(points_of(points)[used], faces.reshape(-1, 3))
+
+
+# made of headers:
+#   RepairResult resolve_self_intersections repair convex_hull rounded find_rounding_defects
+#   join_equal_points
 @dataclass(frozen=True, repr=False)
 class RepairResult(MadeMesh):
     """A mended mesh.
@@ -49,11 +90,8 @@ class RepairResult(MadeMesh):
     vertex_source: Ids
     is_left: NDArray[np.bool_]
     steps: dict[str, Any]
-# end
 
 
-# made of functions:
-#   resolve_self_intersections
 def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: str = "nonzero",
                                precision: str = "float64", max_displacement: float = np.inf,
                                keep_cuts: bool = False, touching: bool = False,
@@ -103,23 +141,8 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     how = options(_core.ResolveOptions, locals())
     return checked(_core.resolve_self_intersections(held(mesh), mode, how,
                                                     progress=progress), check, of_one=True)
-# end
 
 
-STEPS = ("join", "orient", "fill", "resolve", "detach")
-
-
-def steps_of(steps: Iterable[str]) -> dict[str, bool]:
-    """Whether each step is taken."""
-    taken = _arrays.words(steps, "steps")
-    for step in taken:
-        if step not in STEPS:
-            raise ValueError(f"steps: \"{step}\" is none of {', '.join(STEPS)}")
-    return {step: step in taken for step in STEPS}
-
-
-# made of functions:
-#   repair
 def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = None,
            largest_hole: int | None = None, strays: float = 0.001, inside: str = "automatic",
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
@@ -173,38 +196,8 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     """
     how = options(_core.RepairOptions, locals(), **steps_of(steps))
     return checked(_core.repair(held(mesh), how, progress=progress), check, of_one=True)
-# end
 
 
-# made of results:
-#   convex_hull_result
-@dataclass(frozen=True, repr=False)
-class ConvexHull(Result):
-    """The convex hull of points: triangles, grouped by flat sides.
-
-    dimension: 3 for points that span space, 2 in a plane, 1 on a line, 0 when all are equal, -1 for
-        none.
-    faces: (F, 3) numbers of the points, outward.
-    first_face: (S,) the first face of each flat side; its faces follow one another.
-    areas: (S,) the area of each side.
-    normals: (S, 3) the outward normal of each side, of length 1.
-    """
-
-    dimension: int
-    faces: Ids
-    first_face: Ids
-    areas: Floats
-    normals: Floats
-# end
-
-    def mesh(self, points: Body) -> Mesh:
-        """The hull as a closed mesh, of the points that it uses: `points` are those it is of."""
-        used, faces = np.unique(self.faces, return_inverse=True)
-        return Mesh(points_of(points)[used], faces.reshape(-1, 3))
-
-
-# made of functions:
-#   convex_hull rounded find_rounding_defects join_equal_points
 def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
     """The convex hull of `points`, exact on the coordinates as given: no point is outside the plane
     of a face, and faces belong to one side if and only if they are exactly coplanar. Of equal
@@ -278,5 +271,5 @@ def join_equal_points(mesh: MeshLike, *, progress: Progress = None) -> Mesh:
     >>> soup, treeform.join_equal_points(soup)
     (Mesh(36 vertices, 12 faces), Mesh(8 vertices, 12 faces))
     """
-    return Mesh._of(*_core.join_equal_points(held(mesh), progress=progress))
+    return _core.join_equal_points(held(mesh), progress=progress)
 # end

@@ -40,8 +40,8 @@ class Result:
         return f"{type(self).__name__}({', '.join(f'{name}={brief(v)}' for name, v in fields)})"
 
 
-# made of results:
-#   certificate
+# made of headers:
+#   Certificate
 @dataclass(frozen=True, repr=False)
 class Certificate(Result):
     """What was checked about the coordinates of a result, with exact predicates. True where

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from dataclasses import dataclass
 from typing import Iterable, Mapping, NamedTuple
 
@@ -13,11 +14,14 @@ from ._arrays import Floats, Ids, path_of
 from ._files import Path
 from ._mesh import Mesh
 from ._progress import Progress
-from ._results import Result
+from ._results import Result, tuple_repr
 
 __all__ = ["Joint", "Robot", "read_urdf"]
+# end
 
 
+# made of headers:
+#   Joint
 class Joint(NamedTuple):
     """What connects two links.
 
@@ -34,7 +38,13 @@ class Joint(NamedTuple):
     child: str
     limits: tuple[float, float] | None
 
+    def __repr__(self) -> str:
+        return tuple_repr(self)
+# end
 
+
+# made of headers:
+#   Robot
 @dataclass(frozen=True, repr=False)
 class Robot(Result):
     """Links and joints, with a mesh for each link that has any.
@@ -61,6 +71,7 @@ class Robot(Result):
     approximated: list[str]
     skipped: list[str]
     _data: _core.RobotData
+# end
 
     def poses(self, values: Mapping[str, ArrayLike] | None = None) -> Floats:
         """(N, 4, 4): where each part is, from its own frame to that of the robot; (P, N, 4, 4)
@@ -109,8 +120,5 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     [True, False]
     """
     folders = _arrays.several(package_folders, "package_folders")
-    (data, name, links, joints, parts, link_of_part, adjacent, approximated,
-     skipped) = _core.read_urdf(
-        path_of(path), [path_of(one) for one in folders], visual, progress=progress)
-    return Robot(name, links, [Joint(*one) for one in joints], [Mesh._of(*one) for one in parts],
-                 np.array(link_of_part, np.uint32), adjacent, approximated, skipped, data)
+    return _core.read_urdf(path_of(path), [path_of(one) for one in folders], visual,
+                           progress=progress)

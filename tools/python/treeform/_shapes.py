@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 import os
 from dataclasses import dataclass
 from typing import Any, Union
@@ -20,10 +21,46 @@ from ._results import Result
 __all__ = ["Isoline", "Isolines", "OffsetResult", "OrientedBox", "SimplifyResult", "Thickness",
            "hollow", "isolines", "offset", "oriented_box", "simplify", "thicken", "wall_thickness",
            "wrap"]
+# end
 
 
-# made of results:
-#   offset_result
+def drains_of(drains: ArrayLike) -> Floats:
+    """(n, 4); none of an empty list."""
+    return np.empty((0, 4)) if np.size(drains) == 0 else _arrays.rows(drains, 4, "drains")
+
+
+# made of headers:
+#   Isolines
+@dataclass(frozen=True, repr=False)
+class Isolines(Result):
+    """Lines of all levels, in the order of the levels as given.
+
+    lines: One after the other.
+    points: (n, 3) on edges of the mesh, rounded.
+    faces: (points,) the face that the side from each point on lies in.
+    """
+
+    lines: list[Isoline]
+    points: Floats
+    faces: Ids
+# end
+
+    def points_of(self, line: int) -> Floats:
+        """(n, 3) the points of a line, by its number; a closed one does not repeat its first."""
+        of = self.lines[line]
+        return self.points[of.first_point:of.first_point + of.point_count]
+
+    def write(self, path: Union[str, os.PathLike[str]], *, normal: ArrayLike = (0, 0, 1),
+              format: str = "", unit: str = "", progress: Progress = None) -> None:
+        """Writes all lines as SVG (as seen from where `normal` points), DXF, OBJ or JSON, by the
+        extension or `format`; `unit` as for sections."""
+        _core.write_isolines(os.fspath(path), self.lines, self.points,
+                             _arrays.floats(normal, "normal"), format, unit, progress=progress)
+
+
+# made of headers:
+#   OffsetResult offset hollow thicken wrap SimplifyResult simplify Thickness wall_thickness
+#   OrientedBox oriented_box Isoline isolines
 @dataclass(frozen=True, repr=False)
 class OffsetResult(MadeMesh):
     """A solid at a distance from a mesh: around it, hollow, or a wrap.
@@ -35,16 +72,8 @@ class OffsetResult(MadeMesh):
 
     statistics: dict[str, Any]
     blind_drains: Ids
-# end
 
 
-def drains_of(drains: ArrayLike) -> Floats:
-    """(n, 4); none of an empty list."""
-    return np.empty((0, 4)) if np.size(drains) == 0 else _arrays.rows(drains, 4, "drains")
-
-
-# made of functions:
-#   offset hollow thicken wrap
 def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
            precision: str = "float64", check: bool = True,
            progress: Progress = None) -> OffsetResult:
@@ -188,11 +217,8 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     """
     how = options(_core.OffsetOptions, locals())
     return checked(_core.wrap(held(mesh), size, how, progress=progress), check, of_one=True)
-# end
 
 
-# made of results:
-#   simplify_result
 @dataclass(frozen=True, repr=False)
 class SimplifyResult(MadeMesh):
     """A mesh with fewer faces.
@@ -223,11 +249,8 @@ class SimplifyResult(MadeMesh):
     vertex_source: Ids
     face_of_new_vertex: Ids
     corner_source: Ids
-# end
 
 
-# made of functions:
-#   simplify
 def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | None = None,
              precision: str = "float64", target_faces: int = 0, feature_angle: float = 180.0,
              check: bool = True, progress: Progress = None) -> SimplifyResult:
@@ -273,11 +296,8 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
     return checked(_core.simplify(held(mesh), max_distance,
                                   _arrays.labels(face_groups, "face_groups"), how,
                                   progress=progress), check, of_one=True)
-# end
 
 
-# made of results:
-#   thickness_result
 @dataclass(frozen=True, repr=False)
 class Thickness(Result):
     """The thickness at each face, and the least.
@@ -290,11 +310,8 @@ class Thickness(Result):
     of_face: Floats
     least: float
     thinnest: int
-# end
 
 
-# made of functions:
-#   wall_thickness
 def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None) -> Thickness:
     """How thick the walls of a solid are, face by face. Which face a ray leaves through is exact,
     for the center and normal as rounded; lengths are rounded. A ball is found to 2^-20 of its
@@ -312,11 +329,8 @@ def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None
     1.0
     """
     return _core.wall_thickness(held(mesh), by, progress=progress)
-# end
 
 
-# made of results:
-#   oriented_box
 @dataclass(frozen=True, repr=False)
 class OrientedBox(Result):
     """A box turned in any way.
@@ -329,11 +343,8 @@ class OrientedBox(Result):
     center: Floats
     axes: Floats
     size: Floats
-# end
 
 
-# made of functions:
-#   oriented_box
 def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | None:
     """The box of least volume around points, of those with a side in a side of their convex hull,
     and another along an edge of it, or along the axes of space. Of flat points, the least area.
@@ -353,11 +364,8 @@ def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | No
     [1.0, 1.0, 1.0]
     """
     return _core.oriented_box(points_of(points), progress=progress)
-# end
 
 
-# made of results:
-#   isoline
 @dataclass(frozen=True, repr=False)
 class Isoline(Result):
     """A line on a mesh along which a value has a level.
@@ -376,40 +384,8 @@ class Isoline(Result):
     closed: bool
     oriented: bool
     length: float
-# end
 
 
-# made of results:
-#   isolines_result
-@dataclass(frozen=True, repr=False)
-class Isolines(Result):
-    """Lines of all levels, in the order of the levels as given.
-
-    lines: One after the other.
-    points: (n, 3) on edges of the mesh, rounded.
-    faces: (points,) the face that the side from each point on lies in.
-    """
-
-    lines: list[Isoline]
-    points: Floats
-    faces: Ids
-# end
-
-    def points_of(self, line: int) -> Floats:
-        """(n, 3) the points of a line, by its number; a closed one does not repeat its first."""
-        of = self.lines[line]
-        return self.points[of.first_point:of.first_point + of.point_count]
-
-    def write(self, path: Union[str, os.PathLike[str]], *, normal: ArrayLike = (0, 0, 1),
-              format: str = "", unit: str = "", progress: Progress = None) -> None:
-        """Writes all lines as SVG (as seen from where `normal` points), DXF, OBJ or JSON, by the
-        extension or `format`; `unit` as for sections."""
-        _core.write_isolines(os.fspath(path), self.lines, self.points,
-                             _arrays.floats(normal, "normal"), format, unit, progress=progress)
-
-
-# made of functions:
-#   isolines
 def isolines(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *,
              progress: Progress = None) -> Isolines:
     """Where a value has given levels: `values` has one for each vertex, and is linear in each face.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 import html
 import os
 import re
@@ -15,6 +16,7 @@ from ._files import Path
 from ._mesh import MeshLike, held_body
 
 __all__ = ["Picture", "View", "plot", "show"]
+# end
 
 #: A mesh, or the points of a cloud.
 _Shown = Union[MeshLike, ArrayLike]
@@ -159,10 +161,8 @@ def _look_of(meshes: Sequence[Any], names: Sequence[str], colors: Sequence[str],
             raise ValueError(f"colors: {color!r} is no '#rrggbb'")
     known = None
     if values is not None:
-        known = _arrays.floats(values, "values")
-        if known.shape != (len(held[0].vertices),):
-            raise ValueError(f"values: the shape is {known.shape}, not "
-                             f"({len(held[0].vertices)},)")
+        known, count = _arrays.floats(values, "values"), len(held[0].vertices)
+        _arrays.shaped(known, known.shape == (count,), "values", f"({count},)")
         finite = known[np.isfinite(known)]
         if limits is None:
             limits = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)

@@ -6,10 +6,14 @@ import threading
 from functools import partial
 from typing import TYPE_CHECKING, Any, Callable, Generic, Protocol, TypeVar
 
+from . import _arrays
 from ._errors import Cancelled, Error
+from ._progress import Progress
 
 if TYPE_CHECKING:
     from typing_extensions import Self
+
+    from . import _core
 
 
 class Communicator(Protocol):
@@ -82,13 +86,7 @@ def in_communicator(communicator: Communicator | None,
     return made
 
 
-class _InTiles(Protocol):
-    def tiles(self) -> int: ...
-    def remove_folder(self) -> None: ...
-    def close(self) -> None: ...
-
-
-_Work = TypeVar("_Work", bound=_InTiles)
+_Work = TypeVar("_Work", bound="_core._InSteps")
 
 
 class InSteps(Generic[_Work]):
@@ -98,7 +96,14 @@ class InSteps(Generic[_Work]):
         """arguments: those that it was made with, and other local names."""
         self._work = work
         self._made_of = {name: value for name, value in arguments.items()
-                         if name not in ("self", "__class__", "how", "progress")}
+                         if name not in ("self", "__class__", "how", "work", "progress")}
+
+    def scatter(self, *, progress: Progress = None) -> int:
+        """Fills the tiles, unless that is done. Returns how many there are."""
+        return self._work.scatter(progress=progress)
+
+    def _do_tile(self, tile: int, progress: Progress) -> None:
+        self._work.do_tile(_arrays.number(tile, "tile", 0), progress=progress)
 
     @property
     def tiles(self) -> int:

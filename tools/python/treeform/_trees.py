@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from ._progress import Progress, part
 from ._results import tuple_repr
 
 __all__ = ["BoxTree", "Neighbors", "PointTree"]
+# end
 
 Numbers = NDArray[np.int64]
 
@@ -22,9 +24,8 @@ _MOST = 2 ** 62  # more neighbors than there is memory for
 def _table(values: ArrayLike, name: str) -> Floats:
     """`values` as (n, 2) or (n, 3)."""
     array = _arrays.floats(values, name)
-    if array.ndim != 2 or array.shape[1] not in (2, 3):
-        raise ValueError(f"{name}: the shape is {array.shape}, not (n, 2) or (n, 3)")
-    return array
+    return _arrays.shaped(array, array.ndim == 2 and array.shape[1] in (2, 3), name,
+                          "(n, 2) or (n, 3)")
 
 
 class Neighbors(NamedTuple):
@@ -47,8 +48,7 @@ class Neighbors(NamedTuple):
 def _queries(x: ArrayLike, width: int) -> tuple[Floats, tuple[int, ...]]:
     """(q, width), and the shape that the answers have."""
     array = _arrays.floats(x, "x")
-    if array.ndim == 0 or array.shape[-1] != width:
-        raise ValueError(f"x: the shape is {array.shape}, not (..., {width})")
+    _arrays.shaped(array, array.ndim > 0 and array.shape[-1] == width, "x", f"(..., {width})")
     return np.ascontiguousarray(array.reshape(-1, width)), array.shape[:-1]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# made of uses:
 import os
 from dataclasses import dataclass
 from typing import Any, Iterable, Mapping
@@ -9,20 +10,21 @@ from typing import Any, Iterable, Mapping
 from numpy.typing import ArrayLike
 
 from . import _arrays, _core
-from ._arrays import Floats, Ids, columns_of, path_of
-from ._errors import options, settings
+from ._arrays import Floats, Ids, path_of
+from ._errors import options
 from ._files import Columns, Path
-from ._mesh import Body, Mesh, MeshResult, as_mesh, cloud_of
+from ._mesh import Body, Mesh, MeshResult, held_body
 from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
 
 __all__ = ["StreamWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal", "weld",
            "weld_stream"]
+# end
 
 
-# made of results:
-#   weld_result
+# made of headers:
+#   WeldResult
 @dataclass(frozen=True, repr=False)
 class WeldResult(MeshResult):
     """A welded mesh or cloud.
@@ -47,21 +49,81 @@ class WeldResult(MeshResult):
         return self.mesh.vertices
 
 
-def welded(body: Any, how: _core.WeldOptions, label: ArrayLike | None,
-           progress: Progress) -> WeldResult:
-    """`weld` of a cloud, or of a mesh with its attributes."""
-    labels = _arrays.labels(label, "label")
-    points = cloud_of(body)
-    if points is not None:
-        return _core.weld_cloud(points, None, how, labels, progress=progress)
-    mesh = as_mesh(body)
-    if len(mesh._faces):
-        return _core.weld_mesh(mesh._held, mesh._attributes, how, labels, progress=progress)
-    return _core.weld_cloud(mesh._vertices, mesh._attributes, how, labels, progress=progress)
+def inputs_of(files: Path | Iterable[Path], columns: Columns | None,
+              mixed: bool) -> _core.CloudInputs:
+    """Files to weld, as one."""
+    return options(_core.CloudInputs, {"columns": columns, "mixed": mixed},
+                   paths=_arrays.paths(files, "files"))
 
 
-# made of functions:
-#   weld count_nearly_equal
+def streamed(inputs: _core.CloudInputs, how: _core.WeldStreamOptions, out: Path, removed: Path,
+             label: str, withhold: bool, communicator: Communicator | None,
+             progress: Progress) -> WeldStreamResult:
+    """`weld_stream`, alone or together."""
+    return in_communicator(communicator, lambda all: _core.weld_stream(
+        inputs, how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
+        progress=progress))
+
+
+class StreamWeld(InSteps[_core.WeldInSteps]):
+    """`weld_stream` step by step, for many processes, of one machine or of several that see the
+    folder: those of Dask, of Slurm, of `multiprocessing`.
+
+    All make it with the same arguments. One calls `scatter`; then each calls `weld_tile` for its
+    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
+    is finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
+    input's name and ".tiles".
+
+    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs
+    all others to have let go of it. A copy for another process (pickle) is made anew from its
+    arguments. A step before its turn raises FileError, a tile that is not there IndexError. After
+    Cancelled, make it anew.
+
+    >>> import os, tempfile, treeform
+    >>> with tempfile.TemporaryDirectory() as home:
+    ...     cloud = os.path.join(home, "cloud.xyz")
+    ...     _ = treeform.write(cloud, ([[x, 0, 0] for x in range(1000)], []))
+    ...     options = dict(tolerance=1.5, points_per_tile=100)
+    ...     with treeform.StreamWeld(cloud, **options) as first:
+    ...         count = first.scatter()
+    ...     for tile in range(count):  # in as many processes as there are
+    ...         with treeform.StreamWeld(cloud, **options) as one:
+    ...             one.weld_tile(tile)
+    ...     with treeform.StreamWeld(cloud, **options) as last:
+    ...         done = last.finish(os.path.join(home, "thin.xyz"))
+    ...         last.remove_folder()
+    >>> count > 1, done.kept
+    (True, 500)
+    """
+
+    def __init__(self, files: Path | Iterable[Path], tolerance: float = 0.0, *,
+                 relative: bool = False, rule: str = "first", keep: str = "first",
+                 keep_by: str = "", order: str = "given", order_by: str = "",
+                 same: Mapping[str, float] | None = None, keep_seams: bool = False,
+                 across: Iterable[str] = (),
+                 keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
+                 folder: Path = "", points_per_tile: int = 0, columns: Columns | None = None,
+                 mixed: bool = False, progress: Progress = None) -> None:
+        files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
+        across = _arrays.several(across, "across")
+        how = options(_core.WeldStreamOptions, locals())
+        work = _core.weld_of(inputs_of(files, columns, mixed), how, progress=progress)
+        super().__init__(work, locals())
+
+    def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
+        """Welds a tile, from 0, unless that is done."""
+        self._do_tile(tile, progress)
+
+    def finish(self, out: Path, *, removed: Path = "", label: str = "", withhold: bool = False,
+               progress: Progress = None) -> WeldStreamResult:
+        """Welds what lies along the borders of tiles, when all are welded, and writes the outputs,
+        each whole or not at all. Once."""
+        return self._work.finish(path_of(out), path_of(removed), _arrays.word(label, "label"),
+                                 withhold, progress=progress)
+
+
+# made of headers:
+#   weld count_nearly_equal WeldStreamResult weld_stream
 def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
          same: Mapping[str, float] | None = None, keep_seams: bool = False,
          across: Iterable[str] = (), keep: str = "first", keep_by: str = "", order: str = "given",
@@ -136,7 +198,8 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
     ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
     """
     how = options(_core.WeldOptions, locals())
-    return welded(mesh_or_points, how, label, progress)
+    return _core.weld(held_body(mesh_or_points), how, _arrays.labels(label, "label"),
+                      progress=progress)
 
 
 def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress = None) -> int:
@@ -148,11 +211,8 @@ def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress
     1
     """
     return _core.count_nearly_equal(_arrays.points(points, "points"), distance, progress=progress)
-# end
 
 
-# made of results:
-#   weld_stream_result
 @dataclass(frozen=True, repr=False)
 class WeldStreamResult(Result):
     """What `weld_stream` has done.
@@ -181,29 +241,8 @@ class WeldStreamResult(Result):
     faces: int
     statistics: dict[str, int]
     warnings: list[str]
-# end
 
 
-def settings_of(files: Path | Iterable[Path], how: _core.WeldStreamOptions, columns: Columns | None,
-                mixed: bool) -> _core.StreamSettings:
-    """How to weld files: one, or several."""
-    paths = [files] if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
-    if not paths:
-        raise ValueError("files: there are none")
-    return settings(_core.StreamSettings, [path_of(path) for path in paths], how,
-                    columns_of(columns, "columns"), mixed)
-
-
-def streamed(how: _core.StreamSettings, out: Path, removed: Path, label: str, withhold: bool,
-             communicator: Communicator | None, progress: Progress) -> WeldStreamResult:
-    """`weld_stream`, alone or together."""
-    return in_communicator(communicator, lambda all: _core.weld_stream(
-        how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
-        progress=progress))
-
-
-# made of functions:
-#   weld_stream
 def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0, *,
                 relative: bool = False, rule: str = "first",
                 same: Mapping[str, float] | None = None, keep: str = "first", keep_by: str = "",
@@ -266,66 +305,6 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
     (3, 2)
     """
     how = options(_core.WeldStreamOptions, locals())
-    return streamed(settings_of(files, how, columns, mixed), out, removed, label, withhold,
+    return streamed(inputs_of(files, columns, mixed), how, out, removed, label, withhold,
                     communicator, progress)
 # end
-
-
-class StreamWeld(InSteps[_core.WeldInSteps]):
-    """`weld_stream` step by step, for many processes, of one machine or of several that see the
-    folder: those of Dask, of Slurm, of `multiprocessing`.
-
-    All make it with the same arguments. One calls `scatter`; then each calls `weld_tile` for its
-    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
-    is finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
-    input's name and ".tiles".
-
-    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs
-    all others to have let go of it. A copy for another process (pickle) is made anew from its
-    arguments. A step before its turn raises FileError, a tile that is not there IndexError. After
-    Cancelled, make it anew.
-
-    >>> import os, tempfile, treeform
-    >>> with tempfile.TemporaryDirectory() as home:
-    ...     cloud = os.path.join(home, "cloud.xyz")
-    ...     _ = treeform.write(cloud, ([[x, 0, 0] for x in range(1000)], []))
-    ...     options = dict(tolerance=1.5, points_per_tile=100)
-    ...     with treeform.StreamWeld(cloud, **options) as first:
-    ...         count = first.scatter()
-    ...     for tile in range(count):  # in as many processes as there are
-    ...         with treeform.StreamWeld(cloud, **options) as one:
-    ...             one.weld_tile(tile)
-    ...     with treeform.StreamWeld(cloud, **options) as last:
-    ...         done = last.finish(os.path.join(home, "thin.xyz"))
-    ...         last.remove_folder()
-    >>> count > 1, done.kept
-    (True, 500)
-    """
-
-    def __init__(self, files: Path | Iterable[Path], tolerance: float = 0.0, *,
-                 relative: bool = False, rule: str = "first", keep: str = "first",
-                 keep_by: str = "", order: str = "given", order_by: str = "",
-                 same: Mapping[str, float] | None = None, keep_seams: bool = False,
-                 across: Iterable[str] = (),
-                 keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
-                 folder: Path = "", points_per_tile: int = 0, columns: Columns | None = None,
-                 mixed: bool = False, progress: Progress = None) -> None:
-        files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
-        across = _arrays.several(across, "across")
-        how = settings_of(files, options(_core.WeldStreamOptions, locals()), columns, mixed)
-        super().__init__(_core.weld_of(how, progress=progress), locals())
-
-    def scatter(self, *, progress: Progress = None) -> int:
-        """Gives each tile its points, unless they have them. Returns the number of tiles."""
-        return self._work.scatter(progress=progress)
-
-    def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
-        """Welds a tile, from 0, unless that is done."""
-        self._work.weld_tile(_arrays.number(tile, "tile", 0), progress=progress)
-
-    def finish(self, out: Path, *, removed: Path = "", label: str = "", withhold: bool = False,
-               progress: Progress = None) -> WeldStreamResult:
-        """Welds what lies along the borders of tiles, when all are welded, and writes the outputs,
-        each whole or not at all. Once."""
-        return self._work.finish(path_of(out), path_of(removed), _arrays.word(label, "label"),
-                                 withhold, progress=progress)

@@ -27,12 +27,6 @@ py::object layer_heights(const held_mesh& mesh, double thickness, const array_of
     }));
 }
 
-py::object moved_points(const held_mesh& mesh, const array_of<double>& matrix) {
-    return as_python(run([&](const tf::progress_callback&) {
-        return tf::transform_mesh({mesh.view().points, {}}, transform_of(matrix)).points;
-    }));
-}
-
 py::object mass_properties(const held_mesh& mesh) {
     return as_python(
         run([&](const tf::progress_callback&) { return tf::find_mass_properties(mesh.view()); }));
@@ -205,10 +199,41 @@ py::object count_nearly_equal(const points_array& points, double distance) {
     }));
 }
 
+py::object closest_point(const held_mesh& mesh, const points_array& points, double radius) {
+    return as_python(in_pieces(points_of(points).size(), [&](std::size_t begin, std::size_t end) {
+        return tf::closest_point(mesh.prepared(), points_of(points).subspan(begin, end - begin),
+                                 radius);
+    }));
+}
+
+py::object raycast(const held_mesh& mesh, const points_array& origins,
+                   const points_array& directions, double t_min, double t_max) {
+    return as_python(in_pieces(
+        rays(origins, directions, t_min, t_max).size(), [&](std::size_t begin, std::size_t end) {
+            return finite(tf::raycast(mesh.prepared(),
+                                      rays(origins, directions, t_min, t_max).piece(begin, end)));
+        }));
+}
+
+py::object raycast_any(const held_mesh& mesh, const points_array& origins,
+                       const points_array& directions, double t_min, double t_max) {
+    return as_python(in_pieces(
+        rays(origins, directions, t_min, t_max).size(), [&](std::size_t begin, std::size_t end) {
+            return tf::raycast_any(mesh.prepared(),
+                                   rays(origins, directions, t_min, t_max).piece(begin, end));
+        }));
+}
+
 py::object deviation(const held_mesh& a, const held_mesh& b, tf::deviation_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::deviation(a.prepared(), b.prepared(), options);
+    }));
+}
+
+py::object locate_points(const held_mesh& mesh, const points_array& points) {
+    return as_python(in_pieces(points_of(points).size(), [&](std::size_t begin, std::size_t end) {
+        return tf::locate(mesh.prepared(), points_of(points).subspan(begin, end - begin));
     }));
 }
 
@@ -266,7 +291,6 @@ void add_functions(py::module_& module) {
     add_job(module, "check_solid", &check_solid);
     add_job(module, "section", &section);
     add_job(module, "layer_heights", &layer_heights);
-    add_job(module, "moved_points", &moved_points);
     add_job(module, "mass_properties", &mass_properties);
     add_job(module, "offset", &offset, job_kind::long_work);
     add_job(module, "hollow", &hollow, job_kind::long_work);
@@ -293,7 +317,11 @@ void add_functions(py::module_& module) {
     add_job(module, "group_pairs", &group_pairs);
     add_job(module, "intersection_paths", &intersection_paths);
     add_job(module, "count_nearly_equal", &count_nearly_equal);
+    add_job(module, "closest_point", &closest_point);
+    add_job(module, "raycast", &raycast);
+    add_job(module, "raycast_any", &raycast_any);
     add_job(module, "deviation", &deviation);
+    add_job(module, "locate_points", &locate_points);
     add_job(module, "measure", &measure);
     add_job(module, "penetration_depth", &penetration_depth);
     add_job(module, "time_of_impact", &time_of_impact);

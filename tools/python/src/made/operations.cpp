@@ -193,6 +193,25 @@ py::object align(const held_mesh& moving, const held_mesh& onto, tf::align_optio
                      moving);
 }
 
+py::object mate_features(const held_mesh& moving, const held_meshes& onto,
+                         const tf::mesh_feature& of_moving, const tf::mesh_feature& of_fixed,
+                         tf::placement_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::mate_features(moving.ref(), refs_of(onto), of_moving, of_fixed,
+                                                  options);
+                     }),
+                     moving);
+}
+
+py::object pack(const held_meshes& parts, tf::pack_options options) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         options.progress = report;
+                         return tf::pack(refs_of(parts), options);
+                     }),
+                     parts);
+}
+
 }  // namespace
 
 void add_operations(py::module_& module) {
@@ -214,6 +233,8 @@ void add_operations(py::module_& module) {
     add_job(module, "turn", &turn);
     add_job(module, "lay_flat", &lay_flat);
     add_job(module, "align", &align);
+    add_job(module, "mate_features", &mate_features);
+    add_job(module, "pack", &pack, job_kind::long_work);
 }
 
 }  // namespace binding

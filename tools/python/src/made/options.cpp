@@ -4,6 +4,13 @@
 namespace binding {
 
 template <class Visit>
+void each_field(tf::cloud_inputs& how, const Visit& visit) {
+    visit("paths", how.paths);
+    visit("columns", how.columns);
+    visit("mixed", how.mixed);
+}
+
+template <class Visit>
 void each_field(tf::read_options& how, const Visit& visit) {
     visit("columns", how.columns);
     visit("drop_nan", how.drop_nan);
@@ -237,6 +244,7 @@ void each_field(tf::clash_options& how, const Visit& visit) {
 }
 
 void add_options(py::module_& module) {
+    add_options_of<tf::cloud_inputs>(module, "CloudInputs");
     add_options_of<tf::read_options>(module, "ReadOptions");
     add_options_of<tf::write_options>(module, "WriteOptions");
     add_options_of<tf::boolean_options>(module, "BooleanOptions");

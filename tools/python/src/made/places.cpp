@@ -44,6 +44,34 @@ py::object object(of_result, tf::closest_points_result&& from) {
     return object_of("treeform._assembly", "NearestPoints", made);
 }
 
+py::object object(of_result, std::vector<std::optional<tf::closest_point_result>>&& from) {
+    py::dict made;
+    made["triangle_id"] = column(from, &tf::closest_point_result::face);
+    made["distance"] = column(from, &tf::closest_point_result::distance);
+    made["closest"] = column(from, &tf::closest_point_result::point);
+    return object_of("treeform._nearness", "ClosestPoints", made);
+}
+
+py::object object(of_result, std::vector<std::optional<tf::mesh_hit>>&& from) {
+    py::dict made;
+    made["face"] = column(from, &tf::mesh_hit::face);
+    made["at"] =
+        column(from, [](const auto& one) { return one ? one->at : tf::feature::interior; });
+    made["t"] = column(from, &tf::mesh_hit::t);
+    return object_of("treeform._nearness", "RayHits", made);
+}
+
+py::object object(of_result, std::vector<tf::placement_contact>&& from) {
+    py::dict made;
+    made["points"] = column(from, &tf::placement_contact::point);
+    made["normals"] = column(from, &tf::placement_contact::normal);
+    made["moving"] = column(from, &tf::placement_contact::moving);
+    made["fixed_face"] = column(from, &tf::placement_contact::fixed_face);
+    made["fixed"] =
+        column(from, [](const auto& one) { return static_cast<std::uint32_t>(one.fixed); });
+    return object_of("treeform._placement", "Contacts", made);
+}
+
 py::object object(of_result, tf::search_effort&& from) {
     py::dict made;
     made["pairs"] = as_python(std::move(from.pairs));
@@ -82,7 +110,7 @@ py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
                           ? py::object(py::make_tuple(from.nearest->fixed,
                                                       as_python(std::move(from.nearest->how))))
                           : py::none();
-    made["contacts"] = contacts_of(from);
+    made["contacts"] = as_python(std::move(from.contacts));
     made["contact_count"] = as_python(std::move(from.contact_count));
     made["effort"] = as_python(std::move(from.effort));
     made["angle"] = as_python(std::move(from.angle));
@@ -99,7 +127,7 @@ py::object object(of_result, tf::impact&& from) {
     made["faces"] = column(from.contacts, [](const auto& one) {
         return std::array{one.face_a, one.face_b};
     });
-    made["points"] = column(from.contacts, [](const auto& one) { return numbers(one.point); });
+    made["points"] = column(from.contacts, [](const auto& one) { return one.point; });
     return object_of("treeform._placement", "Impact", made);
 }
 
@@ -117,7 +145,7 @@ py::object object(of_result, tf::laid_flat&& from, const held_mesh& moving) {
     made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix, certificate);
     made["matrix"] = as_python(std::move(from.matrix));
     made["areas"] = column(from.sides, [](const auto& one) { return one.area; });
-    made["normals"] = column(from.sides, [](const auto& one) { return numbers(one.normal); });
+    made["normals"] = column(from.sides, [](const auto& one) { return one.normal; });
     made["tip_angles"] = column(from.stability, [](const auto& one) { return one.tip_angle; });
     made["overhangs"] = column(from.stability, [](const auto& one) { return one.overhang; });
     made["center_of_mass"] = as_python(std::move(from.center_of_mass));
@@ -158,9 +186,9 @@ py::object object(of_result, tf::packed_part&& from, const held_mesh& moving) {
     return object_of("treeform._placement", "PackedPart", made);
 }
 
-py::object object(of_result, tf::packing&& from) {
+py::object object(of_result, tf::packing&& from, const held_meshes& parts) {
     py::dict made;
-    made["parts"] = py::list();
+    made["parts"] = packed_parts(std::move(from.parts), parts);
     made["not_placed"] = as_python(std::move(from.not_placed));
     made["plates_used"] = as_python(std::move(from.plates_used));
     made["tries"] = as_python(std::move(from.tries));
@@ -194,9 +222,8 @@ py::object object(of_result, tf::pose_result&& from) {
     made["parts"] = column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) {
         return std::array{one.a, one.b};
     });
-    made["how"] = column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) {
-        return static_cast<std::uint8_t>(one.how);
-    });
+    made["how"] =
+        column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) { return one.how; });
     made["distance"] = column_of_poses(
         from, [](std::uint32_t, const tf::pose_clash& one) { return one.distance; });
     made["clashing"] = as_python(std::move(from.clashing));

@@ -40,6 +40,34 @@ py::object object(of_result, tf::boolean_result&& from, const carrying& attribut
     return object_of("treeform._booleans", "BooleanResult", made);
 }
 
+py::object object(of_result, tf::section_loop&& from, const tf::section_result& whole) {
+    py::dict made;
+    made["points"] = part_of<double>(whole.points, from);
+    made["faces"] = part_of<std::uint32_t>(whole.faces, from);
+    made["closed"] = as_python(std::move(from.closed));
+    made["oriented"] = as_python(std::move(from.oriented));
+    made["parent"] = parent_of(whole, from);
+    made["depth"] = as_python(std::move(from.depth));
+    made["area"] = as_python(std::move(from.area));
+    made["length"] = as_python(std::move(from.length));
+    return object_of("treeform._cuts", "SectionLoop", made);
+}
+
+py::object object(of_result, tf::section_result&& from) {
+    py::dict made;
+    made["heights"] = column(from.layers, [](const auto& one) { return one.height; });
+    made["origins"] = column(from.layers, [](const auto& one) { return one.at; });
+    made["areas"] = column(from.layers, [](const auto& one) { return one.area; });
+    made["lengths"] = column(from.layers, [](const auto& one) { return one.length; });
+    made["open_counts"] = column(from.layers, [](const auto& one) { return one.open_count; });
+    made["points"] = as_array<double>(std::vector(from.points));
+    made["faces"] = as_array(std::vector(from.faces));
+    made["frame"] =
+        column(std::array{from.frame.x, from.frame.y, from.frame.normal}, std::identity{});
+    made["_data"] = py::cast(std::move(from));
+    return object_of("treeform._cuts", "Section", made);
+}
+
 py::object object(of_result, tf::cut_piece&& from, const carrying& attributes) {
     const py::object certificate = as_python(tf::certificate(from.certificate));
     const py::object data = data_of(from, attributes);
@@ -157,7 +185,7 @@ py::object object(of_result, tf::convex_hull_result&& from) {
     made["faces"] = as_python(std::move(from.faces));
     made["first_face"] = column(from.sides, [](const auto& one) { return one.first_face; });
     made["areas"] = column(from.sides, [](const auto& one) { return one.area; });
-    made["normals"] = column(from.sides, [](const auto& one) { return numbers(one.normal); });
+    made["normals"] = column(from.sides, [](const auto& one) { return one.normal; });
     return object_of("treeform._repair", "ConvexHull", made);
 }
 
@@ -222,8 +250,7 @@ py::object object(of_result, tf::mesh_feature&& from) {
 py::object object(of_result, tf::intersection_result&& from) {
     py::dict made;
     made["pairs"] = column(from.pairs, [](const auto& one) { return std::array{one.a, one.b}; });
-    made["kinds"] =
-        column(from.pairs, [](const auto& one) { return static_cast<std::uint8_t>(one.kind); });
+    made["kinds"] = column(from.pairs, [](const auto& one) { return one.kind; });
     made["counts"] = counts_of<tf::pair_kind>(from.counts);
     return object_of("treeform._intersections", "FacePairs", made);
 }
@@ -244,8 +271,7 @@ py::object object(of_result, tf::stream_search_result&& from) {
     made["pairs"] = column(from.found.pairs, [](const auto& one) {
         return std::array{one.a, one.b};
     });
-    made["kinds"] = column(from.found.pairs,
-                           [](const auto& one) { return static_cast<std::uint8_t>(one.kind); });
+    made["kinds"] = column(from.found.pairs, [](const auto& one) { return one.kind; });
     made["counts"] = counts_of<tf::pair_kind>(from.found.counts);
     made["stored_faces"] = as_python(std::move(from.stored_faces));
     made["tiles"] = as_python(std::move(from.tiles));
@@ -259,6 +285,30 @@ py::object object(of_result, tf::write_result&& from) {
     made["max_displacement"] = as_python(std::move(from.max_displacement));
     made["warnings"] = texts_of(from.warnings);
     return object_of("treeform._files", "Written", made);
+}
+
+py::object object(of_result, tf::urdf_joint&& from, const tf::urdf_robot& robot) {
+    py::dict made;
+    made["name"] = as_python(std::move(from.name));
+    made["kind"] = as_python(std::move(from.kind));
+    made["parent"] = py::cast(robot.links[from.parent]);
+    made["child"] = py::cast(robot.links[from.child]);
+    made["limits"] = as_python(std::move(from.limits));
+    return object_of("treeform._robots", "Joint", made);
+}
+
+py::object object(of_result, tf::urdf_robot&& from, tf::robot_parts& parts) {
+    py::dict made;
+    made["name"] = as_python(std::move(from.name));
+    made["links"] = as_python(std::vector(from.links));
+    made["joints"] = as_python(std::vector(from.joints), from);
+    made["parts"] = meshes_of(std::move(parts.parts));
+    made["link_of_part"] = as_array(std::vector(parts.links));
+    made["adjacent"] = column(parts.adjacent, std::identity{});
+    made["approximated"] = as_python(std::move(from.approximated));
+    made["skipped"] = as_python(std::move(from.skipped));
+    made["_data"] = py::cast(robot_data{from, parts.links});
+    return object_of("treeform._robots", "Robot", made);
 }
 
 py::object object(of_result, tf::weld_result&& from, const file_data* data) {

@@ -1,0 +1,106 @@
+#include "tools/picture/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <span>
+
+namespace tools {
+namespace {
+
+/// Calls `see(kind, valued)` for each face and dot that is drawn; `valued`: the map colors it.
+template <class See>
+void for_items(const scene& shown, const See& see) {
+    const auto kind_of = [](const std::vector<std::uint8_t>& kind, std::size_t i) {
+        return kind[kind.size() == 1 ? 0 : i];
+    };
+    for (const scene_mesh& m : shown.meshes)
+        for (std::size_t f = 0; f < m.mesh.faces.size(); ++f) {
+            const std::uint8_t kind = kind_of(m.kind, f);
+            const bool valued = !m.value.empty() && !m.ghost && shown.classes[kind].context;
+            see(kind, valued && std::ranges::none_of(m.mesh.faces[f], [&](std::uint32_t corner) {
+                          return std::isnan(m.value[corner]);
+                      }));
+        }
+    for (const scene_dots& d : shown.dots)
+        for (std::size_t i = 0; i < d.points.size(); ++i)
+            if (is_finite(d.points[i]))
+                see(kind_of(d.kind, i), !d.value.empty() && !std::isnan(d.value[i]));
+}
+
+}  // namespace
+
+std::string scene_color(std::size_t number) {
+    static constexpr std::array<const char*, 10> first{"#4e79a7", "#f28e2b", "#59a14f", "#b07aa1",
+                                                       "#edc948", "#76b7b2", "#ff9da7", "#9c755f",
+                                                       "#e15759", "#3d5a80"};
+    if (number < first.size()) return first[number];
+    // Hues a golden angle apart, in 360ths of 1,000; brighter and darker in turn.
+    const std::size_t hue = number * 137'508 % 360'000;
+    const std::array<std::size_t, 3> high{225, 150, 190};
+    const std::size_t top = high[number % 3], low = top * 3 / 10;
+    const std::size_t rise = low + (top - low) * (hue % 60'000) / 60'000, fall = top + low - rise;
+    const std::array<std::array<std::size_t, 3>, 6> sixth{{{top, rise, low},
+                                                           {fall, top, low},
+                                                           {low, top, rise},
+                                                           {low, fall, top},
+                                                           {rise, low, top},
+                                                           {top, low, fall}}};
+    const auto [red, green, blue] = sixth[hue / 60'000];
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", static_cast<unsigned>(red & 255U),
+                  static_cast<unsigned>(green & 255U), static_cast<unsigned>(blue & 255U));
+    return text;
+}
+
+bool is_finite(const tf::point3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+tf::box3 box_of(const scene& shown, bool shown_alone) {
+    std::optional<tf::box3> all;
+    const auto add = [&](const tf::point3& p, std::uint8_t kind) {
+        if (shown_alone && !shown.classes[kind].shown) return;
+        if (!all) all = {p, p};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            all->min[axis] = std::min(all->min[axis], p[axis]);
+            all->max[axis] = std::max(all->max[axis], p[axis]);
+        }
+    };
+    for (const scene_mesh& m : shown.meshes)
+        for (std::size_t f = 0; f < m.mesh.faces.size(); ++f)
+            for (const std::uint32_t corner : m.mesh.faces[f])
+                add(m.mesh.points[corner], m.kind[m.kind.size() == 1 ? 0 : f]);
+    for (const scene_lines& l : shown.lines)
+        for (const auto& ends : l.ends)
+            for (const tf::point3& p : ends) add(p, l.kind);
+    for (const scene_dots& d : shown.dots)
+        for (std::size_t i = 0; i < d.points.size(); ++i)
+            if (is_finite(d.points[i])) add(d.points[i], d.kind[d.kind.size() == 1 ? 0 : i]);
+    for (const scene_arrow& a : shown.arrows)
+        for (const tf::point3& p : {a.from, a.to}) add(p, a.kind);
+    return all.value_or(tf::box3{});
+}
+
+std::vector<bool> used_classes(const scene& shown) {
+    std::vector<bool> used(shown.classes.size(), false);
+    for_items(shown, [&](std::uint8_t kind, bool) { used[kind] = true; });
+    for (const scene_lines& l : shown.lines)
+        if (!l.ends.empty()) used[l.kind] = true;
+    for (const scene_label& l : shown.labels) used[l.kind] = true;
+    for (const scene_arrow& a : shown.arrows) used[a.kind] = true;
+    return used;
+}
+
+std::vector<bool> mapped_classes(const scene& shown) {
+    std::vector<bool> mapped(shown.classes.size(), false), plain(shown.classes.size(), false);
+    if (!shown.map) return mapped;
+    for_items(shown, [&](std::uint8_t kind, bool valued) {
+        mapped[kind] = mapped[kind] || valued;
+        plain[kind] = plain[kind] || !valued;
+    });
+    for (std::size_t k = 0; k < mapped.size(); ++k) mapped[k] = mapped[k] && !plain[k];
+    return mapped;
+}
+
+}  // namespace tools

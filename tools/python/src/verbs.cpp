@@ -1,0 +1,222 @@
+// Verbs that are more than a call of C++: `tools/bindings` makes the others.
+#include "bindings.hpp"
+
+namespace binding {
+
+tf::boolean_expression expression_of(const std::string& operation, const std::string& formula,
+                                     const std::vector<std::string>& names, std::size_t count) {
+    if (operation == "union") return tf::boolean_expression::union_of(count);
+    if (operation == "intersection") return tf::boolean_expression::intersection_of(count);
+    if (operation == "difference") return tf::boolean_expression::difference_of(count);
+    if (operation == "xor") return tf::boolean_expression::xor_of(count);
+    return names.empty() ? tf::boolean_expression(formula, count)
+                         : tf::boolean_expression(formula, names);
+}
+
+void require_faces(const held_meshes& meshes, const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        require_faces(*meshes[i], names.empty() ? "operand " + std::to_string(i) : names[i]);
+}
+
+namespace {
+
+// ---- booleans ----
+
+/// The objects of a mesh, in order, each with what it has; none where they cannot be told apart.
+py::list objects_of(const held_mesh& mesh) {
+    py::list objects;
+    if (mesh.data().is_none()) return objects;
+    if (mesh.data().cast<const file_data&>().file().attributes.parts.size() < 2) return objects;
+    const tf::mesh_file whole = file_of(mesh);
+    require_rows(whole, 0);
+    std::vector<tf::file_part> parts;
+    without_lock([&] { parts = tf::split_parts({&whole, {}}); });
+    if (parts.size() < 2) return objects;
+    for (tf::file_part& part : parts) {
+        tf::mesh made = std::exchange(part.file.mesh, {});
+        held_mesh object(as_array(std::move(made.points)), as_array(std::move(made.faces)), false);
+        object.set_data(py::cast(file_data(std::move(part.file))));
+        objects.append(py::cast(std::move(object)));
+    }
+    return objects;
+}
+
+// ---- cuts ----
+
+tf::oriented_plane plane_of(const std::array<double, 3>& at, const std::array<double, 3>& normal) {
+    return {{at[0], at[1], at[2]}, {normal[0], normal[1], normal[2]}};
+}
+
+void write_section(const std::filesystem::path& path, const tf::section_result& section,
+                   const std::string& format, const std::string& unit) {
+    without_lock([&] { tf::write_section(path, section, format, unit); });
+}
+
+void write_isolines(const std::filesystem::path& path, const py::list& lines,
+                    const array_of<double>& points, const std::array<double, 3>& normal,
+                    const std::string& format, const std::string& unit) {
+    tf::isolines_result all;
+    for (const py::handle line : lines)
+        all.lines.push_back(
+            {line.attr("level").cast<double>(), line.attr("first_point").cast<std::size_t>(),
+             line.attr("point_count").cast<std::size_t>(), line.attr("closed").cast<bool>(),
+             line.attr("oriented").cast<bool>(), line.attr("length").cast<double>()});
+    const std::span<const tf::point3> given = rows_of<tf::point3>(points);
+    all.points.assign(given.begin(), given.end());
+    const tf::plane_frame seen = plane_of({}, normal).frame();
+    without_lock([&] { tf::write_isolines(path, all, seen, format, unit); });
+}
+
+py::object transformed(const held_mesh& mesh, const array_of<double>& matrix) {
+    const tf::transform<3> by = transform_of(matrix);
+    auto points = run([&](const tf::progress_callback&) {
+        return tf::transform_mesh({mesh.view().points, {}}, by).points;
+    });
+    return moved_mesh(std::move(points), mesh, by, py::none());
+}
+
+py::object concatenate(const held_meshes& meshes) {
+    const carrying attributes(meshes);
+    const std::vector<tf::mesh_view> views = views_of(meshes);
+    tf::mesh made = run([&](const tf::progress_callback&) { return tf::concatenate(views); });
+    std::vector<tf::operand_element> faces, vertices;
+    for (std::uint32_t i = 0; i < views.size(); ++i) {
+        for (std::uint32_t f = 0; f < views[i].faces.size(); ++f) faces.push_back({i, f});
+        for (std::uint32_t v = 0; v < views[i].points.size(); ++v) vertices.push_back({i, v});
+    }
+    const py::object data = attributes.to(made, faces, vertices);
+    return mesh_object(std::move(made), py::none(), data);
+}
+
+// ---- repair ----
+
+py::object join_equal_points(const held_mesh& mesh) {
+    const carrying attributes({&mesh});
+    std::vector<std::uint32_t> first, faces(mesh.view().faces.size());
+    tf::mesh joined = run([&](const tf::progress_callback&) {
+        if (!mesh.data().is_none())
+            first = tf::find_equal_points(mesh.view().points).first_of_group;
+        return tf::join_equal_points(mesh.view());
+    });
+    std::iota(faces.begin(), faces.end(), 0U);
+    const py::object data = attributes.to(joined, faces, first);
+    return mesh_object(std::move(joined), py::none(), data);
+}
+
+// ---- weld ----
+
+/// Attributes of polygons have a row for each polygon, as a file has them.
+tf::weld_result weld_file(tf::mesh_file& file, const tf::weld_options& options) {
+    file.indexed = true;
+    require_rows(file, 0);
+    tf::file_weld_result made = tf::weld(file, options);
+    file = std::move(made.file);
+    return {std::exchange(file.mesh, {}), file.attributes,
+            std::move(made.groups),       std::move(made.point_of_group),
+            std::move(made.face_of_new),  made.statistics};
+}
+
+py::object weld(const held_mesh& mesh, tf::weld_options options, const ids_array& label) {
+    options.label = rows_of<std::uint32_t>(label);
+    const auto [points, faces] = mesh.view();
+    std::optional<tf::mesh_file> file;
+    if (!mesh.data().is_none()) file = file_of(mesh);
+    tf::weld_result result = run([&](const tf::progress_callback& report) {
+        options.progress = report;
+        return file            ? weld_file(*file, options)
+               : faces.empty() ? tf::weld(points, options)
+                               : tf::weld(mesh.ref(), options);
+    });
+    if (!file) return object(of_result{}, std::move(result), nullptr);
+    const file_data kept(std::move(*file));
+    return object(of_result{}, std::move(result), &kept);
+}
+
+// ---- nearness ----
+
+struct numbered_hit {
+    double t;
+    std::uint32_t ray, face;
+};
+
+py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
+                      const points_array& directions, double t_min, double t_max) {
+    const rays all(origins, directions, t_min, t_max);
+    std::vector<numbered_hit> hits;
+    run_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+        const tf::answer_lists<tf::mesh_hit> found =
+            tf::raycast_all(mesh.prepared(), all.piece(begin, end));
+        for (std::size_t i = 0; i + 1 < found.begin.size(); ++i)
+            for (std::size_t h = found.begin[i]; h < found.begin[i + 1]; ++h)
+                hits.push_back({finite(found.answers[h].t, i),
+                                static_cast<std::uint32_t>(begin + i), found.answers[h].face});
+    });
+    return py::make_tuple(column(hits, &numbered_hit::t), column(hits, &numbered_hit::ray),
+                          column(hits, &numbered_hit::face));
+}
+
+// ---- assembly ----
+
+/// [P] where both meshes are: one of the two may be for all.
+std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
+                                             const array_of<double>& move_b) {
+    const auto a = transforms_of(move_a), b = transforms_of(move_b);
+    if (a.size() != b.size() && a.size() != 1 && b.size() != 1)
+        throw std::invalid_argument("treeform: " + std::to_string(a.size()) + " positions of a, " +
+                                    std::to_string(b.size()) + " of b");
+    std::vector<tf::mesh_positions> all(a.size() == 1 ? b.size() : a.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = {.move_a = a[a.size() == 1 ? 0 : i], .move_b = b[b.size() == 1 ? 0 : i]};
+    return all;
+}
+
+/// The positions of a piece.
+std::span<const tf::mesh_positions> some_of(const std::vector<tf::mesh_positions>& all,
+                                            std::size_t begin, std::size_t end) {
+    return std::span(all).subspan(begin, end - begin);
+}
+
+py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
+                     const array_of<double>& move_b) {
+    const auto all = positions_of(move_a, move_b);
+    const bool one = all.size() == 1;
+    const tf::mesh_ref x = one ? a.ref() : a.prepared(), y = one ? b.ref() : b.prepared();
+    const auto find = [&](std::size_t begin, std::size_t end) {
+        return tf::intersects(x, y, some_of(all, begin, end));
+    };
+    return column(in_pieces(all.size(), find), [](bool meet) { return meet; });
+}
+
+py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
+                   const array_of<double>& move_b, double radius) {
+    auto all = positions_of(move_a, move_b);
+    for (tf::mesh_positions& one : all) one.radius = radius;
+    return as_array<double>(in_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+        return tf::distance(a.prepared(), b.prepared(), some_of(all, begin, end));
+    }));
+}
+
+}  // namespace
+
+void add_verbs(py::module_& module) {
+    module.def("objects_of", &objects_of);
+    py::class_<tf::section_result>(module, "SectionData")
+        .def("__len__", [](const tf::section_result& all) { return all.loops.size(); })
+        .def("loops", [](const tf::section_result& all, std::size_t layer) {
+            const auto& of = all.layers.at(layer);
+            const auto first = all.loops.begin() + of.first_loop;
+            return as_python(std::vector(first, first + of.loop_count), all);
+        });
+    add_job(module, "write_section", &write_section, job_kind::writes);
+    add_job(module, "write_isolines", &write_isolines, job_kind::writes);
+    add_job(module, "concatenate", &concatenate);
+    add_job(module, "transformed", &transformed);
+    add_job(module, "join_equal_points", &join_equal_points);
+    add_job(module, "weld", &weld);
+    add_job(module, "raycast_all", &raycast_all);
+    module.attr("RELATIONS") = py::cast(words_of<tf::mesh_relation>::all);
+    add_job(module, "intersects", &intersects);
+    add_job(module, "distance", &distance);
+}
+
+}  // namespace binding

@@ -1,0 +1,88 @@
+#include "tools/shell/entries.hpp"
+
+#include "tools/shell/console.hpp"
+#include "tools/shell/made/report_fields.hpp"
+#include <treeform/tf.hpp>
+
+namespace tools {
+
+std::string in_words(const tf::point3& p) {
+    return std::string("(").append(brief(p.x) + ", " + brief(p.y) + ", " + brief(p.z)) + ")";
+}
+
+const char* name_of(tf::precision precision) {
+    return precision == tf::precision::float32 ? "float" : "double";
+}
+
+const char* numbers_of(tf::precision precision) {
+    return precision == tf::precision::float32 ? "float32" : "double";
+}
+
+json open_entry(const tf::certificate& known, const face_numbers& stored_face) {
+    json list = json::array();
+    for (const tf::open_edge& edge : known.open)
+        list.push_back(
+            {{"face", stored_face(edge.face.index)}, {"from", edge.ends[0]}, {"to", edge.ends[1]}});
+    const bool known_edges =
+        known.boundary_edges + known.misoriented_edges > 0 || known.open.empty();
+    return {{"count", known.open_count},
+            {"boundary_edges", or_null(known_edges, known.boundary_edges)},
+            {"misoriented_edges", or_null(known_edges, known.misoriented_edges)},
+            {"list", list}};
+}
+
+json meeting_entry(const tf::certificate& known) {
+    json list = json::array();
+    for (std::size_t i = 0; i < known.meeting_at.size(); ++i)
+        list.push_back({{"faces", known.meeting[i]}, {"near", known.meeting_at[i]}});
+    return list;
+}
+
+json loss_entry(const tf::certificate& known) {
+    if (known.status != tf::status::excessive_loss) return nullptr;
+    return {{"of", known.size_is_volume ? "volume" : "area"},
+            {"before", known.size_before},
+            {"after", known.size_after}};
+}
+
+json steps_entry(const tf::repair_statistics& did, const tf::repair_options& steps) {
+    return {{"join", or_null(steps.join, join_entry(did))},
+            {"orient", or_null(steps.orient, orient_entry(did))},
+            {"fill", or_null(steps.fill && !steps.sheet, fill_entry(did))},
+            {"resolve", or_null(steps.resolve, cut_entry(did))},
+            {"detach", or_null(steps.detach, detach_entry(did))}};
+}
+
+std::string repair_summary(const tf::repair_statistics& did) {
+    std::string text;
+    const auto add = [&](std::uint64_t n, const char* one, const char* several,
+                         const std::string& more = {}) {
+        if (n > 0) text += (text.empty() ? "" : ", ") + counted(n, one, several) + more;
+    };
+    if (did.tetrahedra > 0)
+        text += "boundary kept of " + counted(did.tetrahedra, "tetrahedron", "tetrahedra");
+    add(did.degenerate, "face without area dropped", "faces without area dropped");
+    add(did.repeated, "repeated face dropped", "repeated faces dropped");
+    add(did.closed_edges, "crack edge closed", "crack edges closed",
+        " (" + brief(did.widest) + " wide at most)");
+    add(did.split_edges, "edge split at a vertex", "edges split at vertices");
+    add(did.flipped, "face flipped", "faces flipped");
+    add(did.turned, "part turned outward", "parts turned outward");
+    add(did.strays, "stray face dropped", "stray faces dropped");
+    add(did.holes, "hole filled", "holes filled",
+        " (" + counted(did.hole_edges, "edge", "edges") + ")");
+    add(did.pairs, "pair cut", "pairs cut");
+    add(did.labeled_cells, "cell labeled inside or outside", "cells labeled inside or outside",
+        did.dropped_area > 0.0 ? " (area " + brief(did.dropped_area) + " dropped)" : "");
+    add(did.dropped_shells, "shell within another dropped", "shells within others dropped");
+    add(did.detached, "vertex set apart", "vertices set apart");
+    return text.empty() ? "nothing to mend" : text;
+}
+
+std::string message_of(tf::certificate known, const face_numbers& stored_face) {
+    for (tf::open_edge& edge : known.open)
+        edge.face = {tf::operand_element::none, stored_face(edge.face.index)};
+    return known.message();
+}
+
+}  // namespace tools

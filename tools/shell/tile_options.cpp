@@ -1,0 +1,147 @@
+#include "tools/shell/tile_options.hpp"
+
+#include "tools/shell/console.hpp"
+#include "tools/shell/parse_value.hpp"
+
+#include <algorithm>
+#include <csignal>
+
+namespace tools {
+
+namespace fs = std::filesystem;
+
+fs::path tile_options::folder_for(const job& work, const std::string& tool,
+                                  std::initializer_list<fs::path> outputs) const {
+    if (!folder.empty()) return folder;
+    fs::path beside;
+    for (const fs::path& output : outputs)
+        if (beside.empty() && output != "-") beside = output;
+    if (beside.empty())
+        beside = fs::temp_directory_path() /
+                 (work.path == "-" ? fs::path("standard_input") : fs::path(work.path).filename());
+    return beside.string() + "." + tool + "-tiles";
+}
+
+std::function<void()> tile_options::step_done() const {
+    if (stop_at == 0) return {};
+    return [left = stop_at]() mutable {
+        if (--left == 0) static_cast<void>(std::raise(SIGKILL));
+    };
+}
+
+void add_tile_options(command_line& line, tile_options& target, const std::string& heading,
+                      const std::string& per_tile) {
+    line.group(heading);
+    line.option({"--work", "DIR",
+                 "folder for them; left when stopped, so that the same\n"
+                 "command goes on there",
+                 "beside the output"},
+                [&target](std::string_view text) { target.folder = text; });
+    line.option({.names = per_tile, .value = "N"}, [&target, per_tile](std::string_view text) {
+        target.per_tile = parse_count(per_tile, text);
+    });
+    line.option({.names = "--stop-at", .value = "STEP"}, [&target](std::string_view text) {
+        target.stop_at = parse_count("--stop-at", text);
+    });
+}
+
+void add_sharing_options(command_line& line, tile_options& target) {
+    line.flag(target.plan, {"--plan", "",
+                            "only make the tiles; then any number of processes do\n"
+                            "them (--tile K, K from 0), and one combines their\n"
+                            "results (--finish), all with the same INPUT, options\n"
+                            "and --work DIR"});
+    line.option({"--tile", "K", "only do this tile"},
+                [&target](std::string_view text) { target.tile = parse_count("--tile", text); });
+    line.flag(target.finish, {"--finish", "", "only combine the results of all tiles; DIR stays"});
+}
+
+void leave_reports_to_first(tile_options& tiles, common_options& options) {
+    tiles.report = options.report;
+    if (tiles.communicator.rank == 0) return;
+    options.report.clear();
+    options.log.clear();
+}
+
+void check_tile_options(const tile_options& tiles, const command_line& line,
+                        const common_options& options) {
+    if (tiles.is_shared() && tiles.communicator.size > 1)
+        refuse("--plan, --tile and --finish are for processes without mpirun");
+    if (tiles.communicator.size > 1 && options.inputs.size() != 1 && !options.joined)
+        refuse("mpirun: one INPUT, or --join");
+    if (!tiles.is_shared()) return;
+    if (int{tiles.plan} + int{tiles.tile.has_value()} + int{tiles.finish} > 1)
+        refuse("--plan, --tile and --finish exclude each other");
+    if (tiles.folder.empty())
+        refuse("--plan, --tile and --finish need --work DIR, the same folder for all");
+    if (options.inputs.size() != 1 && !options.joined)
+        refuse("--plan, --tile and --finish take one INPUT");
+    const std::vector<fs::path> outputs = line.outputs();
+    const bool gives =
+        std::ranges::any_of(outputs, [&](const fs::path& path) { return path != options.report; });
+    if (tiles.is_part() && (gives || wants_mesh(options)))
+        refuse("--plan and --tile give nothing back: outputs belong to --finish");
+}
+
+void say_what_is_left(job& work, const fs::path& folder, const tile_options& tiles) {
+    std::error_code error;
+    if (tiles.is_shared() || !fs::exists(folder, error)) return;
+    const bool piped = std::ranges::find(work.options.inputs, "-") != work.options.inputs.end();
+    work.warn("work-left",
+              folder.string() + (piped ? ": tiles stay there; remove the folder"
+                                       : ": tiles stay there; the same command goes on from them, "
+                                         "or remove the folder"));
+}
+
+void enter_tiles(job& work, std::size_t tiles, const fs::path& folder,
+                 const std::vector<std::size_t>& unfinished) {
+    work.entry["tiles"] = {
+        {"count", tiles}, {"folder", folder.string()}, {"unfinished", unfinished}};
+}
+
+void say_tiles(job& work) {
+    const json& tiles = work.entry["tiles"];
+    const auto count = tiles["count"].get<std::size_t>();
+    const std::size_t finished = count - tiles["unfinished"].size();
+    work.out.result(work.name + ": " + counted(count, "tile", "tiles") + " in " +
+                    tiles["folder"].get<std::string>() +
+                    (finished > 0 ? ", " + grouped(finished) + " finished" : ""));
+}
+
+bool is_read_once(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    return path == "-" || (std::filesystem::exists(status) && std::filesystem::is_other(status));
+}
+
+std::string remark_on_folder(const tile_options& tiles) {
+    return tiles.folder.empty() ? std::string()
+                                : "enough memory to work without tiles: --work is not used";
+}
+
+failure failure_of(const job& work, const tf::stream_error& error) {
+    using enum tf::stream_error::reason;
+    const std::string where = error.path().string() + ": ";
+    switch (error.why()) {
+        case folder:
+            return {bad_output, "work-folder", error.what()};
+        case folder_in_use:
+            return {bad_output, "work-folder", where + "is in use by another process"};
+        case folder_foreign:
+            return {bad_output, "work-folder",
+                    where + "holds files that this tool has not put there"};
+        case write:
+            return {bad_output, "output", error.what()};
+        case read:
+            return {bad_input, "read", error.what()};
+        case damaged:
+            return {bad_input, "damaged", error.what()};
+        case memory:
+            return {stopped, "memory", work.name + ": " + error.what()};
+        case input_changed:
+            break;
+    }
+    return {bad_input, "changed", work.name + ": the file changed while it was read"};
+}
+
+}  // namespace tools

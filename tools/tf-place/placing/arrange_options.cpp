@@ -1,0 +1,112 @@
+#include "tools/tf-place/placing/arrange_options.hpp"
+
+#include "tools/shell/exit_status.hpp"
+#include "tools/shell/parse_value.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace tools {
+namespace {
+
+/// By `plate_turns`.
+constexpr std::array<const char*, 4> turns{"none", "90", "45", "any"};
+
+constexpr std::uint64_t most_copies = 10'000;
+
+/// "250,210" or "250,210,300", all greater than 0.
+tf::point3 parse_size3(std::string_view text) {
+    const bool flat = std::count(text.begin(), text.end(), ',') < 2;
+    const auto v = parse_numbers("--size", text, flat ? 2 : 3);
+    const tf::point3 size{v[0], v[1], flat ? tf::pack_options{}.size.z : v[2]};
+    if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0))
+        refuse("--size " + std::string(text) + ": expected lengths greater than 0");
+    return size;
+}
+
+unsigned parse_at_most(std::string_view option, std::string_view text, std::uint64_t most) {
+    const std::uint64_t count = parse_count(option, text);
+    if (count < 1 || count > most)
+        refuse(std::string(option) + " " + std::string(text) + ": expected 1 to " +
+               std::to_string(most));
+    return static_cast<unsigned>(count);
+}
+
+}  // namespace
+
+void add_arrange_options(command_line& line, arrange_settings& s) {
+    tf::pack_options& o = s.pack;
+    line.option({"--size", "X,Y[,Z]",
+                 "arrange: bed; with Z a box, which is filled to its\n"
+                 "height: parts also go above and into one another"},
+                [&o](std::string_view text) { o.size = parse_size3(text); });
+    line.flag(s.flat, {"--flat", "", "arrange: Z is a limit; all parts stand on the bed"});
+    line.option({"--spacing", "DIST", "arrange: between parts", "2"}, [&o](std::string_view text) {
+        const distance spacing = parse_distance("--spacing", text);
+        if (spacing.relative) refuse("--spacing: expected a length");
+        o.spacing = spacing.value;
+    });
+    line.option(o.turns, {"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"}, turns);
+    line.repeatable_option(s.counts,
+                           {"--count", "FILE:N", "arrange: N copies of this MOVING (repeatable)"});
+    line.option(
+        {"--plates", "N",
+         "arrange: up to N plates, beside each other along x,\n"
+         "a fifth of their length apart",
+         "1"},
+        [&o](std::string_view text) { o.plates = parse_at_most("--plates", text, 10'000); });
+    line.option(
+        {"--tries", "N",
+         "arrange: orders and turns to try at most, until all\n"
+         "have a place (and few plates are used)",
+         "32"},
+        [&o](std::string_view text) { o.tries = parse_at_most("--tries", text, 1'000'000); });
+    line.option({"--time", "SEC",
+                 "arrange: begin no more tries after SEC seconds; the\n"
+                 "result may then depend on the speed of the machine"},
+                [&o](std::string_view text) { o.seconds = parse_seconds("--time", text); });
+    line.option(o.seed, {"--seed", "N", "arrange: same N, same result", "0"});
+}
+
+std::span<const char* const> arrange_option_names() {
+    static constexpr std::array<const char*, 9> names{"--size",   "--flat",  "--spacing",
+                                                      "--rotate", "--count", "--plates",
+                                                      "--tries",  "--time",  "--seed"};
+    return names;
+}
+
+std::vector<std::uint64_t> counts_of(const arrange_settings& settings,
+                                     std::span<const std::string> inputs) {
+    std::vector<std::uint64_t> counts(inputs.size(), 1);
+    for (const std::string& text : settings.counts) {
+        const std::size_t colon = text.rfind(':');
+        if (colon == std::string::npos || colon == 0)
+            refuse("--count " + text + ": expected FILE:N");
+        const std::string file = text.substr(0, colon);
+        const unsigned count =
+            parse_at_most("--count " + file, std::string_view(text).substr(colon + 1), most_copies);
+        bool known = false;
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            if (inputs[i] != file) continue;
+            counts[i] = count;
+            known = true;
+        }
+        if (!known) refuse("--count " + text + ": " + file + " is none of MOVING");
+    }
+    return counts;
+}
+
+tf::pack_options pack_options_of(const arrange_settings& settings) {
+    tf::pack_options options = settings.pack;
+    options.stack = std::isfinite(options.size.z) && !settings.flat;
+    options.plate_step = {1.2 * options.size.x, 0.0, 0.0};
+    return options;
+}
+
+json packing_entry(const tf::packing& found) {
+    return {{"tries", found.tries}, {"plates", found.plates_used}, {"density", found.density}};
+}
+
+}  // namespace tools

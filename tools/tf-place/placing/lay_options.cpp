@@ -1,0 +1,75 @@
+#include "tools/tf-place/placing/lay_options.hpp"
+
+#include "tools/shell/exit_status.hpp"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace tools {
+namespace {
+
+constexpr std::array<const char*, 7> names{"--largest-face",  "--stable",    "--face-normal",
+                                           "--face-point",    "--tolerance", "--keep-spin",
+                                           "--overhang-angle"};
+
+}  // namespace
+
+void add_lay_options(command_line& line, lay_settings& s) {
+    line.flag(s.largest_side,
+              {"--largest-face", "", "lay: on the largest side of the convex hull", "this"});
+    line.option({"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
+                [&s](std::string_view text) {
+                    s.options.choose = tf::lay_choice::nearest_normal;
+                    s.options.toward = parse_direction("--face-normal", text);
+                });
+    line.option({"--face-point", "X,Y,Z", "lay: on the side that holds this point"},
+                [&s](std::string_view text) {
+                    s.options.choose = tf::lay_choice::holding_point;
+                    s.options.toward = parse_point("--face-point", text);
+                });
+    line.flag(s.stable, {"--stable", "",
+                         "lay: on the side that takes the largest tilt to tip\n"
+                         "over; an open mesh weighs by its surface"});
+    line.option(s.flatness, {"-t, --tolerance", "DIST",
+                             "lay: what is this near to the plane of a side is on\n"
+                             "it, and flat afterwards; 0 = exactly in one plane",
+                             "0.0001%"});
+    line.flag(s.options.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
+    line.option({"--overhang-angle", "DEG",
+                 "lay: the report's overhang is what looks down by\n"
+                 "more than this from the vertical",
+                 "45"},
+                [&s](std::string_view text) {
+                    const double angle = parse_number("--overhang-angle", text);
+                    if (!(angle >= 0.0 && angle <= 90.0))
+                        refuse("--overhang-angle " + std::string(text) + ": expected 0 to 90");
+                    s.options.overhang_angle = angle;
+                });
+}
+
+std::span<const char* const> lay_option_names() { return names; }
+std::span<const char* const> side_option_names() { return std::span(names).first(4); }
+
+json lay_entry(const tf::laid_flat& laid) {
+    constexpr std::array<const char*, 3> masses{"solid", "surface", "points"};
+    json sides = json::array();
+    for (std::size_t i = 0; i < laid.sides.size(); ++i) {
+        const tf::hull_side& side = laid.sides[i];
+        const tf::side_stability& stands = laid.stability[i];
+        sides.push_back({{"normal", side.normal},
+                         {"area", side.area},
+                         {"center", side.center},
+                         {"tip_angle", stands.tip_angle},
+                         {"height", stands.height},
+                         {"overhang", or_null(!std::isnan(stands.overhang), stands.overhang)}});
+    }
+    return {
+        {"sides", sides},
+        {"chosen", laid.chosen},
+        {"corrected", laid.corrected},
+        {"center_of_mass",
+         {{"point", laid.center_of_mass}, {"of", masses[static_cast<std::size_t>(laid.mass)]}}}};
+}
+
+}  // namespace tools
