@@ -17,6 +17,8 @@
 namespace treeform::bench {
 namespace {
 
+using detail::weld::neighbor_search;
+
 constexpr std::array searches{std::pair{"treeform", neighbor_search::automatic},
                               std::pair{"treeform window", neighbor_search::window},
                               std::pair{"treeform cells", neighbor_search::cells},
@@ -31,9 +33,8 @@ contest moved_copies(std::size_t points, unsigned percent) {
         for (const unsigned threads : {1U, 2U})
             contest.contestants.push_back(
                 {name, threads, [given, search = search] {
-                     const weld_options options{.tolerance = reach, .search = search};
                      return weld_job(given(), reach, [=](const std::vector<point3>& cloud) {
-                         return weld_by_treeform(cloud, options);
+                         return weld_by_treeform(cloud, {.tolerance = reach}, search);
                      });
                  }});
     contest.contestants.push_back({nanoflann_name(), 1, [=] {
@@ -69,8 +70,7 @@ contest equal_points_of_soup(std::size_t points, unsigned percent) {
     for (const unsigned threads : {1U, 2U})
         contest.contestants.push_back({"treeform", threads, [=] {
                                            return make_job([soup = given()] {
-                                               return join_groups(*soup,
-                                                                  group_points(soup->points, {}));
+                                               return group_points(soup->points, {}).joined(*soup);
                                            });
                                        }});
     contest.contestants.push_back(

@@ -64,8 +64,9 @@ job weld_job(const shared_cloud& cloud, double tolerance,
                     });
 }
 
-weld_answer weld_by_treeform(const std::vector<point3>& points, const weld_options& options) {
-    point_groups groups = group_points(points, options);
+weld_answer weld_by_treeform(const std::vector<point3>& points, const weld_options& options,
+                             detail::weld::neighbor_search search) {
+    point_groups groups = detail::weld::find_groups("group_points", points, options, search);
     for (std::uint32_t& group : groups.group_of_point) group = groups.first_of_group[group];
     return std::move(groups.group_of_point);
 }

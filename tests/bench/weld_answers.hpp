@@ -4,6 +4,7 @@
 
 #include "bench/near_pairs.hpp"
 #include "bench/workload.hpp"
+#include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <cstddef>
@@ -30,7 +31,8 @@ struct weld_quality {
                            std::function<weld_answer(const std::vector<point3>&)> weld);
 
 [[nodiscard]] weld_answer weld_by_treeform(const std::vector<point3>& points,
-                                           const weld_options& options);
+                                           const weld_options& options,
+                                           detail::weld::neighbor_search search = {});
 
 /// Coordinates rounded down to multiples of the tolerance, sorted, equal ones joined: the first of
 /// each cube is kept.

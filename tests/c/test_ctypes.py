@@ -35,11 +35,12 @@ class Pairs(Structure):
                 ("counts", c_uint64 * 7), ("box_pairs", c_uint64)]
 
 
-class SelfIntersectionsOptions(Structure):
-    _fields_ = [("size", c_size_t), ("vertices", c_int32), ("first_only", c_int32),
-                ("kinds", c_uint32), ("between", c_int32), ("within", c_int32),
-                ("component_of_face", POINTER(c_uint32)), ("limit", c_uint64),
-                ("progress", PROGRESS), ("progress_data", c_void_p)]
+class IntersectionsOptions(Structure):
+    _fields_ = [("size", c_size_t), ("move_a", POINTER(c_double)), ("move_b", POINTER(c_double)),
+                ("first_only", c_int32), ("kinds", c_uint32), ("limit", c_uint64),
+                ("progress", PROGRESS), ("progress_data", c_void_p), ("vertices", c_int32),
+                ("component_of_face", POINTER(c_uint32)), ("between", c_int32),
+                ("within", c_int32)]
 
 
 class Part(Structure):
@@ -119,7 +120,7 @@ class Ctypes(unittest.TestCase):
     def test_progress_cancels(self):
         asked = []
         progress = PROGRESS(lambda done, data: asked.append(done) or 1)
-        options, pairs = SelfIntersectionsOptions(), POINTER(Pairs)()
+        options, pairs = IntersectionsOptions(), POINTER(Pairs)()
         LIBRARY.treeform_intersections_options_init(
             byref(options), c_size_t(ctypes.sizeof(options)))
         self.assertEqual((options.kinds, options.limit), (127, 2 ** 64 - 1))

@@ -127,7 +127,8 @@ static void test_motion(void) {
     treeform_impact_options_init(&options, sizeof options);
     options.limit = 1;
     OK(treeform_time_of_impact(a, b, along, &options, &impact));
-    CHECK(impact->end == 1 && impact->time == 2.0 && impact->contact_listed == 1);
+    CHECK(impact->end == TREEFORM_END_CONTACT && impact->time == 2.0 &&
+          impact->contact_listed == 1);
     CHECK(impact->contact_count > 1 && impact->contacts[0].point[0] == 5.0);
     treeform_free(impact);
     options.move_a = shift;
@@ -138,7 +139,7 @@ static void test_motion(void) {
     CHECK(near(impact->time, 0.5));
     treeform_free(impact);
     OK(treeform_time_of_impact(a, b, away, NULL, &impact));
-    CHECK(impact->end == 0);
+    CHECK(impact->end == TREEFORM_END_NOTHING_MET);
     treeform_free(impact);
     OK(treeform_time_to_distance(a, b, along, 1.0, NULL, &impact));
     CHECK(near(impact->time, 1.5));

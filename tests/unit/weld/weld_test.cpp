@@ -270,7 +270,7 @@ TEST_CASE("weld: what cannot be meant is refused by name") {
     tf::attributes list;
     list.obtain("vertex", 4).columns = {
         {.name = "l", .list_length = tf::scalar_type::uint8, .list_begin = {0, 0, 0, 0, 0}}};
-    refused(list, {.same = {{"l"}}}, "treeform::weld: the vertex property 'l' is a list");
+    refused(list, {.same = {{"l"}}}, "treeform::weld: the vertex property 'l' has lists of values");
     tf::attributes faces;
     faces.elements.push_back({.name = "face", .rows = 1});
     refused(faces, {}, "treeform::weld: element 'face' has 1 rows for 2 faces");
