@@ -118,13 +118,13 @@ class TREEFORM_API not_certified_error : public std::runtime_error {
 
 /// How far rounding moved points, and what it has broken.
 struct rounding_effects {
-    double max_displacement = 0.0;  ///< largest change of a coordinate, apart from the move
-    double step = 0.0;  ///< between neighboring numbers, at the largest coordinate written
-    /// Doubles have become float32, or a change is more than a millionth of the size.
+    double max_displacement = 0.0;  ///< largest change of a coordinate, beyond the move
+    double step = 0.0;  ///< spacing of numbers at the largest written coordinate
+    /// True if doubles became float32, or a change is more than a millionth of the size.
     bool noticeable = false;
-    bool compared = false;        ///< faces were compared, because coordinates are coarser now
+    bool compared = false;        ///< faces were compared, since coordinates became coarser
     std::uint64_t collapsed = 0;  ///< faces that have lost their area
-    std::uint64_t meeting = 0;    ///< pairs of faces that meet now, and did not before
+    std::uint64_t meeting = 0;    ///< new pairs of faces that meet
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
 
     /// Adds the effects on another mesh.
@@ -146,7 +146,7 @@ find_rounding_defects(mesh_view mesh, points_view placed, const progress_callbac
 /// before, it also compares the faces (`find_rounding_defects`).
 ///
 /// \throws std::invalid_argument for another number of points
-/// \cost   O(V); where coordinates are coarser, two `self_intersections` at most
+/// \cost   O(V); where coordinates became coarser, at most two `self_intersections`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API rounding_effects
 effects_of_rounding(const mesh_ref& moving, const transform<3>& by, points_view placed,
