@@ -101,7 +101,7 @@ struct surface_point {
 /// How two meshes lie to each other.
 struct mesh_measure {
     mesh_relation_result relation{};  ///< its status is that of the whole result
-    /// Distance, not squared.
+    /// Not squared. 0 if and only if the meshes touch or penetrate each other.
     double distance = 0.0;
     /// Exactly 0 if and only if a face of one meets a face of the other. So it is positive for a
     /// mesh inside a solid whose surface it does not touch.
@@ -165,7 +165,7 @@ struct penetration_depth_result {
 
 /// How the thickness of a wall is measured at a face.
 enum class thickness_by : std::uint8_t {
-    /// along its normal, inward from its center, to the first face through which the ray leaves
+    /// Along its normal, inward from its center, to the first face through which the ray leaves.
     ray,
     sphere  ///< the diameter of the largest inscribed ball that touches its center
 };
@@ -175,7 +175,7 @@ struct thickness_result {
     /// [F] Infinite if there is nothing behind a face, or the face has no area.
     std::vector<double> of_face{};
     double least = std::numeric_limits<double>::infinity();  ///< of all faces
-    /// the lowest face with the least thickness
+    /// The lowest face with the least thickness.
     std::uint32_t thinnest = 0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
 };
