@@ -123,7 +123,7 @@ struct boolean_statistics {
     std::uint64_t cut_faces = 0;      ///< input faces that were cut or covered by others
     std::uint64_t degenerate = 0;     ///< input faces without area
     std::uint64_t skipped_faces = 0;  ///< input faces skipped, since the result cannot contain them
-    /// for `split`: input faces that are entirely covered by faces with lower numbers
+    /// For `split`: input faces that are entirely covered by faces with lower numbers.
     std::uint64_t covered = 0;
     /// Faces of the exact result, before rounding. If there are some and `mesh` has none, all of
     /// the result was too thin for the coordinates, or removed as `small_parts`.

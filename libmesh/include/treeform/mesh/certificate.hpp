@@ -55,7 +55,7 @@ struct operand_element {
 /// An edge where a surface ends, or where its faces are oriented inconsistently.
 struct open_edge {
     operand_element face{};        ///< a face at the edge
-    /// ends of the open part of the edge; rounded if the edge is cut
+    /// Ends of the open part of the edge; rounded if the edge is cut.
     std::array<point3, 2> ends{};
 };
 

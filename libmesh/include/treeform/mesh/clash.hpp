@@ -30,7 +30,7 @@ using part_pair = std::array<std::uint32_t, 2>;
 /// How to look for clashes. `volumes` to `limit` are of `clash` alone.
 struct clash_options {
     double clearance = 0.0;                ///< parts that are nearer than this are too close
-    /// compute the volume of the intersection of closed parts
+    /// Compute the volume of the intersection of closed parts.
     bool volumes = true;
     bool depths = true;                    ///< compute depths of penetrating parts
     std::uint64_t effort = 0;              ///< for each depth, as in `depth_options`
@@ -58,7 +58,7 @@ struct part_clash {
     bool a_inside_b = false;                         ///< as in `mesh_relation_result`
     bool b_inside_a = false;                         ///< the same with `a` and `b` swapped
     double distance = 0.0;                           ///< distance of the surfaces; 0 if they meet
-    /// nearest points on a and on b, of parts that are too close
+    /// Nearest points on a and on b, of parts that are too close.
     std::optional<std::array<point3, 2>> nearest{};
     std::uint64_t face_pairs = 0;                    ///< that meet
     std::vector<contact_region> regions{};           ///< by their lowest faces

@@ -73,7 +73,7 @@ struct laid_flat {
     /// new = M * old, a rotation and a translation. `points` differ from it by a few units in the
     /// last place of the largest coordinate, old or new.
     transform<3> matrix{};
-    /// z of the points on the bed; with float32, the least number not below the bed
+    /// Z of the points on the bed; with float32, the least number not below the bed.
     double bed = 0.0;
     /// The sides of the convex hull before the rotation, largest area first. With a tolerance, a
     /// side includes its neighbors within the tolerance of its plane.
@@ -127,7 +127,7 @@ enum class plate_turns : std::uint8_t {
 struct pack_options {
     /// Length, depth and height of the plate or box. The height may be infinite.
     point3 size{0.0, 0.0, std::numeric_limits<double>::infinity()};
-    /// the corner of the first plate with the lowest x and y; its z is the bed
+    /// The corner of the first plate with the lowest x and y; its z is the bed.
     point3 corner{};
     double spacing = 2.0;  ///< least distance of any two parts; parts may touch the plate's rim
     plate_turns turns = plate_turns::quarter;
@@ -137,7 +137,7 @@ struct pack_options {
     unsigned plates = 1;     ///< largest number of plates; at least 1
     point3 plate_step{};     ///< from the corner of a plate to that of the next; its z is ignored
     bool tighten = true;     ///< close gaps left by the raster
-    /// seed of the orders and rotations that are tried if not all parts fit
+    /// Seed of the orders and rotations that are tried if not all parts fit.
     std::uint64_t seed = 0;
     unsigned tries = 32;     ///< largest number of tries; at least 1
     /// Start no more tries after this many seconds. If that ends the search, the result depends on

@@ -131,7 +131,7 @@ struct contact_color_options {
 /// The class of each face.
 struct contact_classes {
     std::vector<contact_class> moving{};              ///< [F] of the moving mesh
-    /// for each mesh: [F], or empty if all are none
+    /// For each mesh: [F], or empty if all are none.
     std::vector<std::vector<contact_class>> fixed{};
 
     /// The classes of all triangles of the files (of a single cloud, of all its points), for

@@ -79,7 +79,7 @@ struct repair_options {
     treeform::precision precision = treeform::precision::float64;
     /// As in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// as in `boolean_options`; faces that fill holes are only merged with each other
+    /// As in `boolean_options`; faces that fill holes are only merged with each other.
     bool keep_cuts = false;
     progress_callback progress{};
 };
@@ -201,10 +201,10 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 /// The defects that keep a mesh from being a solid. Points with equal coordinates are one.
 struct TREEFORM_API solid_defects {
     std::uint64_t nonfinite_vertices = 0;  ///< with a NaN or infinite coordinate, used or not
-    /// with a non-finite corner or one out of range; not counted below
+    /// With a non-finite corner or one out of range; not counted below.
     std::uint64_t unusable_faces = 0;
     bool without_faces = false;            ///< there are points, but no usable face
-    /// tetrahedra whose sides are faces, as in a volume mesh
+    /// Tetrahedra whose sides are faces, as in a volume mesh.
     std::uint64_t tetrahedra = 0;
     std::uint64_t degenerate = 0;          ///< faces without area
     std::uint64_t repeated = 0;            ///< faces with the same corners as another
@@ -212,7 +212,7 @@ struct TREEFORM_API solid_defects {
     std::uint64_t nonmanifold_edges = 0;   ///< edges of more than two faces
     std::uint64_t misoriented_edges = 0;   ///< edges of two inconsistently oriented faces
     std::uint64_t nonmanifold_vertices = 0;  ///< with more than one fan of faces
-    /// pairs of faces that meet beyond their common corners
+    /// Pairs of faces that meet beyond their common corners.
     std::uint64_t meeting_pairs = 0;
     std::uint64_t inverted = 0;  ///< closed components that are inside out, and inside no other one
     /// Disjoint closed components are nested, but not as a solid and its cavities.

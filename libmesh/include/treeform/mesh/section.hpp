@@ -139,8 +139,8 @@ struct isoline {
     std::size_t first_point = 0;  ///< consecutive; the first is not repeated
     std::size_t point_count = 0;  ///< number of its points
     bool closed = true;           ///< otherwise it ends at borders of the mesh
-    /// whether the faces along it are consistently oriented: seen from outside, larger values are
-    /// to its left
+    /// Whether the faces along it are consistently oriented: seen from outside, larger values are
+    /// to its left.
     bool oriented = true;
     double length = 0.0;   ///< sum of its segments
 };

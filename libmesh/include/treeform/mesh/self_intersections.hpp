@@ -163,9 +163,9 @@ struct stream_search_options {
     std::optional<box3> box{};       ///< only faces that meet it
     std::string format{};            ///< of the input, as for `read`
     std::uint64_t memory = 0;        ///< limit in bytes; 0: three quarters of the machine's memory
-    /// folder of the tiles; empty: the input's name and ".search-tiles"
+    /// Folder of the tiles; empty: the input's name and ".search-tiles".
     std::filesystem::path folder{};
-    /// about the most faces of a tile; 0: as the memory allows
+    /// About the most faces of a tile; 0: as the memory allows.
     std::uint64_t faces_per_tile = 0;
     treeform::communicator communicator{};  ///< not for `stream_search`
     /// Called with the step ("scatter", "pairs") and its completed share, 0 to 1. Returning false
@@ -190,7 +190,7 @@ struct stream_search_result {
     mesh_file header{};              ///< format, precision and warnings; no mesh
     std::size_t tiles = 0;
     std::size_t finished_tiles = 0;  ///< tiles finished by an earlier run
-    /// the folder held tiles of other options or another input, which were discarded
+    /// The folder held tiles of other options or another input, which were discarded.
     bool started_anew = false;
 };
 

@@ -49,12 +49,12 @@ struct simplify_result {
     std::uint64_t collapses = 0;            ///< edges collapsed
     std::uint64_t refused_by_topology = 0;  ///< edges whose collapse would change the topology
     std::uint64_t refused_by_turning = 0;   ///< edges whose collapse would turn a face too far
-    /// edges whose collapse was not proven within the distance
+    /// Edges whose collapse was not proven within the distance.
     std::uint64_t refused_by_distance = 0;
     std::uint64_t refused_by_contact = 0;   ///< edges whose collapse would make faces meet
-    /// bound of the distance from any input point to the result
+    /// Bound of the distance from any input point to the result.
     double there_at_most = 0.0;
-    /// bound of the distance from any point of the result to the input
+    /// Bound of the distance from any point of the result to the input.
     double back_at_most = 0.0;
     /// Status ok: no count of `find_solid_defects` is larger than for the input. So a solid is
     /// still a solid. Otherwise `not_certified` or `cancelled`.
