@@ -131,7 +131,7 @@ struct boolean_statistics {
     std::uint64_t split_vertices = 0;  ///< added where parts touch, so that edges have two faces
     /// Changes that joined points and removed thin faces where rounding made faces meet.
     std::uint64_t slivers = 0;
-    int rounding_rounds = 0;  ///< how often faces that still met were cut and rounded again
+    int rounding_rounds = 0;         ///< how often faces that still met were cut and rounded again
     std::uint64_t small_parts = 0;   ///< removed solids and voids below `min_volume`
     double small_volume = 0.0;       ///< their total volume, in cubic units
     std::uint64_t filled_faces = 0;  ///< faces of operands at filled gaps (`gap`)

@@ -54,7 +54,7 @@ struct operand_element {
 
 /// An edge where a surface ends, or where its faces are oriented inconsistently.
 struct open_edge {
-    operand_element face{};        ///< a face at the edge
+    operand_element face{};  ///< a face at the edge
     /// Ends of the open part of the edge; rounded if the edge is cut.
     std::array<point3, 2> ends{};
 };
@@ -119,7 +119,7 @@ class TREEFORM_API not_certified_error : public std::runtime_error {
 /// How far rounding moved points, and what it has broken.
 struct rounding_effects {
     double max_displacement = 0.0;  ///< largest change of a coordinate, beyond the move
-    double step = 0.0;  ///< spacing of numbers at the largest written coordinate
+    double step = 0.0;              ///< spacing of numbers at the largest written coordinate
     /// True if doubles became float32, or a change is more than a millionth of the size.
     bool noticeable = false;
     bool compared = false;        ///< faces were compared, since coordinates became coarser

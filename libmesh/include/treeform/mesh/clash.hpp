@@ -29,7 +29,7 @@ using part_pair = std::array<std::uint32_t, 2>;
 
 /// How to look for clashes. `volumes` to `limit` are of `clash` alone.
 struct clash_options {
-    double clearance = 0.0;                ///< parts that are nearer than this are too close
+    double clearance = 0.0;  ///< parts that are nearer than this are too close
     /// Compute the volume of the intersection of closed parts.
     bool volumes = true;
     bool depths = true;                    ///< compute depths of penetrating parts
@@ -52,16 +52,16 @@ struct contact_region {
 
 /// Two parts that are not clear of each other.
 struct part_clash {
-    std::uint32_t a = 0;                             ///< the lower number
-    std::uint32_t b = 0;                             ///< number of the second part
-    mesh_relation how = mesh_relation::touching;     ///< or penetrating, closer_than_clearance
-    bool a_inside_b = false;                         ///< as in `mesh_relation_result`
-    bool b_inside_a = false;                         ///< the same with `a` and `b` swapped
-    double distance = 0.0;                           ///< distance of the surfaces; 0 if they meet
+    std::uint32_t a = 0;                          ///< the lower number
+    std::uint32_t b = 0;                          ///< number of the second part
+    mesh_relation how = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
+    bool a_inside_b = false;                      ///< as in `mesh_relation_result`
+    bool b_inside_a = false;                      ///< the same with `a` and `b` swapped
+    double distance = 0.0;                        ///< distance of the surfaces; 0 if they meet
     /// Nearest points on a and on b, of parts that are too close.
     std::optional<std::array<point3, 2>> nearest{};
-    std::uint64_t face_pairs = 0;                    ///< that meet
-    std::vector<contact_region> regions{};           ///< by their lowest faces
+    std::uint64_t face_pairs = 0;           ///< that meet
+    std::vector<contact_region> regions{};  ///< by their lowest faces
     /// For closed parts that penetrate: the volume of their intersection, as
     /// `operand_volumes::both`.
     std::optional<double> volume{};
@@ -128,7 +128,7 @@ struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
     mesh_relation how = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
-    double distance = 0.0;  ///< of parts closer than the clearance; else 0
+    double distance = 0.0;                        ///< of parts closer than the clearance; else 0
     friend bool operator==(const pose_clash&, const pose_clash&) = default;
 };
 

@@ -130,11 +130,11 @@ struct cut_result {
 /// Some faces of a mesh, with the points that they use.
 struct mesh_part {
     treeform::mesh mesh;
-    std::vector<std::uint32_t> face_source;    ///< [F] the number of each face in the given mesh
+    std::vector<std::uint32_t> face_source;  ///< [F] the number of each face in the given mesh
     /// [V] the number of each point in the given mesh; ascending
     std::vector<std::uint32_t> vertex_source;
-    double volume = 0.0;                       ///< as `signed_volume`
-    double area = 0.0;                         ///< as `surface_area`
+    double volume = 0.0;  ///< as `signed_volume`
+    double area = 0.0;    ///< as `surface_area`
 };
 
 /// The faces that corners link, as meshes, in the order of their lowest faces. Corners with equal

@@ -64,9 +64,9 @@ struct deviation_result {
     bool is_signed = false;
     /// Counts of the points of `a` by side, if distances have a sign.
     std::optional<side_counts> sides{};
-    double mean = 0.0;                   ///< mean of the signed distances
-    double mean_absolute = 0.0;          ///< mean of their magnitudes
-    double rms = 0.0;                    ///< root mean square of the distances
+    double mean = 0.0;           ///< mean of the signed distances
+    double mean_absolute = 0.0;  ///< mean of their magnitudes
+    double rms = 0.0;            ///< root mean square of the distances
     /// Median of the magnitudes: the least value that half of them do not exceed.
     double p50 = 0.0;
     double p95 = 0.0;         ///< the same for 95 % of them

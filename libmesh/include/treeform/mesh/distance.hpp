@@ -98,9 +98,9 @@ struct mesh_hit {
     std::uint32_t face = 0;
     /// corner, edge or interior that contains the first common point
     feature at = feature::interior;
-    bool coplanar = false;           ///< the ray runs in the face's plane, or the face has no area
-    double t = 0.0;                  ///< of the first common point; relative error below 2^-40
-    double t_end = 0.0;              ///< of the last common point; equal to t unless coplanar
+    bool coplanar = false;  ///< the ray runs in the face's plane, or the face has no area
+    double t = 0.0;         ///< of the first common point; relative error below 2^-40
+    double t_end = 0.0;     ///< of the last common point; equal to t unless coplanar
     friend bool operator==(const mesh_hit&, const mesh_hit&) = default;
 };
 

@@ -134,12 +134,12 @@ struct pack_options {
     /// Fill the box up to its height, which must be finite: parts may be above, below and inside
     /// one another, and hang in the air. Otherwise each part stands on the bed.
     bool stack = false;
-    unsigned plates = 1;     ///< largest number of plates; at least 1
-    point3 plate_step{};     ///< from the corner of a plate to that of the next; its z is ignored
-    bool tighten = true;     ///< close gaps left by the raster
+    unsigned plates = 1;  ///< largest number of plates; at least 1
+    point3 plate_step{};  ///< from the corner of a plate to that of the next; its z is ignored
+    bool tighten = true;  ///< close gaps left by the raster
     /// Seed of the orders and rotations that are tried if not all parts fit.
     std::uint64_t seed = 0;
-    unsigned tries = 32;     ///< largest number of tries; at least 1
+    unsigned tries = 32;  ///< largest number of tries; at least 1
     /// Start no more tries after this many seconds. If that ends the search, the result depends on
     /// the speed of the machine.
     double seconds = std::numeric_limits<double>::infinity();

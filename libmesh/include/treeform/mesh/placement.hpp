@@ -130,7 +130,7 @@ struct contact_color_options {
 
 /// The class of each face.
 struct contact_classes {
-    std::vector<contact_class> moving{};              ///< [F] of the moving mesh
+    std::vector<contact_class> moving{};  ///< [F] of the moving mesh
     /// For each mesh: [F], or empty if all are none.
     std::vector<std::vector<contact_class>> fixed{};
 

@@ -154,10 +154,10 @@ struct mesh_feature {
 struct feature_options {
     /// Largest distance of a corner from the plane or cylinder. Default: 1e-4 of the diagonal.
     std::optional<double> tolerance{};
-    double plane_angle = 1.0;   ///< in degrees: largest angle between a face and the plane
+    double plane_angle = 1.0;  ///< in degrees: largest angle between a face and the plane
     /// In degrees: largest angle between neighboring faces of a cylinder.
     double facet_angle = 46.0;
-    double arc = 60.0;          ///< in degrees: the least arc of a cylinder
+    double arc = 60.0;             ///< in degrees: the least arc of a cylinder
     progress_callback progress{};  ///< for `find_features`, which returns nothing if stopped
 };
 

@@ -203,14 +203,14 @@ struct TREEFORM_API solid_defects {
     std::uint64_t nonfinite_vertices = 0;  ///< with a NaN or infinite coordinate, used or not
     /// With a non-finite corner or one out of range; not counted below.
     std::uint64_t unusable_faces = 0;
-    bool without_faces = false;            ///< there are points, but no usable face
+    bool without_faces = false;  ///< there are points, but no usable face
     /// Tetrahedra whose sides are faces, as in a volume mesh.
     std::uint64_t tetrahedra = 0;
-    std::uint64_t degenerate = 0;          ///< faces without area
-    std::uint64_t repeated = 0;            ///< faces with the same corners as another
-    std::uint64_t open_edges = 0;          ///< edges of one face
-    std::uint64_t nonmanifold_edges = 0;   ///< edges of more than two faces
-    std::uint64_t misoriented_edges = 0;   ///< edges of two inconsistently oriented faces
+    std::uint64_t degenerate = 0;            ///< faces without area
+    std::uint64_t repeated = 0;              ///< faces with the same corners as another
+    std::uint64_t open_edges = 0;            ///< edges of one face
+    std::uint64_t nonmanifold_edges = 0;     ///< edges of more than two faces
+    std::uint64_t misoriented_edges = 0;     ///< edges of two inconsistently oriented faces
     std::uint64_t nonmanifold_vertices = 0;  ///< with more than one fan of faces
     /// Pairs of faces that meet beyond their common corners.
     std::uint64_t meeting_pairs = 0;

@@ -65,8 +65,8 @@ struct section_loop {
     /// seen from above the plane: outer loops run counter-clockwise, holes clockwise.
     bool oriented = true;
     std::uint32_t parent = none;  ///< the innermost loop around this one; none for open loops
-    std::uint32_t depth = 0;  ///< number of loops around this one; odd for holes in a solid
-    double area = 0.0;        ///< positive if counter-clockwise; 0 for open loops
+    std::uint32_t depth = 0;      ///< number of loops around this one; odd for holes in a solid
+    double area = 0.0;            ///< positive if counter-clockwise; 0 for open loops
     double length = 0.0;
 };
 
@@ -142,7 +142,7 @@ struct isoline {
     /// Whether the faces along it are consistently oriented: seen from outside, larger values are
     /// to its left.
     bool oriented = true;
-    double length = 0.0;   ///< sum of its segments
+    double length = 0.0;  ///< sum of its segments
 };
 
 /// Lines of all levels, in the given order of levels.

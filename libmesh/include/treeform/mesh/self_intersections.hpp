@@ -160,12 +160,12 @@ struct intersection_regions {
 struct stream_search_options {
     std::optional<vertex_identity> vertices{};  ///< none: by coordinates for STL, else by index
     pair_kinds kinds = pair_kinds::all;
-    std::optional<box3> box{};       ///< only faces that meet it
-    std::string format{};            ///< of the input, as for `read`
-    std::uint64_t memory = 0;        ///< limit in bytes; 0: three quarters of the machine's memory
+    std::optional<box3> box{};  ///< only faces that meet it
+    std::string format{};       ///< of the input, as for `read`
+    std::uint64_t memory = 0;   ///< limit in bytes; 0: three quarters of the machine's memory
     /// Folder of the tiles; empty: the input's name and ".search-tiles".
     std::filesystem::path folder{};
-    /// About the most faces of a tile; 0: as the memory allows.
+    /// Approximate limit of faces in a tile; 0: as the memory allows.
     std::uint64_t faces_per_tile = 0;
     treeform::communicator communicator{};  ///< not for `stream_search`
     /// Called with the step ("scatter", "pairs") and its completed share, 0 to 1. Returning false

@@ -51,7 +51,7 @@ struct simplify_result {
     std::uint64_t refused_by_turning = 0;   ///< edges whose collapse would turn a face too far
     /// Edges whose collapse was not proven within the distance.
     std::uint64_t refused_by_distance = 0;
-    std::uint64_t refused_by_contact = 0;   ///< edges whose collapse would make faces meet
+    std::uint64_t refused_by_contact = 0;  ///< edges whose collapse would make faces meet
     /// Bound of the distance from any input point to the result.
     double there_at_most = 0.0;
     /// Bound of the distance from any point of the result to the input.
