@@ -37,8 +37,7 @@ struct resolve_options {
     int removal_rounds = 16;  ///< for `remove`: give up after making or widening holes this often
     /// For `outer` and `remove`: losing more than this share gives the status `excessive_loss`. The
     /// share is of the volume of the solid, or of the area if the mesh bounds none. 1 allows any
-    /// loss. The solid before is that of `repair` without filled holes: consistently oriented,
-    /// overlaps counted once.
+    /// loss. The solid before is that of `repair` without filling holes.
     double max_loss = 0.05;
     progress_callback progress{};
 };
@@ -73,14 +72,12 @@ struct repair_options {
     /// holes, of the area. Faces that are still there or hidden in the solid are not lost. 1 allows
     /// any loss.
     double max_loss = 0.05;
-    /// The mesh is an open surface: its border is kept, and nothing is filled.
-    bool sheet = false;
+    bool sheet = false;  ///< the mesh is an open surface: keep its border, and fill nothing
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// As in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// As in `boolean_options`; faces that fill holes are only merged with each other.
-    bool keep_cuts = false;
+    bool keep_cuts = false;  ///< likewise; filled faces only merge with each other
     progress_callback progress{};
 };
 
@@ -144,7 +141,6 @@ struct TREEFORM_API repair_result {
     repair_statistics statistics{};
 
     /// The mesh.
-    ///
     /// \throws not_certified_error unless the certificate's status is ok
     [[nodiscard]] const treeform::mesh& value() const&;
     [[nodiscard]] treeform::mesh value() &&;
@@ -181,15 +177,14 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 /// exactly. Which cracks are closed, how faces are oriented, and what fills a hole are heuristics,
 /// and counted. Points with equal coordinates are one. Faces that are the sides of tetrahedra are
 /// replaced by the boundary of the tetrahedra. If faces remain inconsistent, a minimum cut labels
-/// the cells between them inside or outside, close to the orientations of the faces and to
-/// generalized winding numbers; this result is used if it loses less.
+/// cells inside or outside, by the orientations of faces and generalized winding numbers; the
+/// result is used if it loses less.
 ///
 /// Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
 /// new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
-/// unless any loss is allowed. A sheet is a part whose area is less than 1 / 0.6 of the area that
-/// would close it, unless its border is in a plane and the part on one side of the plane. Neither
-/// is a mesh filled that has more than one edge for 10 faces where three or more faces are
-/// inconsistent.
+/// unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
+/// close it, unless its border is in a plane and it is on one side of the plane. Nor is a mesh
+/// filled with more than one edge for 10 faces where three or more faces are inconsistent.
 ///
 /// \throws std::invalid_argument as `boolean`; if a gap or share is negative or not finite
 /// \cost   O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n
@@ -200,20 +195,17 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 
 /// The defects that keep a mesh from being a solid. Points with equal coordinates are one.
 struct TREEFORM_API solid_defects {
-    std::uint64_t nonfinite_vertices = 0;  ///< with a NaN or infinite coordinate, used or not
-    /// With a non-finite corner or one out of range; not counted below.
-    std::uint64_t unusable_faces = 0;
-    bool without_faces = false;  ///< there are points, but no usable face
-    /// Tetrahedra whose sides are faces, as in a volume mesh.
-    std::uint64_t tetrahedra = 0;
+    std::uint64_t nonfinite_vertices = 0;    ///< with a NaN or infinite coordinate, used or not
+    std::uint64_t unusable_faces = 0;        ///< with an invalid corner; not counted below
+    bool without_faces = false;              ///< there are points, but no usable face
+    std::uint64_t tetrahedra = 0;            ///< whose sides are faces, as in a volume mesh
     std::uint64_t degenerate = 0;            ///< faces without area
     std::uint64_t repeated = 0;              ///< faces with the same corners as another
     std::uint64_t open_edges = 0;            ///< edges of one face
     std::uint64_t nonmanifold_edges = 0;     ///< edges of more than two faces
     std::uint64_t misoriented_edges = 0;     ///< edges of two inconsistently oriented faces
     std::uint64_t nonmanifold_vertices = 0;  ///< with more than one fan of faces
-    /// Pairs of faces that meet beyond their common corners.
-    std::uint64_t meeting_pairs = 0;
+    std::uint64_t meeting_pairs = 0;         ///< pairs of faces that meet beyond common corners
     std::uint64_t inverted = 0;  ///< closed components that are inside out, and inside no other one
     /// Disjoint closed components are nested, but not as a solid and its cavities.
     bool wrongly_nested = false;
@@ -223,8 +215,7 @@ struct TREEFORM_API solid_defects {
     [[nodiscard]] std::string message() const;
 };
 
-/// The defects that `repair` would mend, and those that it refuses. A mesh without points is a
-/// solid.
+/// The defects that `repair` would mend or refuse. A mesh without points is a solid.
 ///
 /// \throws std::invalid_argument as `self_intersections`, but not for corners
 /// \cost   O(V log V + F log F), plus `self_intersections`

@@ -160,19 +160,16 @@ struct intersection_regions {
 struct stream_search_options {
     std::optional<vertex_identity> vertices{};  ///< none: by coordinates for STL, else by index
     pair_kinds kinds = pair_kinds::all;
-    std::optional<box3> box{};  ///< only faces that meet it
-    std::string format{};       ///< of the input, as for `read`
-    std::uint64_t memory = 0;   ///< limit in bytes; 0: three quarters of the machine's memory
-    /// Folder of the tiles; empty: the input's name and ".search-tiles".
-    std::filesystem::path folder{};
-    /// Approximate limit of faces in a tile; 0: as the memory allows.
-    std::uint64_t faces_per_tile = 0;
+    std::optional<box3> box{};       ///< only faces that meet it
+    std::string format{};            ///< of the input, as for `read`
+    std::uint64_t memory = 0;        ///< limit in bytes; 0: three quarters of the machine's memory
+    std::filesystem::path folder{};  ///< of the tiles; empty: the input's name and ".search-tiles"
+    std::uint64_t faces_per_tile = 0;       ///< approximate limit; 0: as the memory allows
     treeform::communicator communicator{};  ///< not for `stream_search`
     /// Called with the step ("scatter", "pairs") and its completed share, 0 to 1. Returning false
     /// cancels.
     std::function<bool(std::string_view, double)> progress{};
-    /// Called after each step that a restart would skip.
-    std::function<void()> step_done{};
+    std::function<void()> step_done{};  ///< called after each step that a restart would skip
 };
 
 /// What was found in the file.
@@ -190,8 +187,7 @@ struct stream_search_result {
     mesh_file header{};              ///< format, precision and warnings; no mesh
     std::size_t tiles = 0;
     std::size_t finished_tiles = 0;  ///< tiles finished by an earlier run
-    /// The folder held tiles of other options or another input, which were discarded.
-    bool started_anew = false;
+    bool started_anew = false;       ///< the folder held tiles of other options or another input
 };
 
 /// The pairs that `self_intersections` finds in the usable part of a file, for files larger than
