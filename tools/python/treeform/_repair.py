@@ -100,17 +100,17 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     """`mesh` without self-intersections. Look at the certificate: it says whether this was
     possible.
 
-    `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
-    Then they round the points on cuts. Faces that meet nothing stay as they are.
+    `split` and `outer` decide exactly, on the coordinates as given, which faces are cut and what is
+    inside. Then points on cuts are rounded. Faces that meet nothing stay as they are.
 
-    `remove` is for surfaces that bound no solid. It works locally. It deletes the faces that meet
-    or are degenerate. It closes each hole by triangles of the least total area between the vertices
-    of its rim, but not beyond where the mesh ended. Where the new triangles meet other faces, the
-    hole is made wider. A part is a set of faces linked by edges:
-    - In a part that has a border, a hole stays open where widening does not help, or where the hole
-      would surround the border. Then of each pair only one face is deleted.
-    - A closed part stays as it is where a part with a border passes through it.
-    - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
+    `remove` is for surfaces that bound no solid, and works locally. It deletes faces that meet or
+    are degenerate. It fills each hole with triangles of least total area between the vertices of
+    its rim; original borders stay open. If the new triangles meet other faces, the hole is widened.
+    A part is a set of faces linked by edges:
+    - In a part with a border, a hole stays open if widening does not help, or if the hole would
+      surround the border. Then only one face of each pair is deleted.
+    - A closed part stays as it is if a part with a border passes through it.
+    - If every face of a part has a copy, as in a sheet with a back, one copy stays.
 
     mode: 'outer' cuts faces along each other and keeps what bounds the solid; 'split' keeps every
         piece; 'remove' deletes faces that meet and fills the holes, for surfaces that bound no
@@ -120,18 +120,17 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     max_displacement: For `split` and `outer`: as in `boolean`.
     keep_cuts: For `outer`: as in `boolean`; `split` keeps all cuts.
     touching: For `remove`: delete faces that only touch, too; else they stay.
-    max_loss: For `outer` and `remove`: losing more than this share of the solid's volume, or of the
-        area of a mesh that bounds none, has the status `excessive_loss`. 1 allows any loss. What
-        the solid is, is found by `repair` without filling holes: faces agree, and overlaps count
-        once.
+    max_loss: For `outer` and `remove`: losing more than this share gives the status
+        `excessive_loss`. The share is of the volume of the solid, or of the area if the mesh bounds
+        none. 1 allows any loss. The solid before is that of `repair` without filling holes.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
     certified; ValueError as `boolean`; for `remove`, a coordinate may be beyond 2^1000.
 
-    Cost: as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
-    where a component is inward; for `remove`, one `self_intersections` a round, and for a hole of n
-    vertices O(n^3) when n <= 200, else O(n^2).
+    Cost: as `boolean`; plus `repair` to measure loss, in `remove`, and in `outer` if a component is
+    inside out. `remove`: one `self_intersections` for each round, and for a hole of n vertices
+    O(n^3) if n <= 200, else O(n^2).
 
     >>> import treeform
     >>> solid = treeform.resolve_self_intersections(treeform.read("data/two_spheres.stl"))
@@ -148,46 +147,48 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
            max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
-    """A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
-    at the certificate: it says whether this was possible, and where not.
+    """Makes a solid of a defective mesh: closed, oriented, manifold and free of self-intersections.
+    The certificate tells whether this succeeded, and lists what remains.
 
-    The steps are `options`, in their order. Each leaves alone what needs nothing: a mesh that is a
-    solid comes back bit for bit. What meets and what is inside is decided exactly. Which cracks
-    close, which way faces point, and what fills a hole are guesses, and counted. Points with equal
-    coordinates are one. Faces of four corners that are tetrahedra become their boundary. Where
-    faces disagree, the cells that they cut space into are labeled inside or outside by a minimum
-    cut, as they and generalized winding numbers disagree least, if less is lost then.
+    The steps are `options`, in this order. Each changes only what is defective: a mesh that is a
+    solid is returned bit for bit. Which faces meet and what is inside is decided exactly. Which
+    cracks are closed, how faces are oriented, and what fills a hole are heuristics, and counted.
+    Points with equal coordinates are one. Faces that are the sides of tetrahedra are replaced by
+    the boundary of the tetrahedra. If faces remain inconsistent, a minimum cut labels cells inside
+    or outside, by the orientations of faces and generalized winding numbers; the result is used if
+    it loses less.
 
-    Holes are filled by triangles between their vertices; large ones of smooth surfaces by new
-    points, so that the surface goes on as it does around them. Sheets are not filled, but said to
-    be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close
-    them, except those that end in a plane and lie to one side of it. Nor is a mesh where at more
-    than a tenth as many edges as it has faces more than two faces meet and disagree.
+    Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
+    new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
+    unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
+    close it, unless its border is in a plane and it is on one side of the plane. Nor is a mesh
+    filled with more than one edge for 10 faces where three or more faces are inconsistent.
 
     steps: those to take. 'join' drops degenerate and repeated faces and closes cracks, 'orient'
         makes faces agree and look outward, 'fill' fills holes, 'resolve' cuts self-intersections,
         'detach' moves apart what touches in an edge or a vertex.
-    gap: Widest crack to close. Where it is not given, the narrowest of 0, a float step, and 1e-6,
-        1e-5, 1e-4, 1e-3 of the diagonal of the bounding box that leaves the fewest open edges.
+    gap: Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
+        fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of the
+        bounding box.
     largest_hole: Fill holes of at most this many edges.
-    strays: Loose open pieces below this share of the area are dropped, and so are single triangles
-        below 1 %. Where a larger component vanishes since it bounds nothing, the status is
-        `excessive_loss`, unless `max_loss` is 1.
+    strays: Drops loose open pieces below this share of the area, and single triangles below 1 %. If
+        a larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
+        `max_loss` is 1.
     inside: 'automatic', 'nonzero', 'odd' or 'positive': what is solid.
-    max_loss: Losing more than this share has the status `excessive_loss`: of the volume, or of the
-        area where there were holes. Area is lost of which nothing is left, neither in sight nor
-        hidden in the solid. 1 allows any loss.
-    sheet: The mesh is an open surface: its border is kept, and nothing is filled.
+    max_loss: Losing more than this share of the volume gives the status `excessive_loss`; if there
+        were holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
+        allows any loss.
+    sheet: The mesh is an open surface: keep its border, and fill nothing.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: As in `boolean`.
     keep_cuts: as in `boolean`; faces that fill holes are merged with each other alone.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
-    certified; ValueError as `boolean`; for a gap or share that is negative or not finite.
+    certified; ValueError as `boolean`; if a gap or share is negative or not finite.
 
-    Cost: O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
-    n edges O(n^3) up to 100, then O(n^2).
+    Cost: O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n
+    edges O(n^3) if n <= 100, else O(n^2).
 
     >>> import treeform
     >>> mended = treeform.repair(treeform.read("data/dirty.stl"))
@@ -247,7 +248,8 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
 
     Raises ValueError as `self_intersections` for either, or for another number of points.
 
-    Cost: `self_intersections` of the mesh at the new points, and at the old ones only if any meet.
+    Cost: `self_intersections` of the mesh at the new points; at the old points only if any faces
+    meet.
 
     >>> import treeform
     >>> m = treeform.read("data/sphere.ply")

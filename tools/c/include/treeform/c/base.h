@@ -137,10 +137,10 @@ TREEFORM_C_API treeform_code treeform_limit_threads(uint32_t threads,
 
 // made of the headers of C++:
 //   precision vertex_identity
-/// The numbers that coordinates are written as.
+/// The floating-point format of coordinates.
 typedef int32_t treeform_precision;
 enum {
-    /// as a binary STL holds them
+    /// 32-bit floats, as in binary STL
     TREEFORM_FLOAT32 = 0,
     /// doubles
     TREEFORM_FLOAT64 = 1
@@ -150,9 +150,9 @@ enum {
 /// its faces are neighbors.
 typedef int32_t treeform_vertices;
 enum {
-    /// those with equal coordinates: also right for files that repeat them (STL)
+    /// corners with equal coordinates; suits files that repeat points (STL)
     TREEFORM_BY_COORDINATES = 0,
-    /// those with the same number
+    /// corners with the same point number
     TREEFORM_BY_INDEX = 1
 };
 // end
@@ -193,84 +193,85 @@ typedef struct treeform_strings {
     size_t count;
 } treeform_strings;
 
-/// How an operation that makes a mesh has ended.
+/// The outcome of an operation that makes a mesh.
 typedef int32_t treeform_status;
 enum {
-    /// everything that the operation promises was checked and holds
+    /// everything that the operation guarantees was verified
     TREEFORM_STATUS_OK = 0,
-    /// an operand is not closed; `open` says where; no mesh is returned
+    /// an operand is not closed; `open` lists where; no mesh is returned
     TREEFORM_STATUS_OPEN_INPUT = 1,
-    /// the mesh has a border, as asked for; everything else holds
+    /// the mesh has a border, as requested; all other guarantees hold
     TREEFORM_STATUS_SHEET = 2,
     /// more was lost than the caller allows
     TREEFORM_STATUS_EXCESSIVE_LOSS = 3,
     /// with equal coordinates joined, an edge has more than two faces, or a vertex more than one
     /// fan
     TREEFORM_STATUS_NOT_MANIFOLD = 4,
-    /// faces still meet in the coordinates returned; `meeting` says which
+    /// faces still meet in the returned coordinates; `meeting` lists them
     TREEFORM_STATUS_NOT_CERTIFIED = 5,
     /// no face is left: the result is thinner than the coordinates can show, or faces cancel each
     /// other out
     TREEFORM_STATUS_VANISHED = 6,
-    /// a coordinate of the result is too large for the precision asked for
+    /// a coordinate of the result overflows the requested precision
     TREEFORM_STATUS_OUT_OF_RANGE = 7,
-    /// of a placement: there is no such place; `placement::end` says why
+    /// of a placement: there is none; `placement::end` tells why
     TREEFORM_STATUS_NO_PLACE = 8,
-    /// `progress` asked to stop; nothing is returned
+    /// stopped by `progress`; there is no result
     TREEFORM_STATUS_CANCELLED = 9
 };
 
-/// A place where a surface ends, or where its faces do not agree in their orientation.
+/// An edge where a surface ends, or where its faces are oriented inconsistently.
 typedef struct treeform_open_edge {
     treeform_element face;  ///< a face at the edge
-    double ends[2][3];      ///< ends of the open part of the edge; rounded where it is cut
+    /// Ends of the open part of the edge; rounded if the edge is cut.
+    double ends[2][3];
 } treeform_open_edge;
 
-/// What was checked about a mesh that an operation (`treeform_boolean`,
+/// The outcome of checking a mesh that an operation (`treeform_boolean`,
 /// `treeform_resolve_self_intersections`, `treeform_slide`, `treeform_pack`) returns or places:
-/// with exact predicates, on the coordinates returned.
+/// with exact predicates, on the returned coordinates.
 typedef struct treeform_certificate {
     void* owner;
     treeform_status status;
     const char* message;  ///< half a sentence for people
-    /// Pairs of faces that meet where they should not. A face paired with itself is degenerate or
-    /// has its outside behind it. `meeting` lists the first 100.
+    /// Number of pairs of faces that meet where they should not. A face paired with itself is
+    /// degenerate, or has the outside behind it. `meeting` lists the first 100.
     uint64_t meeting_count;
     const uint32_t* meeting;   ///< [meeting_listed][2]
     const double* meeting_at;  ///< a corner of the first face of each pair in `meeting`
     size_t meeting_listed;
-    /// Edges whose signed face count is not zero, in pieces where others overlap them. The first
-    /// 100 of `open_count`.
+    /// Number of edges whose signed face count is not zero, counted in pieces where edges overlap.
+    /// `open` lists the first 100.
     uint64_t open_count;
     const treeform_open_edge* open;  ///< [open_listed]
     size_t open_listed;
-    /// The same edges as the operands have them, with equal coordinates joined: those of an odd
-    /// number of faces, where the surface ends, and those of an even number, where faces run the
-    /// same way. Both are 0 if a vertex lies inside such an edge: edges may then fit together
+    /// The same edges in the operands, after joining equal coordinates: edges of an odd number of
+    /// faces, where the surface ends, and edges of an even number of faces, which are oriented
+    /// inconsistently. Both are 0 if a vertex lies inside such an edge, since edges may then match
     /// piece by piece.
     uint64_t boundary_edges;
     uint64_t misoriented_edges;
-    /// Rounding moved no coordinate of a vertex further than this: from where it was, exactly, or,
-    /// where it is new or gone since rounding broke something, from the nearest place of the
-    /// surface. Measured; moves on the way do not add up.
+    /// The largest change of a coordinate by rounding, from the exact position of the vertex. For
+    /// vertices added or removed by mending, from the nearest point of the exact surface. Measured
+    /// on the result; intermediate moves do not add up.
     double max_displacement;
     treeform_precision precision;  ///< of the coordinates
-    /// Of `vanished`, the faces of the exact result, all of them thinner than the coordinates tell
-    /// apart; 0 where there were none.
+    /// For status `vanished`: number of faces of the exact result, all too thin for the
+    /// coordinates; 0 if it had no faces.
     uint64_t vanished_faces;
-    /// Of `excessive_loss`: the volume, or the area where there is no solid, before and after.
+    /// For status `excessive_loss`: the volume (the area, if there is no solid) before and after.
     double size_before;
     double size_after;
     int32_t size_is_volume;
 } treeform_certificate;
 
-/// The work of a bounded search, in pairs of faces looked at. It depends on the input alone. What
-/// the search found is valid even where it was cut short.
+/// The work of a bounded search, in pairs of faces tested. It depends on the input alone. A result
+/// is valid even if the bound was reached.
 typedef struct treeform_search_effort {
-    uint64_t pairs;  ///< pairs of faces looked at; a pair in motion counts as two
-    uint64_t bound;  ///< the most that the search was to look at
-    /// Candidates skipped, since each would take more than 1/32 of the bound, or than what was
-    /// left of it. If not 0, a better answer may exist.
+    uint64_t pairs;  ///< pairs of faces tested; a pair in motion counts as two
+    uint64_t bound;  ///< the limit of `pairs`
+    /// Number of candidates skipped, since each would take more than 1/32 of the bound, or more
+    /// than the rest of it. If not 0, a better result may exist.
     uint64_t cut;
 } treeform_search_effort;
 // end

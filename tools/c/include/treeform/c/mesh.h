@@ -102,21 +102,21 @@ TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, co
 TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
                                             treeform_made_mesh** made);
 
-/// Distance between neighboring numbers of precision `of` at the largest finite coordinate of
-/// `mesh`. When there is none, or all are 0, the least positive number.
+/// The spacing of numbers of precision `of` at the largest finite coordinate of `mesh`. If there
+/// is none, or all are 0, the least positive number.
 TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
                                                       treeform_precision of, double* result);
 
 /// How far rounding moved points, and what it has broken.
 typedef struct treeform_rounding {
     void* owner;
-    double max_displacement;  ///< largest change of a coordinate, apart from the move
-    double step;              ///< between neighboring numbers, at the largest coordinate written
-    /// Doubles have become float32, or a change is more than a millionth of the size.
+    double max_displacement;  ///< largest change of a coordinate, beyond the move
+    double step;              ///< spacing of numbers at the largest written coordinate
+    /// True if doubles became float32, or a change is more than a millionth of the size.
     int32_t noticeable;
-    int32_t compared;    ///< faces were compared, because coordinates are coarser now
+    int32_t compared;    ///< faces were compared, since coordinates became coarser
     uint64_t collapsed;  ///< faces that have lost their area
-    uint64_t meeting;    ///< pairs of faces that meet now, and did not before
+    uint64_t meeting;    ///< new pairs of faces that meet
 } treeform_rounding;
 
 /// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved),
