@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// Bodies of files. Which parts of an assembly penetrate, touch, or are too close; the same in many
-/// poses.
+/// Bodies of files. Clashes: parts of an assembly that penetrate, touch, or are too close, also in
+/// many poses.
 
 #include <treeform/c/files.h>
 #include <treeform/c/nearness.h>
 
-/// What of a file is a body.
+/// Which parts of a file are bodies.
 typedef int32_t treeform_body_kind;
 enum {
     TREEFORM_BODY_FILE = 0,   ///< all of it
@@ -142,7 +142,7 @@ typedef struct treeform_pose_clash {
 } treeform_pose_clash;
 // end
 
-/// What clashes in each pose: those of pose p are clashes[begin[p]] ... clashes[begin[p + 1] - 1].
+/// The clashes in each pose: those of pose p are clashes[begin[p]] ... clashes[begin[p + 1] - 1].
 typedef struct treeform_poses_result {
     void* owner;
     const size_t* begin;  ///< [pose_count + 1]

@@ -1,36 +1,33 @@
 #pragma once
 /// \file
-/// What all of the C surface shares: rules, errors, memory, progress, threads, version.
+/// Common to all C headers: conventions, errors, memory, progress, threads, version.
 ///
-/// Calls. Nearly every function returns a `treeform_code` and writes its answer through its last
-/// parameters. 0 is success, a positive code comes with a result that is not all that was asked
-/// for, a negative one comes without. `treeform_last_error` says in a sentence what was wrong, and
-/// which face, point, option or file it was. No argument may be null unless its description says
-/// so, or it is a `format` (by content, or by the extension), a `unit`, a `progress` or `written`;
-/// and a null argument, a number out of range or a coordinate that is not finite is an error, not a
-/// crash.
+/// Calls. Nearly every function returns a `treeform_code` and writes its result through its last
+/// parameters. 0 is success. A positive code comes with an incomplete result, a negative code
+/// without a result. `treeform_last_error` describes the error in a sentence, with the face, point,
+/// option or file. An argument may be null only if its description says so, or if it is a `format`
+/// (then detected by content or extension), a `unit`, a `progress` or `written`. Null arguments,
+/// numbers out of range and coordinates that are not finite are reported as errors.
 ///
-/// Memory. What a function creates (meshes, files, trees, results) is given back by
-/// `treeform_free`, whatever it is. Results are structs; the arrays that they point to belong to
-/// them, and stay until they are freed. The first member of a result, `owner`, is the library's.
-/// Arrays that you pass are yours; a function has read them when it returns, except where it says
-/// that it borrows them.
+/// Memory. Free all objects that functions create (meshes, files, trees, results) with
+/// `treeform_free`. Results are structs that own the arrays they point to, until they are freed.
+/// The first member of a result, `owner`, is internal. Arrays that you pass stay yours; a function
+/// does not use them after it returns, unless it says that it borrows them.
 ///
 /// Options. Structs of options begin with their size: call their `..._init` with `sizeof`, then set
-/// what you need; null in place of options means the defaults. Structs of options and results may
-/// grow at their end in later versions, which old programs do not notice: they are passed by
-/// address, and never within other structs. All other structs (`treeform_face_pair`, ...) stay as
-/// they are within a major version; while that is 0, within a minor one.
+/// members; null instead of options means the defaults. Later versions may append members to
+/// structs of options and results. This is compatible with compiled programs, since these structs
+/// are passed by address and never embedded in others. All other structs (`treeform_face_pair`,
+/// ...) are fixed within a major version; in version 0, within a minor version.
 ///
-/// Numbers. Coordinates are doubles, points are x, y, z one after the other; faces are three 32-bit
-/// numbers of points, counter-clockwise seen from outside. Truth values are 0 and 1. An option that
-/// need not be given is NaN or, of a number that counts elements, `TREEFORM_NONE`. A matrix has 12
-/// numbers, three rows of four: new = M * old, so the first twelve of a 4x4 matrix by rows. Null in
-/// place of a matrix moves nothing.
+/// Numbers. Coordinates are doubles, points are consecutive x, y, z; faces are three 32-bit numbers
+/// of points, counter-clockwise seen from outside. Truth values are 0 and 1. An unset option is NaN
+/// or, for a count or index, `TREEFORM_NONE`. A matrix has 12 numbers, the first three rows of a
+/// 4x4 matrix: new = M * old. Null instead of a matrix means the identity.
 ///
-/// Threads. Functions may be called from any threads at once. The same handle may be given to
-/// several calls at once as long as each takes it as const. Answers do not depend on how many
-/// threads the library uses.
+/// Threads. Functions may be called from several threads at once. Concurrent calls may share a
+/// handle if all take it as const. Results do not depend on the number of threads that the library
+/// uses.
 
 #include <stddef.h>
 #include <stdint.h>
@@ -64,8 +61,7 @@
 typedef int32_t treeform_code;
 enum {
     TREEFORM_OK = 0,
-    /// There is a result, but its certificate does not hold: `treeform_last_error` says what does
-    /// not.
+    /// There is a result, but its certificate is not ok: `treeform_last_error` tells why.
     TREEFORM_NOT_CERTIFIED = 1,
     TREEFORM_NO_PLACE = 2,    ///< there is a result, and it says that there is no such place
     TREEFORM_INVALID = -1,    ///< an argument that makes no sense; the message names it
@@ -76,46 +72,45 @@ enum {
     TREEFORM_INTERNAL = -6    ///< a bug of the library
 };
 
-/// In place of a number of an element: there is none.
+/// No element, instead of an index.
 #define TREEFORM_NONE 0xFFFFFFFFu
 
-/// What was wrong with the last call of this thread that did not return `TREEFORM_OK`; never null.
-/// It stays until the next such call of this thread.
+/// The error of the last call of this thread that did not return `TREEFORM_OK`; never null. The
+/// text is valid until the next such call of this thread.
 TREEFORM_C_API const char* treeform_last_error(void);
 
-/// "invalid", "file", ...: the name of a code, for logs; "unknown" for a number that is none.
+/// The name of a code, for logs: "invalid", "file", ...; "unknown" for other numbers.
 TREEFORM_C_API const char* treeform_code_name(treeform_code code);
 
-/// Frees what a function of this library has created: a mesh, a file, a tree, a result. Null is
-/// nothing to free. Arrays borrowed from it are gone, too.
+/// Frees an object that a function of this library created: a mesh, a file, a tree, a result. Does
+/// nothing for null. Arrays of the object are freed, too.
 TREEFORM_C_API void treeform_free(void* what);
 
-/// Called now and then with the share of the work that is done, in [0, 1] and never decreasing, and
-/// with the `progress_data` of the options. Returning other than 0 cancels: the call ends with
+/// Called from time to time with the completed share of the work, in [0, 1] and never decreasing,
+/// and with the `progress_data` of the options. Returning other than 0 cancels: the call ends with
 /// `TREEFORM_CANCELLED`. It is called from one thread at a time, not always the caller's.
 typedef int (*treeform_progress)(double done, void* data);
 
-/// From here on, also those calls of this thread report progress that have no progress among their
-/// options and take long: `treeform_find_features`, and those that answer many questions: of
-/// points, rays, boxes, positions, and all pairs of points. Null: none does, as at first. A call
-/// that is cancelled has filled its arrays in part.
+/// Sets the progress callback for long calls of this thread without a progress option:
+/// `treeform_find_features`, queries of many points, rays, boxes or positions, and all pairs of
+/// points. Null, the default: none. A cancelled call has filled its arrays only partly.
 ///
-/// All other calls without progress run to their end: they read or write a file once, take one or
-/// two meshes through once (a million faces or points in less than half a second on two cores), or
-/// build a tree (the same).
+/// All other calls without a progress option cannot be stopped: they read or write a file once, or
+/// process one or two meshes or build a tree once (a million faces or points in less than half a
+/// second on two cores).
 TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
 
-/// Takes what one process of a communicator has sent: `bytes` [count].
+/// Receives the bytes sent by one process of a communicator: `bytes` [count].
 typedef void (*treeform_hear)(const void* bytes, size_t count, void* listener);
 
-/// Processes that do one work together, each its share, in a folder that all see, such as those
-/// that mpirun starts. All call the same with the same options; outputs are those of rank 0.
+/// Processes that share one job in a common folder, such as those that mpirun starts. All must make
+/// the same calls with the same options; outputs are those of rank 0.
 typedef struct treeform_communicator {
     size_t rank;
     size_t size;
-    /// Gives all of them what each gives (`told` [count]): calls `hear(bytes, count, listener)` for
-    /// each in the order of the ranks, with what that one told. Returning other than 0, as it must
-    /// where one has failed, ends the call with `TREEFORM_CANCELLED`.
+    /// Collective: sends `told` [count] to all processes, and calls `hear(bytes, count, listener)`
+    /// for each process in the order of ranks, with the bytes it sent. A nonzero return value,
+    /// required if a process failed, ends the call with `TREEFORM_CANCELLED`.
     int (*exchange)(const void* told, size_t count, treeform_hear hear, void* listener, void* data);
     void* data;
 } treeform_communicator;
@@ -126,7 +121,7 @@ TREEFORM_C_API int32_t treeform_version(void);
 /// The same as text: "0.1.0".
 TREEFORM_C_API const char* treeform_version_string(void);
 
-/// Number of threads that a call may use now.
+/// Number of threads that a call may use at present.
 TREEFORM_C_API uint32_t treeform_thread_count(void);
 
 /// As long as a limit exists, calls of the whole process use at most that many threads.
@@ -157,7 +152,7 @@ enum {
 };
 // end
 
-/// Somebody's arrays of points and faces.
+/// Arrays of points and faces that another object owns.
 typedef struct treeform_arrays {
     const double* points;  ///< [point_count][3]
     size_t point_count;

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Sections of a mesh by planes, solids cut by them; parts of meshes, meshes one after the other,
-/// moved.
+/// Sections of a mesh by planes; solids cut by planes; parts of meshes; meshes concatenated and
+/// transformed.
 
 #include <treeform/c/mesh.h>
 
-/// The plane through a point across a normal, whose length does not matter.
+/// The plane through a point with a normal of any length except zero.
 typedef struct treeform_plane {
     double at[3];
     double normal[3];

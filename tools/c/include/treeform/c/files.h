@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Files: read, looked into, changed, joined, split into parts, written; robots.
+/// Files: reading, inspecting, changing, joining, splitting into parts, writing; robots.
 
 #include <treeform/c/mesh.h>
 
@@ -180,7 +180,7 @@ TREEFORM_C_API treeform_code treeform_file_add_part(treeform_file* file, const c
                                                     uint32_t first_face);
 // end
 
-/// What a line of text in a file is.
+/// The kind of a line of text in a file.
 typedef int32_t treeform_text;
 enum {
     TREEFORM_COMMENT = 0,
@@ -370,7 +370,7 @@ TREEFORM_C_API treeform_code treeform_files_of(const char* const* paths, size_t 
                                                treeform_strings** strings);
 // end
 
-/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 when treeform was built
+/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 if treeform was built
 /// without assimp.
 TREEFORM_C_API int32_t treeform_reads_scenes(void);
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which faces meet: of a mesh, of two, of a mesh and a box; the curves along which they meet; of a
-/// file larger than memory.
+/// Intersections of faces: of one mesh, of two meshes, of a mesh and a box; intersection curves;
+/// files larger than memory.
 
 #include <treeform/c/files.h>
 
@@ -252,7 +252,7 @@ TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, con
                                                            int32_t* result);
 // end
 
-/// The same search step by step, for many processes that see one folder.
+/// The same search step by step, for many processes that share a folder.
 typedef struct treeform_search treeform_search;
 // made of the headers of C++:
 //   search_create() search_scatter() search_unfinished() search_tile() search_finish()

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes laid flat, packed on plates, aligned.
+/// Laying meshes flat, packing them on plates, aligning them.
 
 #include <treeform/c/properties.h>
 

@@ -1,15 +1,15 @@
 #pragma once
 /// \file
-/// Meshes and clouds of your own arrays; meshes joined, selected from and rounded.
+/// Meshes and point clouds from your arrays; joining, selecting faces, rounding.
 
 #include <treeform/c/base.h>
 
-/// A triangle mesh, or a cloud of points, and the indexes that queries have asked for. The first
-/// query that needs an index builds it, later ones use it again. Queries take it as const: they may
-/// run on any threads at once.
+/// A triangle mesh, or a point cloud, with the indexes of queries. The first query that needs an
+/// index builds it, later queries reuse it. Queries take a const handle, and may run on several
+/// threads at once.
 typedef struct treeform_mesh treeform_mesh;
 
-/// How a mesh takes its arrays: flags to be added.
+/// How a mesh takes its arrays: flags, combined by addition.
 enum {
     TREEFORM_COPY = 1,    ///< copy the arrays; else they are borrowed
     TREEFORM_ONE_USE = 2  ///< keep no index: for a mesh that is asked one question
@@ -72,7 +72,7 @@ TREEFORM_C_API treeform_code treeform_mesh_set_create(const treeform_mesh* const
                                                       size_t count, treeform_mesh_set** set);
 // end
 
-/// A mesh that was made of others.
+/// A mesh made from others.
 typedef struct treeform_made_mesh {
     void* owner;
     treeform_arrays mesh;

@@ -3,8 +3,8 @@
 /// Nearest points, distances, inside and outside, rays, relation and depth of two meshes,
 /// deviation.
 ///
-/// Functions of many points or rays answer into your arrays, in the order of the queries and in
-/// parallel. An array of answers that you do not want may be null.
+/// Functions of many points or rays run in parallel, and write results to your arrays in the order
+/// of the queries. An output array may be null.
 
 #include <treeform/c/mesh.h>
 

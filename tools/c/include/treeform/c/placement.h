@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Where a mesh goes: slid, dropped, mated, turned, separated; when it meets another in motion.
-/// `layouts.h` has meshes laid flat, packed and aligned.
+/// Placement: slide, drop, mate, turn, separate; time of impact. `layouts.h` has laying flat,
+/// packing and alignment.
 ///
-/// Placements are checked exactly in the coordinates that they return. Where there is no such
-/// place, they return `TREEFORM_NO_PLACE` with a result that says why. `fixed` [fixed_count] are
-/// meshes that stay; of a `treeform_mesh_set`, they keep their indexes from call to call.
+/// Placements are checked exactly in the returned coordinates. If there is no such place, functions
+/// return `TREEFORM_NO_PLACE`, with a result that tells why. `fixed` [fixed_count] are meshes that
+/// do not move; those of a `treeform_mesh_set` keep their indexes between calls.
 
 #include <treeform/c/layouts.h>
 #include <treeform/c/nearness.h>

@@ -231,7 +231,7 @@ TREEFORM_C_API treeform_code treeform_compare_distance(const double a[3], const 
                                                        int32_t* result);
 // end
 
-/// What two triangles have in common.
+/// The intersection of two triangles.
 typedef struct treeform_triangle_contact {
     int32_t dimension;  ///< of the common set: -1 nothing, 0 a point, 1 a segment, 2 an area
     int32_t coplanar;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Solids grown, shrunk and hollowed, surfaces made thick; fewer faces; how thick walls are; the
-/// smallest box around points; lines along which a value has a level.
+/// Offset, hollow and thickened solids; simplification; wall thickness; smallest boxes around
+/// points; isolines.
 
 #include <treeform/c/cuts.h>
 #include <treeform/c/mesh.h>

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Solids: set operations, self-intersections resolved, dirty meshes repaired, wraps.
+/// Solids: set operations, resolved self-intersections, repair, wraps.
 ///
-/// These return `TREEFORM_OK` when the certificate of the result holds. Otherwise they return
-/// `TREEFORM_NOT_CERTIFIED`, and there is a result all the same, to be looked at and freed.
+/// These functions return `TREEFORM_OK` if the certificate of the result is ok. Otherwise they
+/// return `TREEFORM_NOT_CERTIFIED`, also with a result, which must be freed.
 
 #include <treeform/c/files.h>
 

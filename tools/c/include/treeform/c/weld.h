@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points that are within a distance of each other become one: of clouds, meshes and files.
+/// Merges points within a distance of each other: in clouds, meshes and files.
 
 #include <treeform/c/files.h>
 
