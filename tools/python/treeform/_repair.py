@@ -207,8 +207,8 @@ def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
 
     points: (n, 3), or a mesh.
 
-    Raises ValueError naming the first point that is not finite, and for more points than 32 bits
-    can number.
+    Raises ValueError naming the first point that is not finite; for more points than 32 bits can
+    number.
 
     Cost: O(V log V) time for most inputs, O(V^2) for some; serial.
 
@@ -261,9 +261,9 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
 
 
 def join_equal_points(mesh: MeshLike, *, progress: Progress = None) -> Mesh:
-    """`mesh` with equal points joined. Points are in the order in which they first appear, with the
-    coordinates of the first, bit for bit. Nothing is dropped: faces keep their order, even those
-    that now repeat a corner, and points that no face uses stay.
+    """`mesh` with equal points joined. Points are in the order of first appearance, with the
+    coordinates of the first, bit for bit. Nothing is dropped: all faces stay in order, even those
+    that now repeat a corner, and so do points without faces.
 
     Raises ValueError for more than 2^32 - 1 points, or naming the lowest face with a corner out of
     range.

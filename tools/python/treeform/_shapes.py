@@ -332,11 +332,11 @@ def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None
 
 @dataclass(frozen=True, repr=False)
 class OrientedBox(Result):
-    """A box turned in any way.
+    """A box in any orientation.
 
     center: (3,) of the box.
     axes: (3, 3) of length 1, right-handed: along the longest side, the next, the shortest.
-    size: (3,) along these.
+    size: (3,) lengths along these axes.
     """
 
     center: Floats
@@ -345,10 +345,10 @@ class OrientedBox(Result):
 
 
 def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | None:
-    """The box of least volume around points, of those with a side in a side of their convex hull,
-    and another along an edge of it, or along the axes of space. Of flat points, the least area.
-    None without points. Of a hull of more than some thousand sides, those of the largest areas are
-    looked at, as many as 2^26 corners of sides allow.
+    """A box of small volume around points: the smallest among boxes with one side in a side of the
+    convex hull and another along an edge of that side, and the axis-aligned box. For coplanar
+    points, of least area. None without points. For a hull of more than a few thousand sides, only
+    the largest sides are tried, up to 2^26 corners of sides.
 
     Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 

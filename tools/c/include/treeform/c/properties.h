@@ -182,12 +182,12 @@ TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
                                                   treeform_feature_kind kind, const uint32_t* faces,
                                                   size_t count, treeform_features** features);
 
-/// A flat side of a convex hull: all of the hull that lies in one plane.
+/// A flat side of a convex hull: all coplanar faces of one plane.
 typedef struct treeform_hull_side {
     /// The first of its faces, in `convex_hull_result::faces`; any three corners span its plane.
     uint32_t first_face;
     uint32_t face_count;
-    double area;       ///< rounded; infinite where no double holds it
+    double area;       ///< rounded; infinite on overflow
     double normal[3];  ///< outward, of length 1, rounded
     double center[3];  ///< of area, rounded
 } treeform_hull_side;

@@ -215,19 +215,19 @@ TREEFORM_C_API treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
                                                      void* progress_data,
                                                      treeform_thickness_result** result);
 
-/// A box turned in any way.
+/// A box in any orientation.
 typedef struct treeform_oriented_box {
     void* owner;
     double center[3];  ///< of the box
     /// of length 1, right-handed, rounded: along the longest side, the next, the shortest
     double axes[3][3];
-    double size[3];  ///< along these
+    double size[3];  ///< lengths along these axes
 } treeform_oriented_box;
 
-/// The box of least volume around points, of those with a side in a side of their convex hull, and
-/// another along an edge of it, or along the axes of space. Of flat points, the least area. None
-/// without points. Of a hull of more than some thousand sides, those of the largest areas are
-/// looked at, as many as 2^26 corners of sides allow.
+/// A box of small volume around points: the smallest among boxes with one side in a side of the
+/// convex hull and another along an edge of that side, and the axis-aligned box. For coplanar
+/// points, of least area. None without points. For a hull of more than a few thousand sides, only
+/// the largest sides are tried, up to 2^26 corners of sides.
 ///
 /// Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 TREEFORM_C_API treeform_code treeform_find_oriented_box(const treeform_mesh* mesh,
