@@ -284,7 +284,7 @@ TEST_CASE("LAS: what it does not hold is refused, with the number of the point")
     const test::las_bytes las = las_of(0);
     tf::mesh_file file = read_las(las.file(test::las_points(test::las_family::scan, 0, 20, 9, 1)));
     file.mesh.points[5].y = std::nan("");
-    CHECK(has_part(las_refusal(file), "point 5: a coordinate that is no finite number"));
+    CHECK(has_part(las_refusal(file), "point 5: a coordinate that is not finite"));
     file.mesh.points[5].y = 1e9;
     CHECK(has_part(las_refusal(file), "point 5: a coordinate beyond"));
     file.mesh.points[5].y = 0;
