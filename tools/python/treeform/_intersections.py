@@ -150,7 +150,8 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
                        first_only: bool = False, kinds: Iterable[str] | None = None,
                        limit: int | None = None, progress: Progress = None) -> FacePairs:
     """All pairs of faces that meet where they should not: in a point that is neither a shared
-    corner nor on a shared edge. Repeated vertices, as in an STL, do not matter (`vertices`).
+    corner nor on a shared edge. A mesh that repeats its vertices, as an STL does, gives the same
+    pairs as one that does not (`vertices`).
 
     Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
     segment or point that it is; its pairs have a kind of their own.

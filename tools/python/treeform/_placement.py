@@ -82,8 +82,8 @@ class Placement(MeshResult):
     contact_count: Number of all contacts, listed or not.
     nearest: The fixed mesh that matters most, and how the mesh lies to it; None where all are far.
     certificate: What was checked about the coordinates.
-    effort: Of `separate`: what its search took. Where some of its questions were cut, a shorter way
-        may exist; without a place, one that was not found.
+    effort: For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
+        exist; or, if no place was found, a place.
     angle: Of `turn` and `mate_features`: in degrees, of the turn.
     tolerance: Of `turn`: the gap, beyond the clearance, that counts as contact.
     offset: Of `mate_features`: how far the center of the moving feature ended from that of the
@@ -172,7 +172,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     onto: a fixed body, or a list of them.
     direction: (3,) of any length.
     clearance: The gap to leave, a distance; 0: until contact.
-    max_travel: A length; obstacles beyond are ignored.
+    max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
     bed: z of a bed, which also stops the mesh: points that rest on it have exactly its z (with
         float32, the least one not below it), and no point is below.
@@ -332,10 +332,10 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
 def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
                   clearance: float = 0.0, max_travel: float | None = None, flip: bool = False,
                   precision: str = "float64", progress: Progress = None) -> Placement:
-    """Turns `moving` by the least angle that makes the two features' directions opposite (planes)
-    or parallel (axes), puts center above center, and slides it from outside along the direction of
-    the fixed feature until first contact with any of `onto`, or the clearance, exactly as `slide`
-    does. Planes come from the side that the fixed one looks to; axes from the side where `moving`
+    """Rotates `moving` by the least angle that makes the features' directions opposite (planes) or
+    parallel (axes), aligns their centers, and slides `moving` from outside along the direction of
+    the fixed feature until first contact with any of `onto`, or the clearance, exactly like
+    `slide`. Planes approach from the front of the fixed plane; axes from the side where `moving`
     is.
 
     A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
@@ -525,8 +525,8 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
 
     scale: find a uniform scale, too; a pair is its bounds, in addition to the scale of `start`.
     method: 'point_to_plane', 'point_to_point', 'automatic' or 'plane_to_plane'.
-    overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share,
-        the nearest ones, and ignores the rest.
+    overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share of
+        nearest points, and ignores the rest.
     robust: Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
         medians of the distances at the start, v is halved down to where a third of the points is
         within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have

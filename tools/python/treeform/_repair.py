@@ -100,17 +100,17 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     """`mesh` without self-intersections. Look at the certificate: it says whether this was
     possible.
 
-    `split` and `outer` decide exactly, on the coordinates as given, which faces are cut and what is
-    inside. Then points on cuts are rounded. Faces that meet nothing stay as they are.
+    `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
+    Then they round the points on cuts. Faces that meet nothing stay as they are.
 
-    `remove` is for surfaces that bound no solid, and works locally. It deletes faces that meet or
-    are degenerate. It fills each hole with triangles of least total area between the vertices of
-    its rim; original borders stay open. If the new triangles meet other faces, the hole is widened.
-    A part is a set of faces linked by edges:
-    - In a part with a border, a hole stays open if widening does not help, or if the hole would
-      surround the border. Then only one face of each pair is deleted.
-    - A closed part stays as it is if a part with a border passes through it.
-    - If every face of a part has a copy, as in a sheet with a back, one copy stays.
+    `remove` is for surfaces that bound no solid. It works locally. It deletes the faces that meet
+    or are degenerate. It closes each hole by triangles of the least total area between the vertices
+    of its rim, but not beyond where the mesh ended. Where the new triangles meet other faces, the
+    hole is made wider. A part is a set of faces linked by edges:
+    - In a part that has a border, a hole stays open where widening does not help, or where the hole
+      would surround the border. Then of each pair only one face is deleted.
+    - A closed part stays as it is where a part with a border passes through it.
+    - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
 
     mode: 'outer' cuts faces along each other and keeps what bounds the solid; 'split' keeps every
         piece; 'remove' deletes faces that meet and fills the holes, for surfaces that bound no
@@ -128,9 +128,9 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
     certified; ValueError as `boolean`; for `remove`, a coordinate may be beyond 2^1000.
 
-    Cost: as `boolean`; plus `repair` to measure loss, in `remove`, and in `outer` if a component is
-    inside out. `remove`: one `self_intersections` for each round, and for a hole of n vertices
-    O(n^3) if n <= 200, else O(n^2).
+    Cost: as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
+    where a component is inward; for `remove`, one `self_intersections` a round, and for a hole of n
+    vertices O(n^3) when n <= 200, else O(n^2).
 
     >>> import treeform
     >>> solid = treeform.resolve_self_intersections(treeform.read("data/two_spheres.stl"))
@@ -147,8 +147,8 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
            max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
-    """Makes a solid of a defective mesh: closed, oriented, manifold and free of self-intersections.
-    The certificate tells whether this succeeded, and lists what remains.
+    """A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
+    at the certificate: it says whether this was possible, and where not.
 
     The steps are `options`, in this order. Each changes only what is defective: a mesh that is a
     solid is returned bit for bit. Which faces meet and what is inside is decided exactly. Which
@@ -248,8 +248,7 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
 
     Raises ValueError as `self_intersections` for either, or for another number of points.
 
-    Cost: `self_intersections` of the mesh at the new points; at the old points only if any faces
-    meet.
+    Cost: `self_intersections` of the mesh at the new points, and at the old ones only if any meet.
 
     >>> import treeform
     >>> m = treeform.read("data/sphere.ply")
@@ -261,9 +260,9 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
 
 
 def join_equal_points(mesh: MeshLike, *, progress: Progress = None) -> Mesh:
-    """`mesh` with equal points joined. Points are in the order of first appearance, with the
-    coordinates of the first, bit for bit. Nothing is dropped: all faces stay in order, even those
-    that now repeat a corner, and so do points without faces.
+    """`mesh` with equal points joined. Points are in the order in which they first appear, with the
+    coordinates of the first, bit for bit. Nothing is dropped: faces keep their order, even those
+    that now repeat a corner, and points that no face uses stay.
 
     Raises ValueError for more than 2^32 - 1 points, or naming the lowest face with a corner out of
     range.

@@ -191,21 +191,20 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     that nothing leads to. A smaller size follows the mesh more closely, with more faces, some area
     / `size`^2 of them.
 
-    No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
-    coordinates of both. The distance of its vertices is met as far as rounding allows.
+    No face of the mesh meets the wrap or is outside of it: this is verified exactly, on the
+    coordinates of both. Its vertices are at the offset up to rounding.
 
     offset: `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. None: a
         thirtieth of the size.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     check: False returns what could not be certified, too, with its `certificate`.
 
-    Raises NotCertifiedError where the result could not be certified; ValueError naming the face
-    with a corner out of range or not finite; where the mesh has no faces, where it is larger than
-    2^150 or smaller than 2^-150, for a size or offset that is not positive and finite, or so small
-    that coordinates of the precision do not tell apart what is as near as the offset, or the wrap
-    would have more than 2^30 faces.
+    Raises NotCertifiedError where the result could not be certified; ValueError naming a face with
+    a corner out of range or not finite; for a mesh without faces, larger than 2^150 or smaller than
+    2^-150; for a size or offset that is not positive and finite; for an offset near the spacing of
+    the coordinates; for a wrap of more than 2^30 faces.
 
-    Cost: for n points O(n log n) in most cases, O(n log F) queries of the tree over the faces; some
+    Cost: O(n log n) for n points in most cases, with O(n) queries of a tree over the F faces; about
     400 bytes a point; serial.
 
     >>> import treeform
@@ -299,7 +298,7 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
 
 @dataclass(frozen=True, repr=False)
 class Thickness(Result):
-    """The thickness at each face, and the least one.
+    """The thickness at each face, and the least.
 
     of_face: (F,) Infinite if there is nothing behind a face, or the face has no area.
     least: Of all faces.

@@ -60,8 +60,9 @@ typedef struct treeform_clash_options {
     treeform_vertices vertices;  ///< as in `treeform_relation`
     treeform_progress progress;
     void* progress_data;
-    int32_t volumes;  ///< of what two closed parts have in common; default 1
-    int32_t depths;   ///< of penetrating parts; default 1
+    /// Compute the volume of the intersection of closed parts; default 1
+    int32_t volumes;
+    int32_t depths;   ///< compute depths of penetrating parts; default 1
     uint64_t effort;  ///< for each depth, as in `treeform_depth_options`
     uint64_t limit;   ///< faces listed for each region and part; default 1000
 } treeform_clash_options;

@@ -66,7 +66,7 @@ typedef struct treeform_placement {
     const treeform_certificate* certificate;
     treeform_placement_end end;
     const char* message;   ///< half a sentence for people
-    const double* points;  ///< [V] the points at the place, rounded to the precision
+    const double* points;  ///< [V] at the place, as they are to be written
     size_t point_count;
     /// new = M * old: a translation; of `treeform_turn` and `treeform_mate_features` a turn, too.
     /// `points` are moved by it and rounded once, except for those that are set on the bed.
@@ -96,16 +96,17 @@ typedef struct treeform_placement {
     /// Of `treeform_mate_features`: how far the center of the moving feature ended from that of
     /// the fixed one, along the direction of the fixed one. Of planes: their distance.
     double offset;
-    /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way
-    /// may exist; without a place, one that was not found.
+    /// For `separate`: the effort of its search. If `treeform_cut` is not 0, a shorter translation
+    /// may exist; or, if no place was found, a place.
     treeform_search_effort effort;
 } treeform_placement;
 
 /// How a mesh is placed. What an operation has no use for, it ignores.
 typedef struct treeform_place_options {
     size_t size;
-    double clearance;              ///< the gap to leave, a distance; 0: until contact
-    double max_travel;             ///< a length; obstacles beyond are ignored; NaN: not given
+    double clearance;  ///< the gap to leave, a distance; 0: until contact
+    /// a length; whatever is further along is ignored; NaN: not given
+    double max_travel;
     treeform_precision precision;  ///< of the points returned; default float64
     /// `treeform_slide` and `treeform_drop`: z of a bed, which also stops the mesh. Points that
     /// rest on it have exactly its z (with float32, the least one not below it), and no point is
@@ -119,7 +120,7 @@ typedef struct treeform_place_options {
     treeform_vertices vertices;  ///< as in `treeform_relation`
     /// `separate`: try at most this many normals of faces; default 24
     uint64_t normals;
-    /// Take these normals from this many pairs of faces for each mesh; default 64
+    /// take them from this many pairs of faces for each mesh; default 64
     uint64_t face_pairs;
     /// `separate`: pairs of faces that the search may look at, a pair in motion counting as two;
     /// 0: 20 million and 200 for each face. Distances for a clearance do not count.
@@ -229,7 +230,7 @@ TREEFORM_C_API treeform_code treeform_classify_contacts(const treeform_mesh* mov
                                                         const treeform_placement* placement,
                                                         treeform_contact_classes** classes);
 
-/// A pair of faces that meet at the time of the first contact.
+/// A pair of faces that meet when the meshes first do.
 typedef struct treeform_impact_contact {
     uint32_t face_a;
     uint32_t face_b;
@@ -286,10 +287,10 @@ TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, con
 /// `distance` (not squared).
 ///
 /// Not exact: whether a pair comes nearer than the distance is decided to 2^-48 of the largest
-/// coordinate, so a mesh that slides along a wall at just the distance moves on. The time has
-/// rounding errors of that size along the motion, and larger ones where the motion nearly grazes.
-/// `treeform_slide` checks the place itself. For the distance 0, use `treeform_time_of_impact`,
-/// which is exact.
+/// coordinate, so a mesh that slides along a wall at exactly the distance is free. The time has
+/// errors of that size along the motion, and larger ones if the motion nearly grazes.
+/// `treeform_slide` checks its result. For the distance 0, use `treeform_time_of_impact`, which is
+/// exact.
 ///
 /// The impact is a contact if they are nearer right after its time, and at the start if they are
 /// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on

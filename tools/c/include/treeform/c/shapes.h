@@ -11,7 +11,7 @@
 //   simplify_options simplify_result simplify() thickness_by thickness_result wall_thickness()
 //   oriented_box find_oriented_box() isoline isolines_result isolines() write_isolines()
 //   cut_along()
-/// Where a thickness goes; the front is where faces are counter-clockwise.
+/// The sides to which a surface is thickened; from the front, faces are counter-clockwise.
 typedef int32_t treeform_thick_side;
 enum { TREEFORM_THICK_BOTH = 0, TREEFORM_THICK_FRONT = 1, TREEFORM_THICK_BACK = 2 };
 
@@ -81,14 +81,14 @@ typedef struct treeform_offset_result {
 /// cavities that nothing leads to. A smaller size follows the mesh more closely, with more faces,
 /// some area / `size`^2 of them.
 ///
-/// No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
-/// coordinates of both. The distance of its vertices is met as far as rounding allows.
+/// No face of the mesh meets the wrap or is outside of it: this is verified exactly, on the
+/// coordinates of both. Its vertices are at the offset up to rounding.
 TREEFORM_C_API treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
                                            const treeform_offset_options* options,
                                            treeform_offset_result** result);
 
-/// The solid grown by `distance`, or shrunk where it is negative: all points inside or no further
-/// from the surface than that; all points inside and no less far.
+/// The solid grown by `distance`: points inside, or at most this far from the surface. If
+/// negative, the solid shrunk: points inside, and at least |distance| from the surface.
 ///
 /// Convex edges and corners become round outward. Edges that the exact offset keeps sharp are cut
 /// off by at most a cell. The mesh must bound a solid, like an operand of `treeform_boolean`; if

@@ -221,7 +221,7 @@ typedef struct treeform_resolve_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* options, size_t size);
 
-/// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
+/// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 typedef struct treeform_repair_statistics {
     uint64_t tetrahedra;      ///< tetrahedra that the faces were; their boundary was kept
     uint64_t degenerate;      ///< faces without area, dropped; with such, slivers
@@ -256,7 +256,7 @@ typedef struct treeform_repair_statistics {
     double volume_after;
     double area_before;
     double area_after;
-    double area_lost;  ///< as `repair_options::max_loss` counts it
+    double area_lost;  ///< as in `repair_options::max_loss`
     /// Of `treeform_resolve_self_intersections` by `split`: input faces that lie entirely on faces
     /// of lower numbers. One piece stands for all of them, so they are not counted as removed.
     uint64_t covered;
@@ -264,7 +264,7 @@ typedef struct treeform_repair_statistics {
     uint64_t exact_faces;  ///< of it, as in `boolean_statistics`
 } treeform_repair_statistics;
 
-/// The mended mesh, where its parts came from, and what was checked.
+/// The repaired mesh, its sources, and its certificate.
 typedef struct treeform_repair_result {
     void* owner;
     treeform_arrays mesh;
@@ -282,22 +282,22 @@ typedef struct treeform_repair_result {
     const uint8_t* is_left;     ///< [F] 1 where something is left of an input face
 } treeform_repair_result;
 
-/// `mesh` without self-intersections. The certificate tells whether this succeeded.
+/// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
 ///
-/// `split` and `outer` decide exactly, on the coordinates as given, which faces are cut and what
-/// is inside. Then points on cuts are rounded. Faces that meet nothing stay as they are.
+/// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is
+/// inside. Then they round the points on cuts. Faces that meet nothing stay as they are.
 ///
-/// `remove` is for surfaces that bound no solid, and works locally. It deletes faces that meet or
-/// are degenerate. It fills each hole with triangles of least total area between the vertices of
-/// its rim; original borders stay open. If the new triangles meet other faces, the hole is
-/// widened. A part is a set of faces linked by edges:
+/// `remove` is for surfaces that bound no solid. It works locally. It deletes the faces that meet
+/// or are degenerate. It closes each hole by triangles of the least total area between the
+/// vertices of its rim, but not beyond where the mesh ended. Where the new triangles meet other
+/// faces, the hole is made wider. A part is a set of faces linked by edges:
 ///
-/// - In a part with a border, a hole stays open (`left_open`) if widening does not help, or if the
-/// hole would surround the border. Then only one face of each pair is deleted.
+/// - In a part that has a border, a hole stays open (`left_open`) where widening does not help, or
+/// where the hole would surround the border. Then of each pair only one face is deleted.
 ///
-/// - A closed part stays as it is if a part with a border passes through it.
+/// - A closed part stays as it is where a part with a border passes through it.
 ///
-/// - If every face of a part has a copy, as in a sheet with a back, one copy stays.
+/// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
 TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
     const treeform_mesh* mesh, treeform_resolve_mode mode, const treeform_resolve_options* options,
     treeform_repair_result** result);
