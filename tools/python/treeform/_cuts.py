@@ -124,15 +124,15 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
 #   submesh concatenate transformed MassProperties mass_properties
 @dataclass(frozen=True, repr=False)
 class SectionLoop(Result):
-    """A closed polygon, or, where the mesh ends, an open polyline.
+    """A closed polygon, or an open polyline that ends at a border of the mesh.
 
     points: (n, 2) in the frame of the section; the first is not repeated.
     faces: (n,) the face that the side from each point to the next lies in.
     closed: Whether it is a polygon.
     oriented: The faces along it agree: what is inside is to the left, seen from above the plane.
     parent: The innermost loop of the layer that is around it, by number; None for none.
-    depth: How many loops are around it: of a solid, holes have an odd one.
-    area: Positive where it runs counter-clockwise; 0 for open ones.
+    depth: Number of loops around this one; odd for holes in a solid.
+    area: Positive if counter-clockwise; 0 for open loops.
     length: Of its sides.
     """
 
@@ -399,8 +399,8 @@ def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mes
 
 
 def transformed(mesh: MeshLike, matrix: ArrayLike | None, *, progress: Progress = None) -> Mesh:
-    """The mesh with its points moved. Where `matrix` mirrors, faces are turned over, so that they
-    look outward as before.
+    """The mesh with transformed points. If `matrix` mirrors, faces are flipped, so that they still
+    point outward.
 
     It keeps its attributes, with normals turned.
 

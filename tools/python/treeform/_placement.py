@@ -112,13 +112,13 @@ class Placement(MeshResult):
 
 
 class SearchEffort(NamedTuple):
-    """The work of a bounded search, in pairs of faces looked at. It depends on the input alone.
-    What the search found is valid even where it was cut short.
+    """The work of a bounded search, in pairs of faces tested. It depends on the input alone. A
+    result is valid even if the bound was reached.
 
-    pairs: Pairs of faces looked at; a pair in motion counts as two.
-    bound: The most that the search was to look at.
-    cut: Candidates skipped, since each would take more than 1/32 of the bound, or than what was
-        left of it. If not 0, a better answer may exist.
+    pairs: Pairs of faces tested; a pair in motion counts as two.
+    bound: The limit of `pairs`.
+    cut: Number of candidates skipped, since each would take more than 1/32 of the bound, or more
+        than the rest of it. If not 0, a better result may exist.
     """
 
     pairs: int
@@ -141,7 +141,7 @@ class Measure(Result):
     on_b: (3,) the nearest point on the surface of `b`; where they meet, a common one.
     face_a: The face of `a` that `on_a` is on.
     face_b: The face of `b` that `on_b` is on.
-    a_inside_b: A part of `a` lies inside the solid `b` and does not touch `b`.
+    a_inside_b: A component of `a` is inside the solid `b` without touching it.
     b_inside_a: The same with `a` and `b` exchanged.
     """
 

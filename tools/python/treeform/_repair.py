@@ -51,8 +51,8 @@ def steps_of(steps: Iterable[str]) -> dict[str, bool]:
 class ConvexHull(Result):
     """The convex hull of points: triangles, grouped by flat sides.
 
-    dimension: 3 for points that span space, 2 in a plane, 1 on a line, 0 when all are equal, -1 for
-        none.
+    dimension: The dimension that the points span: 3, 2 in a plane, 1 on a line, 0 if all are equal,
+        -1 for no points.
     faces: (F, 3) numbers of the points, outward.
     first_face: (S,) the first face of each flat side; its faces follow one another.
     areas: (S,) the area of each side.

@@ -33,11 +33,11 @@ def drains_of(drains: ArrayLike) -> Floats:
 #   Isolines
 @dataclass(frozen=True, repr=False)
 class Isolines(Result):
-    """Lines of all levels, in the order of the levels as given.
+    """Lines of all levels, in the given order of levels.
 
     lines: One after the other.
     points: (n, 3) on edges of the mesh, rounded.
-    faces: (points,) the face that the side from each point on lies in.
+    faces: (points,) the face that contains the segment after each point.
     """
 
     lines: list[Isoline]
